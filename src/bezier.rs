@@ -1,0 +1,172 @@
+//! A cubic Bezier curve in (time, openness), and the checks that make it a ramp.
+
+use crate::error::{CurveError, Ramp};
+
+/// A cubic Bezier `c(p) = (t(p), f(p))`, `p` in [0, 1], by its control points:
+/// `c(p) = P0 (1-p)³ + P1 3 (1-p)² p + P2 3 (1-p) p² + P3 p³`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CubicBezier {
+    points: [(f32, f32); 4],
+}
+
+impl CubicBezier {
+    /// The curve with control points `P0..P3`, each as (t, f): a time in any unit, and the openness
+    /// there. Nothing is checked here; the curves built from it check.
+    pub const fn new(points: [(f32, f32); 4]) -> Self {
+        Self { points }
+    }
+
+    /// The straight line from `from` to `to`, its control points a third of the way apart.
+    pub const fn line(from: (f32, f32), to: (f32, f32)) -> Self {
+        const fn third(a: f32, b: f32, n: f64) -> f32 {
+            (a as f64 + (b as f64 - a as f64) * (n / 3.0)) as f32
+        }
+        Self::new([
+            from,
+            (third(from.0, to.0, 1.0), third(from.1, to.1, 1.0)),
+            (third(from.0, to.0, 2.0), third(from.1, to.1, 2.0)),
+            to,
+        ])
+    }
+
+    /// The opening and the closing ramp of RenderMan's `shutteropening`; see
+    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening).
+    pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
+        let [open_start, open_end, close_start, close_end] = times;
+        let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
+        let (start, length) = (open_start as f64, close_end as f64 - open_start as f64);
+        let at = [
+            (start + length * t1 as f64) as f32,
+            (start + length * t2 as f64) as f32,
+            (start + length * t5 as f64) as f32,
+            (start + length * t6 as f64) as f32,
+        ];
+        (
+            Self::new([(open_start, 0.0), (at[0], y1), (at[1], y2), (open_end, 1.0)]),
+            Self::new([
+                (close_start, 1.0),
+                (at[2], y5),
+                (at[3], y6),
+                (close_end, 0.0),
+            ]),
+        )
+    }
+
+    /// The control points `P0..P3`, each as (t, f).
+    pub const fn points(&self) -> [(f32, f32); 4] {
+        self.points
+    }
+
+    /// The times of the control points.
+    pub(crate) const fn times(&self) -> [f64; 4] {
+        let p = &self.points;
+        [p[0].0 as f64, p[1].0 as f64, p[2].0 as f64, p[3].0 as f64]
+    }
+
+    /// The openness of the control points.
+    pub(crate) const fn opennesses(&self) -> [f64; 4] {
+        let p = &self.points;
+        [p[0].1 as f64, p[1].1 as f64, p[2].1 as f64, p[3].1 as f64]
+    }
+
+    /// Is every coordinate finite?
+    pub(crate) const fn check_finite(&self, ramp: Ramp) -> Result<(), CurveError> {
+        let mut i = 0;
+        while i < 4 {
+            if !self.points[i].0.is_finite() || !self.points[i].1.is_finite() {
+                return Err(CurveError::NotFinite(ramp));
+            }
+            i += 1;
+        }
+        Ok(())
+    }
+
+    /// Does time run forward, and does the openness stay in [0, `most`]?
+    ///
+    /// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound
+    /// by [`GRAZE`] of the ramp's length or of the greatest |f|.
+    pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
+        let t = self.times();
+        let slope = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
+        if quadratic_min(slope) < -GRAZE / 3.0 * (t[3] - t[0]) {
+            return Err(CurveError::TimeTurnsBack(ramp));
+        }
+        let (low, high) = cubic_range(self.opennesses());
+        let size = if -low > high { -low } else { high };
+        if low < -GRAZE * size {
+            return Err(CurveError::NegativeOpenness(ramp));
+        }
+        if high > most * (1.0 + GRAZE) {
+            return Err(CurveError::OpennessAboveOne(ramp));
+        }
+        Ok(())
+    }
+}
+
+/// How far, relative to its size, a bounded quantity may pass its bound by the rounding of its
+/// control points: 2⁻²².
+const GRAZE: f64 = 1.0 / (1 << 22) as f64;
+
+/// The least value on [0, 1] of a quadratic given in the Bernstein basis.
+const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
+    let ends = if a < c { a } else { c };
+    // The vertex is inside just where the middle coefficient is below both ends; there
+    // min = (ac - b²) / (a - 2b + c), and both parts of the divisor are positive.
+    if b < ends {
+        b + (a - b) * (c - b) / ((a - b) + (c - b))
+    } else {
+        ends
+    }
+}
+
+/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis.
+const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
+    let (mut low, mut high) = if f[0] < f[3] {
+        (f[0], f[3])
+    } else {
+        (f[3], f[0])
+    };
+    // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
+    let (a, b, c) = (f[1] - f[0], f[2] - f[1], f[3] - f[2]);
+    let (half, square) = (b - a, a - 2.0 * b + c);
+    let discriminant = half * half - a * square;
+    if discriminant >= 0.0 {
+        let root = sqrt(discriminant);
+        let q = if half < 0.0 {
+            -half + root
+        } else {
+            -half - root
+        };
+        let candidates = [q / square, a / q];
+        let mut i = 0;
+        while i < 2 {
+            let p = candidates[i];
+            // False for the NaN of 0/0.
+            if p > 0.0 && p < 1.0 {
+                let r = 1.0 - p;
+                let value =
+                    r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3]);
+                low = if value < low { value } else { low };
+                high = if value > high { value } else { high };
+            }
+            i += 1;
+        }
+    }
+    (low, high)
+}
+
+/// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
+const fn sqrt(x: f64) -> f64 {
+    if x == 0.0 {
+        return 0.0;
+    }
+    // Half the exponent: within 6 %, so four steps are enough.
+    let mut y = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
+    let mut i = 0;
+    while i < 5 {
+        y = 0.5 * (y + x / y);
+        i += 1;
+    }
+    y
+}

@@ -1,0 +1,106 @@
+//! One Bezier as a probability density.
+
+use core::fmt;
+
+use crate::bezier::CubicBezier;
+use crate::error::{CurveError, Ramp};
+use crate::profile::Profile;
+
+/// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`.
+///
+/// `cdf(p) = K ∫ f t' dp` and `K = 1 / ∫₀¹ f t' dp`, in closed form.
+///
+/// ```
+/// use shutter_curve::{BezierPdf, CubicBezier};
+/// let ramp = CubicBezier::line((0.0, 0.0), (1.0, 3.0));
+/// let pdf = BezierPdf::new(ramp)?;
+/// assert_eq!(pdf.area(), 1.5);
+/// assert_eq!(pdf.pdf(0.5), 1.0);
+/// assert_eq!(pdf.cdf(0.5), 0.25);
+/// assert_eq!(pdf.inverse_cdf(0.25), 0.5);
+/// # Ok::<(), shutter_curve::CurveError>(())
+/// ```
+///
+/// `CELLS` is as in [`ShutterCurve`](crate::ShutterCurve), and so are the accuracy and the treatment of
+/// bad input.
+#[derive(Clone, Copy, PartialEq)]
+pub struct BezierPdf<const CELLS: usize = 8> {
+    /// The curve as the opening ramp; plateau and closing ramp have no length.
+    profile: Profile<CELLS>,
+}
+
+impl BezierPdf {
+    /// The density of `curve`, with 8 octaves a side.
+    ///
+    /// # Errors
+    /// As [`with_cells`](Self::with_cells).
+    pub const fn new(curve: CubicBezier) -> Result<Self, CurveError> {
+        Self::with_cells(curve)
+    }
+}
+
+impl<const CELLS: usize> BezierPdf<CELLS> {
+    /// The density of `curve`, with `CELLS` octaves a side.
+    ///
+    /// # Errors
+    /// A coordinate that is not finite; time that runs back; a negative density; an interval outside
+    /// [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose reciprocal `f32` cannot hold.
+    pub const fn with_cells(curve: CubicBezier) -> Result<Self, CurveError> {
+        let end = curve.points()[3].0;
+        let end = if end.is_finite() { end } else { 0.0 };
+        let nothing = CubicBezier::new([(end, 0.0); 4]);
+        match Profile::new(&curve, &nothing, Ramp::Single, f64::INFINITY) {
+            Ok(profile) => Ok(Self { profile }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The normalised density at `t`; 0 outside the curve and for NaN.
+    pub fn pdf(&self, t: f32) -> f32 {
+        self.profile.pdf(self.profile.openness(t))
+    }
+
+    /// The fraction of the area before `t`: 0 before the curve and for NaN, 1 after.
+    pub fn cdf(&self, t: f32) -> f32 {
+        self.profile.cdf(t)
+    }
+
+    /// The `t` with `cdf(t) = u`; `u` is clamped to [0, 1], and NaN counts as 0.
+    pub fn inverse_cdf(&self, u: f32) -> f32 {
+        self.profile.inverse_cdf(u)
+    }
+
+    /// `∫ f dt`, before normalisation.
+    pub const fn area(&self) -> f32 {
+        self.profile.area as f32
+    }
+
+    /// `K`, the reciprocal of the area.
+    pub const fn normalization(&self) -> f32 {
+        self.profile.normalization as f32
+    }
+}
+
+impl<const CELLS: usize> fmt::Debug for BezierPdf<CELLS> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("BezierPdf")
+            .field("start", &self.profile.open_start())
+            .field("end", &self.profile.close_end())
+            .field("area", &self.area())
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<const CELLS: usize> defmt::Format for BezierPdf<CELLS> {
+    fn format(&self, out: defmt::Formatter<'_>) {
+        let (start, end) = (self.profile.open_start(), self.profile.close_end());
+        defmt::write!(
+            out,
+            "BezierPdf {{ start: {}, end: {}, area: {}, .. }}",
+            start,
+            end,
+            self.area()
+        );
+    }
+}

@@ -1,0 +1,198 @@
+//! A ramp: one Bezier, seen from both of its ends.
+
+use crate::bezier::CubicBezier;
+use crate::seed::{seed, seed_by_bits};
+use crate::series::{Root, Seed, Series, solve};
+use crate::wide::Wide;
+
+/// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct End {
+    /// The time here.
+    pub(crate) time: f32,
+    /// The openness here.
+    openness: f32,
+    /// `|t(p) - time|`
+    elapsed: Series<3>,
+    /// `f(p) - openness`
+    gained: Series<3>,
+    /// `∫ f dt` between here and `p`: the closed form of `∫ f t' dp`, of degree 6.
+    mass: Series<6>,
+}
+
+impl End {
+    /// The end at `P0` where `!last`, at `P3` where `last`.
+    const fn new(curve: &CubicBezier, last: bool) -> Self {
+        let points = curve.points();
+        let (time, openness) = if last { points[3] } else { points[0] };
+        let b = powers(curve.times(), last);
+        let a = powers(curve.opennesses(), last);
+        // Away from the last end time runs down; what has elapsed runs up from both.
+        let sign = if last { -1.0 } else { 1.0 };
+        let b = [sign * b[0], sign * b[1], sign * b[2]];
+        let f = openness as f64;
+        // The product of f = f0 + a1 p + a2 p² + a3 p³ and t' = b1 + 2 b2 p + 3 b3 p², integrated.
+        let mass = [
+            f * b[0],
+            (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
+            (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
+            (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
+            (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
+            a[2] * b[2] / 2.0,
+        ];
+        Self {
+            time,
+            openness,
+            elapsed: b,
+            gained: a,
+            mass,
+        }
+    }
+
+    /// The place where `mass` has been collected from here, the end with index `from`.
+    const fn at_mass(&self, from: usize, mass: Wide, seed: Seed) -> Place {
+        let (time, back) = (self.time, from == 1);
+        if mass.is_zero() {
+            return Place {
+                time,
+                back,
+                elapsed: Wide::ZERO,
+                evaluations: 0,
+            };
+        }
+        let root = solve(&self.mass, mass, seed);
+        let (elapsed, negative) = root.value(&self.elapsed);
+        let elapsed = if negative { Wide::ZERO } else { elapsed };
+        Place {
+            time,
+            back,
+            elapsed,
+            evaluations: root.evaluations,
+        }
+    }
+
+    /// The mass between the two ends.
+    const fn total(&self) -> f64 {
+        let m = &self.mass;
+        m[0] + m[1] + m[2] + m[3] + m[4] + m[5]
+    }
+}
+
+/// A cubic's coefficients of `p`, `p²` and `p³`, from its Bernstein coefficients, measured from the
+/// first or the last. The differences of `f32` are exact in `f64` unless their exponents lie 29 apart.
+const fn powers(v: [f64; 4], last: bool) -> Series<3> {
+    let [v0, v1, v2, v3] = if last { [v[3], v[2], v[1], v[0]] } else { v };
+    [
+        3.0 * (v1 - v0),
+        3.0 * ((v2 - v1) - (v1 - v0)),
+        (v3 - v0) - 3.0 * (v2 - v1),
+    ]
+}
+
+/// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) time: f32,
+    pub(crate) back: bool,
+    pub(crate) elapsed: Wide,
+    /// Evaluations of the mass that it took to find.
+    pub(crate) evaluations: u32,
+}
+
+impl Place {
+    /// The time, rounded once.
+    #[inline]
+    pub(crate) const fn time(self) -> f32 {
+        self.elapsed.offset(self.time, self.back)
+    }
+}
+
+/// One Bezier as a part of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Segment {
+    /// The earlier end and the later one.
+    pub(crate) ends: [End; 2],
+    /// `∫ f dt` over the ramp.
+    pub(crate) mass: f64,
+}
+
+impl Segment {
+    pub(crate) const fn new(curve: &CubicBezier) -> Self {
+        let ends = [End::new(curve, false), End::new(curve, true)];
+        // The mean is the same from both ends, and so for a mirrored ramp. A density that grazes 0 from
+        // below can leave a mass below 0 by rounding.
+        let mass = 0.5 * (ends[0].total() + ends[1].total());
+        Self {
+            ends,
+            mass: if mass > 0.0 { mass } else { 0.0 },
+        }
+    }
+
+    /// The same mass counted from the end that has less of it, where the series is steepest and the
+    /// seed best; with the end's index.
+    pub(crate) const fn nearer(&self, from: usize, mass: Wide) -> (usize, Wide) {
+        let rest = Wide::from_f64(self.mass).minus(mass);
+        if mass.exceeds(rest) {
+            (1 - from, rest)
+        } else {
+            (from, mass)
+        }
+    }
+
+    /// The place where `mass` has been collected, counted from end `from`.
+    #[inline]
+    pub(crate) fn at_mass(&self, from: usize, mass: Wide) -> Place {
+        let (from, mass) = self.nearer(from, mass);
+        let end = &self.ends[from];
+        end.at_mass(from, mass, seed(&end.mass, mass))
+    }
+
+    /// The same, seeded as a constant can.
+    pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide) -> Place {
+        let (from, mass) = self.nearer(from, mass);
+        let end = &self.ends[from];
+        end.at_mass(from, mass, seed_by_bits(&end.mass, mass))
+    }
+
+    /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.
+    #[inline]
+    pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
+        let before = Wide::between(self.ends[0].time, t);
+        let after = Wide::between(t, self.ends[1].time);
+        let (from, elapsed) = if before.exceeds(after) {
+            (1, after)
+        } else {
+            (0, before)
+        };
+        let end = &self.ends[from];
+        let root = if elapsed.is_zero() {
+            Root::START
+        } else {
+            solve(&end.elapsed, elapsed, seed(&end.elapsed, elapsed))
+        };
+        OnRamp { from, end, root }
+    }
+}
+
+/// A time on a ramp, found from the nearer end.
+pub(crate) struct OnRamp<'a> {
+    pub(crate) from: usize,
+    end: &'a End,
+    root: Root,
+}
+
+impl OnRamp<'_> {
+    /// The openness.
+    #[inline]
+    pub(crate) fn openness(&self) -> f32 {
+        let (gained, negative) = self.root.value(&self.end.gained);
+        gained.offset(self.end.openness, negative)
+    }
+
+    /// The mass between the end and here.
+    #[inline]
+    pub(crate) fn mass(&self) -> Wide {
+        let (mass, negative) = self.root.value(&self.end.mass);
+        if negative { Wide::ZERO } else { mass }
+    }
+}

@@ -1,0 +1,134 @@
+//! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
+
+use crate::error::ScheduleError;
+use crate::shutter::ShutterCurve;
+use crate::wide::Wide;
+
+/// Intervals of more ticks are beyond what a direct polynomial places to a quarter of a tick.
+const DIRECT_TICKS: u32 = 1 << 24;
+/// The most ticks an interval may have.
+const MOST_TICKS: u32 = 1 << 31;
+
+impl<const CELLS: usize> ShutterCurve<CELLS> {
+    /// The `n` times that split the exposure evenly, each in the middle of its share:
+    /// `inverse_cdf((i + 1/2) / n)`; never a step back.
+    pub fn trigger_times(&self, n: u32) -> impl ExactSizeIterator<Item = f32> {
+        (0..n).map(move |i| self.inverse_cdf((i as f32 + 0.5) / n as f32))
+    }
+
+    /// The most triggers whose exact times keep `min_gap`: `max(1, floor(A / min_gap))`, since the
+    /// openness is at most 1. `u32::MAX` where nothing is required, that is a gap of 0, below, or NaN.
+    pub const fn max_triggers(&self, min_gap: f32) -> u32 {
+        if !(min_gap > 0.0) {
+            return u32::MAX;
+        }
+        // The cast rounds down and saturates.
+        let most = (self.profile.area / min_gap as f64) as u32;
+        if most > 1 { most } else { 1 }
+    }
+
+    /// The `n` trigger times in ticks of a timer that runs at `tick_hz`, counted from
+    /// [`open_start`](Self::open_start), for times in seconds; never a step back. Add the timer's own base
+    /// with `wrapping_add`.
+    ///
+    /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
+    /// one tick off, for intervals of any length up to 2³¹ ticks: from 2²⁴ on, the direct polynomials are
+    /// left aside for the exact solver, which places to a thousandth of a tick.
+    ///
+    /// # Errors
+    /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
+    pub fn trigger_ticks(
+        &self,
+        n: u32,
+        tick_hz: u32,
+    ) -> Result<impl ExactSizeIterator<Item = u32>, ScheduleError> {
+        if tick_hz == 0 {
+            return Err(ScheduleError::TickRateZero);
+        }
+        let rate = Wide::new(tick_hz as u64, 0);
+        let ticks = Wide::between(self.open_start(), self.close_end()).times(rate);
+        if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
+            return Err(ScheduleError::TickRateTooHigh);
+        }
+        let direct = !ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0));
+        let share = half_reciprocal(n);
+        Ok((0..n).map(move |i| {
+            // (2i + 1) / 2n from the nearer side; the odd number fits 32 bits on both.
+            let (side, odd) = if i < n - i {
+                (0, i + (i + 1))
+            } else {
+                (1, (n - i) + (n - i - 1))
+            };
+            let place = self
+                .profile
+                .place(side, share.times(Wide::new(odd as u64, 0)), direct);
+            // Ticks in units of 2⁻³².
+            let base = Wide::between(self.open_start(), place.time)
+                .times(rate)
+                .in_units(-32);
+            let way = place.elapsed.times(rate).in_units(-32);
+            let ticks = if place.back { base - way } else { base + way };
+            ((ticks + (1 << 31)) >> 32) as u32
+        }))
+    }
+
+    /// A checked schedule: the ticks of [`trigger_ticks`](Self::trigger_ticks), no two closer than
+    /// `min_gap` ticks.
+    ///
+    /// # Errors
+    /// More triggers than `N`; a gap not kept, with the most triggers that would keep it; and those of
+    /// [`trigger_ticks`](Self::trigger_ticks).
+    #[cfg(feature = "heapless-v0_9")]
+    pub fn schedule<const N: usize>(
+        &self,
+        n: u32,
+        tick_hz: u32,
+        min_gap: u32,
+    ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
+        let mut schedule = heapless::Vec::new();
+        if n as usize > N {
+            return Err(ScheduleError::CapacityExceeded);
+        }
+        for tick in self.trigger_ticks(n, tick_hz)? {
+            if schedule.last().is_some_and(|last| tick - last < min_gap) {
+                return Err(ScheduleError::GapTooSmall {
+                    most: self.most(n, tick_hz, min_gap)?,
+                });
+            }
+            let _ = schedule.push(tick);
+        }
+        Ok(schedule)
+    }
+
+    /// The most triggers, below `n`, whose ticks keep `min_gap`.
+    #[cfg(feature = "heapless-v0_9")]
+    fn most(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
+        // Exact times at least a whole number of ticks apart stay so when rounded. Triggers come some
+        // 2^-30 tick from exact, so where A / min_gap is a whole number the last may have to go.
+        let fit = (self.profile.area * tick_hz as f64 / min_gap as f64) as u32;
+        let mut most = if fit < n { fit } else { n - 1 };
+        while most > 1 {
+            let mut last = None;
+            let keeps = self.trigger_ticks(most, tick_hz)?.all(|tick| {
+                let gap = last.map_or(u32::MAX, |last| tick - last);
+                last = Some(tick);
+                gap >= min_gap
+            });
+            if keeps {
+                return Ok(most);
+            }
+            most -= 1;
+        }
+        Ok(1)
+    }
+}
+
+/// `1 / 2n`, to 2⁻⁶².
+fn half_reciprocal(n: u32) -> Wide {
+    if n == 0 {
+        return Wide::ZERO;
+    }
+    let n = n as u64;
+    let (whole, rest) = ((1 << 63) / n, (1 << 63) % n);
+    Wide::new(whole, -64).plus(Wide::new((rest << 32) / n, -96))
+}

@@ -1,0 +1,131 @@
+//! The first guess of a search: a k-th root.
+//!
+//! Near its end a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
+//! `(target / c_k)^(1/k)` over the positive coefficients. Which one is least, the logarithms tell that
+//! floating-point numbers carry in their exponents; its root is then taken by the same logarithms,
+//! corrected to 1 %, or by `libm` or `micromath` where these features are on. The search behind it
+//! is the same, and so, to the last bit or so, is its answer.
+
+use crate::series::{Seed, Series};
+use crate::wide::Wide;
+
+/// Logarithms here have 20 fraction bits, as many as the upper half of a `f64` has of significand.
+const ONE: i32 = 1 << 20;
+
+/// The integer and the fraction of a base-2 logarithm that is linear between powers of two: the
+/// exponent and the significand's upper bits, as they stand.
+const fn rough_log(x: Wide) -> i32 {
+    (x.e + 63) * ONE + ((x.m >> 43) as i32 & (ONE - 1))
+}
+
+/// What to add to a significand's fraction to have its logarithm to 0.01, and to take from a
+/// logarithm's fraction to have the significand again.
+const fn curvature(x: i32) -> i32 {
+    const WEIGHT: i32 = (0.344 * 1024.0) as i32;
+    let fraction = x & (ONE - 1);
+    (((fraction >> 5) * ((ONE - fraction) >> 5)) >> 10) * WEIGHT >> 10
+}
+
+/// The leading term at the target: `k`, `c_k`, and the linear logarithms of the target and of `c_k`.
+#[derive(Clone, Copy)]
+struct Leading {
+    k: i32,
+    coefficient: f64,
+    target: i32,
+    divisor: i32,
+}
+
+const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
+    let log = rough_log(target);
+    let mut best = Leading {
+        k: 1,
+        coefficient: 1.0,
+        target: log,
+        divisor: 0,
+    };
+    let mut least = i32::MAX;
+    let mut i = 0;
+    while i < N {
+        let high = (c[i].to_bits() >> 32) as i32;
+        if high > 0 {
+            let divisor = high - 1023 * ONE;
+            let k = i as i32 + 1;
+            let root = (log - divisor) / k;
+            if root < least {
+                least = root;
+                best = Leading {
+                    k,
+                    coefficient: c[i],
+                    target: log,
+                    divisor,
+                };
+            }
+        }
+        i += 1;
+    }
+    best
+}
+
+/// The seed `2^exponent (1 + fraction / ONE)`, at most 1, in the scale where it lies in [1/8, 1/4) or, from
+/// 1/4 up, in the largest.
+const fn seed_at(exponent: i32, fraction: i32) -> Seed {
+    if exponent >= 0 {
+        return Seed {
+            x: i32::MAX - (1 << 20),
+            shift: -1,
+        };
+    }
+    let shift = if exponent < -2 { -exponent - 3 } else { -1 };
+    Seed {
+        x: (ONE + fraction) << (exponent + shift + 12),
+        shift,
+    }
+}
+
+/// The guess from logarithms alone; all that a constant can use.
+pub(crate) const fn seed_by_bits<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
+    let l = leading(c, target);
+    let ratio = (l.target + curvature(l.target)) - (l.divisor + curvature(l.divisor));
+    let root = ratio / l.k;
+    seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
+}
+
+/// The guess by the root that the features choose.
+#[inline]
+pub(crate) fn seed<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
+    #[cfg(any(feature = "libm", feature = "micromath"))]
+    {
+        let l = leading(c, target);
+        // The exponents divide by k up to a remainder, which the root takes in with the significands.
+        let exponent = (l.target >> 20) - (l.divisor >> 20);
+        let (whole, rest) = (exponent.div_euclid(l.k), exponent.rem_euclid(l.k));
+        let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
+        let ratio = significand((target.m >> 40) as u32 & 0x7F_FFFF)
+            / significand((l.coefficient.to_bits() >> 29) as u32 & 0x7F_FFFF);
+        let root = root(ratio * (1 << rest) as f32, l.k).to_bits();
+        let exponent = (root >> 23) as i32 - 127;
+        seed_at(whole + exponent, (root >> 3) as i32 & (ONE - 1))
+    }
+    #[cfg(not(any(feature = "libm", feature = "micromath")))]
+    seed_by_bits(c, target)
+}
+
+/// `x^(1/k)` for `x` in [1/2, 64).
+#[cfg(feature = "libm")]
+fn root(x: f32, k: i32) -> f32 {
+    match k {
+        1 => x,
+        2 => libm::sqrtf(x),
+        _ => libm::powf(x, 1.0 / k as f32),
+    }
+}
+
+/// `x^(1/k)` for `x` in [1/2, 64), within 4 %.
+#[cfg(all(feature = "micromath", not(feature = "libm")))]
+fn root(x: f32, k: i32) -> f32 {
+    use micromath::F32Ext;
+    match k {
+        1 => x,
+        _ => F32Ext::powf(x, 1.0 / k as f32),
+    }
+}

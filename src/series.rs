@@ -1,0 +1,214 @@
+//! Power series from one end of a ramp, evaluated and solved in 64-bit integers.
+//!
+//! Measured from an end of the ramp, the time passed, the openness gained and the mass collected are
+//! all polynomials without a constant term: `S(p) = c₁ p + c₂ p² + ...`, `p` in [0, 1].
+//!
+//! **Why integers keep relative accuracy.** For `p` near `2^-shift` the coefficients are taken as
+//! `c_k 2^(-k shift)` in units of a common power of two, so that the greatest fills 60 bits. A
+//! non-negative polynomial's increasing integral bounds its own terms (Markov): `|c_k p^k|` exceeds
+//! `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. So `S` keeps some 40
+//! bits of its own, however small it is, and neighbouring `f32` targets, 2⁻²⁴ apart, stay apart.
+
+use crate::wide::Wide;
+
+/// `c[0] p + c[1] p² + ...`
+pub(crate) type Series<const N: usize> = [f64; N];
+
+/// A place on a ramp, and how many evaluations it took to find it.
+#[derive(Clone, Copy)]
+pub(crate) struct Root {
+    /// `p 2^shift` in units of 2⁻³², at most 1/2.
+    x: i32,
+    shift: i32,
+    /// The rest of `p`, in the units of `x`: what a last Newton step would add.
+    rest: f32,
+    pub(crate) evaluations: u32,
+}
+
+/// Where a search starts: `p = x 2^-(32 + shift)`.
+#[derive(Clone, Copy)]
+pub(crate) struct Seed {
+    pub(crate) x: i32,
+    pub(crate) shift: i32,
+}
+
+/// The greatest `x`, just below 1/2; with the least shift, -1, it stands for `p = 1`.
+const TOP: i32 = i32::MAX;
+const LEAST_SHIFT: i32 = -1;
+
+/// Newton steps before bisection takes over for good.
+const NEWTON: u32 = 9;
+/// Bisections that bring any bracket of 31-bit numbers down to neighbours.
+const BISECTION: u32 = 31;
+/// The most evaluations of the polynomial that one search takes.
+pub const MAX_EVALUATIONS: u32 = NEWTON + BISECTION;
+
+/// A search may stop where the residual is below this share of the target, 2⁻³⁰: a 64th of the
+/// distance between neighbouring `f32`, which is what the target came from.
+const ENOUGH: u32 = 30;
+
+/// A series made ready for evaluation near `2^-shift`.
+struct Scaled<const N: usize> {
+    /// `c_k 2^(-k shift)` in units of `2^unit`, below 2⁶⁰.
+    c: [i64; N],
+    unit: i32,
+}
+
+/// A value with the derivatives the search uses.
+struct Local {
+    value: i64,
+    /// `S'` in units of 2³²: how much one step of `x` adds to the value.
+    slope: i32,
+    /// `S''/2` in units of 2³².
+    bend: i32,
+}
+
+/// `a x`, where `x` counts 2⁻³².
+#[inline(always)]
+const fn times(a: i64, x: i32) -> i64 {
+    let high = (a >> 32) as i32 as i64 * x as i64;
+    let low = ((a as u32 as u64) * (x as u32 as u64)) >> 32;
+    high.wrapping_add(low as i64)
+}
+
+/// The same in 32 bits.
+#[inline(always)]
+pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
+    ((a as i64 * x as i64) >> 32) as i32
+}
+
+impl<const N: usize> Scaled<N> {
+    const fn new(c: &Series<N>, shift: i32) -> Self {
+        const BIAS: i32 = 1075 + 7;
+        let mut unit = i32::MIN;
+        let mut k = 0;
+        while k < N {
+            let exponent = ((c[k].to_bits() >> 52) & 0x7FF) as i32;
+            let e = exponent - (k as i32 + 1) * shift;
+            if exponent != 0 && e > unit {
+                unit = e;
+            }
+            k += 1;
+        }
+        let mut scaled = [0; N];
+        k = 0;
+        while k < N {
+            let bits = c[k].to_bits();
+            let exponent = ((bits >> 52) & 0x7FF) as i32;
+            let down = (unit - (exponent - (k as i32 + 1) * shift)) as u32;
+            if exponent != 0 && down < 60 {
+                // The significand's 53 bits, moved up to fill 60.
+                let m = (((bits << 11 | 1 << 63) >> 4) >> down) as i64;
+                scaled[k] = if (bits as i64) < 0 { -m } else { m };
+            }
+            k += 1;
+        }
+        Self {
+            c: scaled,
+            unit: unit - BIAS,
+        }
+    }
+
+    /// Horner's rule, and with it, in 32 bits, the first and second derivative.
+    #[inline(always)]
+    const fn at(&self, x: i32) -> Local {
+        let (mut value, mut slope, mut bend) = (self.c[N - 1], 0i32, 0i32);
+        let mut k = N - 1;
+        while k > 0 {
+            k -= 1;
+            bend = times_high(bend, x).wrapping_add(slope);
+            slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
+            value = times(value, x).wrapping_add(self.c[k]);
+        }
+        bend = times_high(bend, x).wrapping_add(slope);
+        slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
+        value = times(value, x);
+        Local { value, slope, bend }
+    }
+}
+
+impl Local {
+    /// The step of `x` that Halley's method takes to make up for `missing`:
+    /// `r / (S' + S''/2 · r/S')`, with one division.
+    #[inline(always)]
+    const fn step(&self, missing: i64) -> f32 {
+        const WORD: f32 = 4294967296.0;
+        let r = (missing >> 32) as i32 as f32 * WORD + missing as u32 as f32;
+        let slope = self.slope as f32;
+        r * slope / (slope * slope + self.bend as f32 * (r * (1.0 / WORD)))
+    }
+}
+
+/// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`:
+/// Newton's method with Halley's correction inside a bracket, bisection where it leaves it or after
+/// [`NEWTON`] steps.
+///
+/// It stops where the last step is below the unit of `x`, or the residual below [`ENOUGH`] of the
+/// target, or the bracket down to neighbours: each leaves less than 2⁻²⁶ of the target to be made
+/// up for, linearly, by `rest`.
+pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: Seed) -> Root {
+    let Seed { mut x, mut shift } = seed;
+    let mut scaled = Scaled::new(c, shift);
+    let mut goal = target.in_units(scaled.unit);
+    let (mut low, mut high) = (0, TOP);
+    let mut evaluations = 0;
+    loop {
+        let local = scaled.at(x);
+        evaluations += 1;
+        let missing = goal - local.value;
+        let step = local.step(missing);
+        let size = if missing < 0 { -missing } else { missing };
+        let small = -1.0 < step && step < 1.0;
+        if small || size <= goal >> ENOUGH || high - low <= 1 || evaluations == MAX_EVALUATIONS {
+            // A longer step than the unit means a flat place, where the residual is good enough.
+            let rest = if small { step } else { 0.0 };
+            return Root {
+                x,
+                shift,
+                rest,
+                evaluations,
+            };
+        }
+        if missing > 0 {
+            low = x;
+        } else {
+            high = x;
+        }
+        // Saturates; a NaN gives 0 and so stays where it is, on the bracket's edge.
+        let mut next = x.saturating_add(step as i32);
+        if next >= TOP && high == TOP && shift > LEAST_SHIFT {
+            // The seed was too low by more than this scale holds: three octaves up.
+            let up = if shift - 3 < LEAST_SHIFT {
+                shift - LEAST_SHIFT
+            } else {
+                3
+            };
+            shift -= up;
+            scaled = Scaled::new(c, shift);
+            goal = target.in_units(scaled.unit);
+            low >>= up;
+            next = TOP >> 1;
+        } else if next <= low || next >= high || evaluations >= NEWTON {
+            next = low + (high - low) / 2;
+        }
+        x = next;
+    }
+}
+
+impl Root {
+    /// `p = 0`.
+    pub(crate) const START: Self = Self {
+        x: 0,
+        shift: 0,
+        rest: 0.0,
+        evaluations: 0,
+    };
+
+    /// The series' value here: its magnitude, and whether it is negative.
+    pub(crate) const fn value<const N: usize>(&self, c: &Series<N>) -> (Wide, bool) {
+        let scaled = Scaled::new(c, self.shift);
+        let local = scaled.at(self.x);
+        let value = local.value + (local.slope as f32 * self.rest) as i64;
+        (Wide::new(value.unsigned_abs(), scaled.unit), value < 0)
+    }
+}

@@ -1,0 +1,202 @@
+//! A shutter: opening ramp, plateau, closing ramp.
+
+use core::fmt;
+
+use crate::bezier::CubicBezier;
+use crate::error::{CurveError, Ramp};
+use crate::profile::Profile;
+
+/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
+/// closing cubic Bezier, taken as a probability density.
+///
+/// Times may be in any unit, the same throughout. Either ramp may have no length (a box), the plateau
+/// may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
+///
+/// `CELLS` is the number of octaves of `u` a side that are answered directly by a polynomial, of
+/// 80 bytes a pair: 8 leave one `u` in 256 to the solver that `CELLS = 0` uses throughout. The accuracy is
+/// the same for all. More than 64 do not compile.
+#[derive(Clone, Copy, PartialEq)]
+pub struct ShutterCurve<const CELLS: usize = 8> {
+    pub(crate) profile: Profile<CELLS>,
+}
+
+impl ShutterCurve {
+    /// The shutter with these ramps, with 8 octaves a side.
+    ///
+    /// # Errors
+    /// As [`with_cells`](Self::with_cells).
+    pub const fn new(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
+        Self::with_cells(opening, closing)
+    }
+
+    /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from
+    /// `close_start` to `close_end`: a trapezoid; a box where the ramps have no length, a triangle where
+    /// the plateau has none.
+    ///
+    /// # Errors
+    /// As [`with_cells`](Self::with_cells).
+    pub const fn linear(
+        open_start: f32,
+        open_end: f32,
+        close_start: f32,
+        close_end: f32,
+    ) -> Result<Self, CurveError> {
+        Self::new(
+            CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
+            CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
+        )
+    }
+
+    /// The shutter in the form of RenderMan's `shutteropening`: the `times` at which it starts and ends
+    /// to open and starts and ends to close, and its inner control points `[t1, y1, t2, y2, t5, y5, t6,
+    /// y6]`, whose times are fractions of the interval from the first of the `times` to the last.
+    ///
+    /// # Errors
+    /// As [`with_cells`](Self::with_cells).
+    pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
+        let (opening, closing) = CubicBezier::shutteropening(times, inner);
+        Self::new(opening, closing)
+    }
+}
+
+impl<const CELLS: usize> ShutterCurve<CELLS> {
+    /// The shutter with these ramps, with `CELLS` octaves a side.
+    ///
+    /// # Errors
+    /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness
+    /// outside [0, 1] anywhere on a ramp; an interval outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose
+    /// reciprocal `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², as the rounding of
+    /// control points makes them.
+    pub const fn with_cells(
+        opening: CubicBezier,
+        closing: CubicBezier,
+    ) -> Result<Self, CurveError> {
+        match Profile::new(&opening, &closing, Ramp::Opening, 1.0) {
+            Ok(profile) => Ok(Self { profile }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// When the shutter starts to open.
+    pub const fn open_start(&self) -> f32 {
+        self.profile.open_start()
+    }
+
+    /// When it is fully open.
+    pub const fn open_end(&self) -> f32 {
+        self.profile.open_end()
+    }
+
+    /// When it starts to close.
+    pub const fn close_start(&self) -> f32 {
+        self.profile.close_start()
+    }
+
+    /// When it is closed.
+    pub const fn close_end(&self) -> f32 {
+        self.profile.close_end()
+    }
+
+    /// The openness `f` at `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
+    ///
+    /// [`open_start`]: Self::open_start
+    /// [`close_end`]: Self::close_end
+    pub fn opening(&self, t: f32) -> f32 {
+        let f = self.profile.openness(t);
+        if f < 1.0 { f } else { 1.0 }
+    }
+
+    /// The normalised density at `t`, `K · opening(t)`.
+    pub fn pdf(&self, t: f32) -> f32 {
+        self.profile.pdf(self.opening(t))
+    }
+
+    /// The fraction of the exposure collected by `t`: 0 before the shutter opens and for NaN, 1 after
+    /// it has closed.
+    pub fn cdf(&self, t: f32) -> f32 {
+        self.profile.cdf(t)
+    }
+
+    /// The time by which the fraction `u` of the exposure is collected.
+    ///
+    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at
+    /// the ends exactly, and never steps back as `u` grows.
+    ///
+    /// On the plateau the formula is `t = open_end + u/K - cdf₀(1)`, where `cdf₀(1)` is the opening
+    /// ramp's area. (The document this crate implements writes `t = u/K`, which holds only
+    /// where that area equals `open_end`.)
+    ///
+    /// ```
+    /// # use shutter_curve::ShutterCurve;
+    /// // A ramp of 0.2 has the area 0.1 and the whole 0.8 + 0.1: half of 0.75 is at 0.475, not 0.375.
+    /// let curve = ShutterCurve::linear(0.0, 0.2, 0.7, 1.0)?;
+    /// assert_eq!(curve.exposure(), 0.75);
+    /// assert_eq!(curve.inverse_cdf(0.5), 0.475);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
+    ///
+    /// [`open_start`]: Self::open_start
+    /// [`close_end`]: Self::close_end
+    pub fn inverse_cdf(&self, u: f32) -> f32 {
+        self.profile.inverse_cdf(u)
+    }
+
+    /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits.
+    ///
+    /// # Panics
+    /// If the lengths differ.
+    pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
+        assert!(u.len() == t.len(), "u and t differ in length");
+        for (u, t) in u.iter().zip(t) {
+            *t = self.profile.inverse_cdf(*u);
+        }
+    }
+
+    /// The effective exposure time `A = ∫ f dt`.
+    pub const fn exposure(&self) -> f32 {
+        self.profile.area as f32
+    }
+
+    /// `K = 1/A`, which makes the openness a probability density.
+    pub const fn normalization(&self) -> f32 {
+        self.profile.normalization as f32
+    }
+
+    /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
+    pub const fn efficiency(&self) -> f32 {
+        (self.profile.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
+    }
+
+    /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.
+    #[doc(hidden)]
+    pub fn evaluations(&self, u: f32) -> u32 {
+        self.profile.evaluations(u)
+    }
+}
+
+impl<const CELLS: usize> fmt::Debug for ShutterCurve<CELLS> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("ShutterCurve")
+            .field("open_start", &self.open_start())
+            .field("open_end", &self.open_end())
+            .field("close_start", &self.close_start())
+            .field("close_end", &self.close_end())
+            .field("exposure", &self.exposure())
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(feature = "defmt")]
+impl<const CELLS: usize> defmt::Format for ShutterCurve<CELLS> {
+    fn format(&self, out: defmt::Formatter<'_>) {
+        defmt::write!(
+            out,
+            "ShutterCurve {{ open_start: {}, open_end: {}, close_start: {}, close_end: {}, exposure: {}, .. }}",
+            self.open_start(),
+            self.open_end(),
+            self.close_start(),
+            self.close_end(),
+            self.exposure()
+        );
+    }
+}

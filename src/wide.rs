@@ -1,0 +1,168 @@
+//! A non-negative number with a 64-bit significand.
+//!
+//! The microcontrollers this crate is for multiply 32 by 32 bits to 64 in one cycle but have no unit
+//! for doubles, so what `f32` cannot carry is carried here: exact to 2⁻⁶², and the same bits on
+//! every machine.
+
+/// `m · 2^e`, where `m` is 0 or has its top bit set.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wide {
+    pub(crate) m: u64,
+    pub(crate) e: i32,
+}
+
+impl Wide {
+    pub(crate) const ZERO: Self = Self { m: 0, e: 0 };
+
+    /// `m · 2^e` for any `m`.
+    pub(crate) const fn new(m: u64, e: i32) -> Self {
+        if m == 0 {
+            return Self::ZERO;
+        }
+        let up = m.leading_zeros();
+        Self {
+            m: m << up,
+            e: e - up as i32,
+        }
+    }
+
+    /// The magnitude of a finite, normal or zero `x`.
+    pub(crate) const fn from_f64(x: f64) -> Self {
+        let bits = x.to_bits() & (u64::MAX >> 1);
+        if bits == 0 {
+            return Self::ZERO;
+        }
+        Self {
+            m: bits << 11 | 1 << 63,
+            e: (bits >> 52) as i32 - (1023 + 63),
+        }
+    }
+
+    /// The magnitude of a finite `x`.
+    pub(crate) const fn from_f32(x: f32) -> Self {
+        let bits = x.to_bits() & (u32::MAX >> 1);
+        if bits < 1 << 23 {
+            return Self::new(bits as u64, -149);
+        }
+        let m = bits << 8 | 1 << 31;
+        Self {
+            m: (m as u64) << 32,
+            e: (bits >> 23) as i32 - (127 + 63),
+        }
+    }
+
+    /// `|a - b|` of two finite numbers.
+    pub(crate) const fn between(a: f32, b: f32) -> Self {
+        let (x, y) = (Self::from_f32(a), Self::from_f32(b));
+        if (a < 0.0) != (b < 0.0) {
+            x.plus(y)
+        } else if x.exceeds(y) {
+            x.minus(y)
+        } else {
+            y.minus(x)
+        }
+    }
+
+    pub(crate) const fn to_f64(self) -> f64 {
+        self.m as f64 * f64::from_bits(((self.e + 1023) as u64) << 52)
+    }
+
+    pub(crate) const fn is_zero(self) -> bool {
+        self.m == 0
+    }
+
+    /// The number in units of `2^e`, rounded down; the caller sees to it that 63 bits hold it.
+    pub(crate) const fn in_units(self, e: i32) -> i64 {
+        let down = (e - self.e) as u32;
+        if down < 64 {
+            (self.m >> down) as i64
+        } else {
+            0
+        }
+    }
+
+    /// `self · other`, to 2⁻⁶².
+    pub(crate) const fn times(self, other: Self) -> Self {
+        let (ah, al) = (self.m >> 32, self.m & 0xFFFF_FFFF);
+        let (bh, bl) = (other.m >> 32, other.m & 0xFFFF_FFFF);
+        let m = ah * bh + ((ah * bl) >> 32) + ((al * bh) >> 32);
+        // A product of two normalised significands is at most one bit short.
+        if m >> 63 != 0 || m == 0 {
+            Self {
+                m,
+                e: self.e + other.e + 64,
+            }
+        } else {
+            Self {
+                m: m << 1,
+                e: self.e + other.e + 63,
+            }
+        }
+    }
+
+    /// `self + other`, to 2⁻⁶².
+    pub(crate) const fn plus(self, other: Self) -> Self {
+        let (big, small) = if self.exceeds(other) {
+            (self, other)
+        } else {
+            (other, self)
+        };
+        if small.is_zero() {
+            return big;
+        }
+        // One unit up, so that the carry has room.
+        Self::new((big.m >> 1) + small.in_units(big.e + 1) as u64, big.e + 1)
+    }
+
+    /// `self - other`, or 0 where `other` is the greater.
+    pub(crate) const fn minus(self, other: Self) -> Self {
+        if !self.exceeds(other) {
+            return Self::ZERO;
+        }
+        let down = (self.e - other.e) as u32;
+        let m = if down < 64 { other.m >> down } else { 0 };
+        Self::new(self.m - m, self.e)
+    }
+
+    /// `self > other`.
+    pub(crate) const fn exceeds(self, other: Self) -> bool {
+        if self.is_zero() || other.is_zero() {
+            return !self.is_zero();
+        }
+        self.e > other.e || (self.e == other.e && self.m > other.m)
+    }
+
+    /// `base + self`, or `base - self` where `back`, rounded once (but for a tie missed by 2⁻²⁴ ulp).
+    #[inline]
+    pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
+        // Two factors reach down to where even the smallest subnormal has underflowed.
+        let (e, reach) = if self.e < -130 {
+            (self.e + 100, pow2(-100))
+        } else {
+            (self.e, 1.0)
+        };
+        let reach = if back { -reach } else { reach };
+        let high = (self.m >> 40) as u32 as f32 * pow2(e + 40) * reach;
+        let low = (self.m >> 8) as u32 as f32 * pow2(e + 8) * reach;
+        sum(base, high, low)
+    }
+}
+
+/// `base + (high + low)`, rounded once: Knuth's two-sum keeps what the first addition lost.
+#[inline(always)]
+pub(crate) const fn sum(base: f32, high: f32, low: f32) -> f32 {
+    let near = base + high;
+    let part = near - base;
+    let lost = (base - (near - part)) + (high - part);
+    near + (lost + low)
+}
+
+/// `2^e`, 0 below the normal numbers; `e` is at most 127.
+#[inline(always)]
+const fn pow2(e: i32) -> f32 {
+    if e < -126 {
+        0.0
+    } else {
+        f32::from_bits(((e + 127) as u32) << 23)
+    }
+}
