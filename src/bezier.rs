@@ -44,12 +44,7 @@ impl CubicBezier {
         ];
         (
             Self::new([(open_start, 0.0), (at[0], y1), (at[1], y2), (open_end, 1.0)]),
-            Self::new([
-                (close_start, 1.0),
-                (at[2], y5),
-                (at[3], y6),
-                (close_end, 0.0),
-            ]),
+            Self::new([(close_start, 1.0), (at[2], y5), (at[3], y6), (close_end, 0.0)]),
         )
     }
 
@@ -113,31 +108,19 @@ const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
     let ends = if a < c { a } else { c };
     // The vertex is inside just where the middle coefficient is below both ends; there
     // min = (ac - b²) / (a - 2b + c), and both parts of the divisor are positive.
-    if b < ends {
-        b + (a - b) * (c - b) / ((a - b) + (c - b))
-    } else {
-        ends
-    }
+    if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
 }
 
 /// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis.
 const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
-    let (mut low, mut high) = if f[0] < f[3] {
-        (f[0], f[3])
-    } else {
-        (f[3], f[0])
-    };
+    let (mut low, mut high) = if f[0] < f[3] { (f[0], f[3]) } else { (f[3], f[0]) };
     // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
     let (a, b, c) = (f[1] - f[0], f[2] - f[1], f[3] - f[2]);
     let (half, square) = (b - a, a - 2.0 * b + c);
     let discriminant = half * half - a * square;
     if discriminant >= 0.0 {
         let root = sqrt(discriminant);
-        let q = if half < 0.0 {
-            -half + root
-        } else {
-            -half - root
-        };
+        let q = if half < 0.0 { -half + root } else { -half - root };
         let candidates = [q / square, a / q];
         let mut i = 0;
         while i < 2 {

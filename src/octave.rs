@@ -1,19 +1,25 @@
-//! The direct way: an octave of `u` as a polynomial that gives the elapsed time outright.
+//! The direct way: an octave of `u` as a polynomial that gives the time outright.
 //!
 //! Take `a`, the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Its exponent
 //! picks the octave and its significand is the exact offset within, so octaves shrink towards the
 //! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all.
 
-use crate::profile::Profile;
+use crate::profile::{Profile, floor_bits};
 use crate::series::times_high;
 use crate::wide::Wide;
 
-/// One octave's polynomial: `elapsed = scale · P(x)`, `x` in [-1/2, 1/2) across the octave.
+/// One octave's polynomial: the time is `middle + factor · P(x)` in the profile's unit, `x` in
+/// [-1/2, 1/2) across the octave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
-    /// A power of two, 0 where there is no polynomial.
-    pub(crate) scale: f32,
-    c: [i32; DEGREE + 1],
+    middle: i64,
+    /// A power of two, or minus that from the later side.
+    factor: i32,
+    /// The bits of the first `f32` that the polynomial serves, and how many it serves.
+    pub(crate) from: u32,
+    pub(crate) length: u32,
+    /// `P(x) = c[0] x + c[1] x² + ...`
+    c: [i32; DEGREE],
 }
 
 const DEGREE: usize = 8;
@@ -50,57 +56,173 @@ const TIME_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
 /// The error in `u` that it may have, in ulp. Below 1/2 no two neighbouring `u` can change places,
 /// not even where one octave hands over to the next.
 const ULP_ERROR: f64 = 0.4;
-/// What the rounding of coefficients and products adds at most, in units of `scale`.
+/// What the rounding of products adds at most, in the unit of the coefficients.
 const NOISE: f64 = 1.5;
 
 const WORD: f64 = 4294967296.0;
 
 impl Octave {
-    pub(crate) const NONE: Self = Self {
-        scale: 0.0,
-        c: [0; DEGREE + 1],
-    };
+    pub(crate) const NONE: Self = Self { middle: 0, factor: 0, from: 0, length: 0, c: [0; DEGREE] };
 
-    /// `P(x)` for `x` in units of 2⁻³², by Horner's rule: each step is one multiply-and-add of 32 bits
-    /// on a microcontroller that has it.
+    /// The time at `x`, in units of 2⁻³², by Horner's rule: each step is one multiply-and-add of 32
+    /// bits, and the last one of 64, on a microcontroller that has them.
     #[inline(always)]
-    pub(crate) const fn at(&self, x: i32) -> i32 {
-        let mut value = self.c[DEGREE];
-        let mut k = DEGREE;
+    pub(crate) const fn time(&self, x: i32) -> i64 {
+        self.middle.wrapping_add(self.factor as i64 * self.rest(x) as i64)
+    }
+
+    /// `P(x)`
+    #[inline(always)]
+    const fn rest(&self, x: i32) -> i32 {
+        let mut value = self.c[DEGREE - 1];
+        let mut k = DEGREE - 1;
         while k > 0 {
             k -= 1;
             value = times_high(value, x).wrapping_add(self.c[k]);
         }
-        value
+        times_high(value, x)
     }
 
     /// The polynomial for the octave `a` in [2^-(index + 2), 2^-(index + 1)) from one side, or
-    /// [`NONE`](Self::NONE) where no polynomial keeps the promised error: the curve's exact inverse
-    /// then serves.
+    /// [`NONE`](Self::NONE) where no polynomial keeps the promised error: the exact inverse then serves.
     pub(crate) const fn fit<const CELLS: usize>(
         profile: &Profile<CELLS>,
         side: usize,
         index: usize,
     ) -> Self {
-        let low = 1.0 / (4.0 * f64::from_bits((1023 + index as u64) << 52));
-        // The part of the octave that lies in a ramp.
-        let [first, second] = profile.direct_bounds(side);
-        let (from, to) = if low < first {
-            (low, if first < 2.0 * low { first } else { 2.0 * low })
-        } else if second < 2.0 * low {
-            (if second > low { second } else { low }, 2.0 * low)
+        let low = 1.0 / (4.0 * power_of_two(index as i32));
+        let high = 2.0 * low;
+        // The longer part of the octave that lies in one ramp.
+        let [first, second] = profile.bounds(side);
+        let first = if first < low {
+            low
+        } else if first < high {
+            first
         } else {
-            return Self::NONE;
+            high
         };
-        let (middle, half) = ((from + to) / (2.0 * low) - 1.5, (to - from) / (2.0 * low));
+        let second = if second > high {
+            high
+        } else if second > low {
+            second
+        } else {
+            low
+        };
+        let (from, to) = if first - low > high - second { (low, first) } else { (second, high) };
+        if !(from < to) {
+            return Self::NONE;
+        }
+        // A bound belongs to neither part; that of the octave does.
+        let start = floor_bits(from) + (from > low) as u32;
+        let length = floor_bits(to) - start;
+        let part = Part {
+            side,
+            index,
+            middle: (from + to) / (2.0 * low) - 1.5,
+            half: (to - from) / (2.0 * low),
+        };
+        let c = part.interpolate(profile);
 
-        // Newton's divided differences through the nodes ...
+        // The largest value that Horner's rule meets fills 31 bits.
+        let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
+        while k > 0 {
+            bound = (if c[k] < 0.0 { -c[k] } else { c[k] }) + bound / 2.0;
+            most = if bound > most { bound } else { most };
+            k -= 1;
+        }
+        if !(most > 0.0 && most < f64::MAX) {
+            return Self::NONE;
+        }
+        let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
+        let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
+        if exponent - profile.unit() > 30 {
+            return Self::NONE;
+        }
+        let scale = power_of_two(exponent);
+        let factor = 1 << (exponent - profile.unit());
+        let mut octave = Self { middle: 0, factor, from: start, length, c: [0; DEGREE] };
+        let mut k = 0;
+        while k < DEGREE {
+            octave.c[k] = round(c[k + 1] / scale);
+            k += 1;
+        }
+        // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
+        let middle = (c[0] / power_of_two(profile.unit())) as i64 + factor as i64 / 2;
+        octave.middle = profile.start_in_units(side) + if side == 0 { middle } else { -middle };
+        octave.factor = if side == 0 { factor } else { -factor };
+        if octave.keeps_promise(profile, &part, c[0], scale) { octave } else { Self::NONE }
+    }
+
+    /// The error where it peaks, through the very arithmetic that will run: small in time, and small
+    /// in `u`, in which time's slope across the octave measures it.
+    const fn keeps_promise<const CELLS: usize>(
+        &self,
+        profile: &Profile<CELLS>,
+        part: &Part,
+        middle: f64,
+        scale: f64,
+    ) -> bool {
+        let mut i = 0;
+        while i < PEAKS.len() {
+            let x = part.offset(PEAKS[i]);
+            let exact = part.elapsed(profile, x);
+            let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
+            let error = if error < 0.0 { -error } else { error };
+            // What one ulp of u is in time: the octave is 2²³ ulp long.
+            let ulp = self.slope(x) * scale / (1 << 23) as f64;
+            let size = profile.size_of_time(part.side, exact);
+            // Written so that a NaN fails.
+            if !(error <= TIME_ERROR * size && error + NOISE * scale <= ULP_ERROR * ulp) {
+                return false;
+            }
+            i += 1;
+        }
+        true
+    }
+
+    /// `P'(x)`
+    const fn slope(&self, x: i32) -> f64 {
+        let x = x as f64 / WORD;
+        let mut slope = 0.0;
+        let mut k = DEGREE;
+        while k > 0 {
+            slope = slope * x + k as f64 * self.c[k - 1] as f64;
+            k -= 1;
+        }
+        slope
+    }
+}
+
+/// The part of an octave that its polynomial serves, in the offset `x`.
+struct Part {
+    side: usize,
+    index: usize,
+    middle: f64,
+    half: f64,
+}
+
+impl Part {
+    /// The offset of a point of [-1, 1], in units of 2⁻³².
+    const fn offset(&self, point: f64) -> i32 {
+        // A cast saturates.
+        ((self.middle + self.half * point) * WORD) as i32
+    }
+
+    /// The exact time from the side's start at an offset.
+    const fn elapsed<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32) -> f64 {
+        let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
+        profile.elapsed(self.side, Wide { m, e: -(self.index as i32 + 2 + 63) })
+    }
+
+    /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.
+    const fn interpolate<const CELLS: usize>(&self, profile: &Profile<CELLS>) -> [f64; DEGREE + 1] {
+        // Newton's divided differences ...
         let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         let mut i = 0;
         while i <= DEGREE {
-            let offset = offset(middle + half * NODES[i]);
+            let offset = self.offset(NODES[i]);
             x[i] = offset as f64 / WORD;
-            d[i] = profile.elapsed(side, fraction(index, offset));
+            d[i] = self.elapsed(profile, offset);
             i += 1;
         }
         let mut order = 1;
@@ -124,97 +246,12 @@ impl Octave {
             }
             c[0] = d[i] - c[0] * x[i];
         }
-
-        // The latest time fills 31 bits.
-        let most = profile.elapsed(side, fraction(index, offset(middle + half)));
-        if !(most > 0.0) {
-            return Self::NONE;
-        }
-        let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
-        if exponent < -126 {
-            return Self::NONE;
-        }
-        let unit = f64::from_bits(((1023 + exponent) as u64) << 52);
-        let mut octave = Self {
-            scale: f32::from_bits(((127 + exponent) as u32) << 23),
-            c: [0; DEGREE + 1],
-        };
-        // Each product is rounded down, by 1/2 on average; only the last one's counts in full.
-        c[0] += 0.5 * unit;
-        let mut bound = 0.0;
-        let mut k = DEGREE + 1;
-        while k > 0 {
-            k -= 1;
-            let value = c[k] / unit;
-            let size = if value < 0.0 { -value } else { value };
-            bound = if k == 0 { size } else { size + bound / 2.0 };
-            if !(bound < (1u32 << 31) as f64 - 4.0) {
-                return Self::NONE;
-            }
-            octave.c[k] = round(value);
-        }
-        if octave.keeps_promise(profile, side, index, middle, half, unit) {
-            octave
-        } else {
-            Self::NONE
-        }
-    }
-
-    /// The error where it peaks, through the very arithmetic that will run: small in time, and small
-    /// in `u`, in which time's slope across the octave measures it.
-    const fn keeps_promise<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        side: usize,
-        index: usize,
-        middle: f64,
-        half: f64,
-        unit: f64,
-    ) -> bool {
-        let mut i = 0;
-        while i < PEAKS.len() {
-            let x = offset(middle + half * PEAKS[i]);
-            let exact = profile.elapsed(side, fraction(index, x));
-            let error = self.at(x) as f64 * unit - exact;
-            let error = (if error < 0.0 { -error } else { error }) + NOISE * unit;
-            // d elapsed / d ulp(u): the octave is 2²³ ulp long.
-            let step = self.slope(x) * unit / (1 << 23) as f64;
-            let size = profile.size_of_time(side, exact);
-            // Negated, so that a NaN fails.
-            if !(error <= TIME_ERROR * size + NOISE * unit && error <= ULP_ERROR * step) {
-                return false;
-            }
-            i += 1;
-        }
-        true
-    }
-
-    /// `P'(x)`
-    const fn slope(&self, x: i32) -> f64 {
-        let x = x as f64 / WORD;
-        let mut slope = 0.0;
-        let mut k = DEGREE;
-        while k > 0 {
-            slope = slope * x + k as f64 * self.c[k] as f64;
-            k -= 1;
-        }
-        slope
+        c
     }
 }
 
-/// `x` in units of 2⁻³², within the octave.
-const fn offset(x: f64) -> i32 {
-    // A cast saturates.
-    (x * WORD) as i32
-}
-
-/// `a` at the offset `x` of an octave.
-const fn fraction(index: usize, x: i32) -> Wide {
-    let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
-    Wide {
-        m,
-        e: -(index as i32 + 2 + 63),
-    }
+const fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
 const fn round(x: f64) -> i32 {

@@ -77,7 +77,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
 
     /// `K`, the reciprocal of the area.
     pub const fn normalization(&self) -> f32 {
-        self.profile.normalization as f32
+        self.profile.normalization() as f32
     }
 }
 

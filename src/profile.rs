@@ -8,26 +8,25 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::octave::Octave;
 use crate::ramp::{OnRamp, Place, Segment};
-use crate::wide::{Wide, sum};
+use crate::series::times;
+use crate::wide::Wide;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Profile<const CELLS: usize> {
     ramps: [Segment; 2],
-    /// The plateau's length, which is its mass: the openness there is 1.
-    plateau: f64,
     /// `A`, the whole mass.
     pub(crate) area: f64,
-    /// `K = 1/A`
-    pub(crate) normalization: f64,
-    /// For each side, [`direct_bounds`](Self::direct_bounds) as the bits of the `f32` at or below.
+    /// The significand of `K = 1/A`, its top bit set.
+    reciprocal: u32,
+    /// A power of two in which the curve's times count at most 2⁶¹.
+    unit: f32,
+    /// The plateau's line, in that unit, continued to `u = 0` and to `u = 1`.
+    plateau: [i64; 2],
+    /// For each side, the `f32` at or below [`bounds`](Self::bounds), as bits.
     bounds: [[u32; 2]; 2],
     /// For each side, the octaves of `a` below 1/2, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
-
-/// The bits of 1/2 and of 1.
-const HALF: i32 = 0.5f32.to_bits() as i32;
-const ONE: i32 = 1.0f32.to_bits() as i32;
 
 /// Where a fraction of the exposure is collected.
 enum Section {
@@ -73,8 +72,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             return Err(error);
         }
         let ramps = [Segment::new(opening), Segment::new(closing)];
-        let plateau = s[0] - t[3];
-        let area = (ramps[0].mass + ramps[1].mass) + plateau;
+        let area = (ramps[0].mass + ramps[1].mass) + (s[0] - t[3]);
         if !(area > 0.0) {
             return Err(CurveError::ZeroArea);
         }
@@ -86,17 +84,19 @@ impl<const CELLS: usize> Profile<CELLS> {
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let bounds = [[0; 2]; 2];
         let octaves = [[Octave::NONE; CELLS]; 2];
-        let mut profile = Self {
-            ramps,
-            plateau,
-            area,
-            normalization,
-            bounds,
-            octaves,
-        };
+        let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
+        let (from, to) = (t[0].abs(), s[3].abs());
+        let exponent = ((if from > to { from } else { to }).to_bits() >> 52) as i32 - 1023 - 60;
+        let unit = f32::from_bits(((exponent + 127) as u32) << 23);
+        let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
+        let plateau = [
+            in_units(opening.points()[3].0, exponent) - first.in_units(exponent),
+            in_units(closing.points()[0].0, exponent) + last.in_units(exponent),
+        ];
+        let mut profile = Self { ramps, area, reciprocal, unit, plateau, bounds, octaves };
         let mut side = 0;
         while side < 2 {
-            let [first, second] = profile.direct_bounds(side);
+            let [first, second] = profile.bounds(side);
             profile.bounds[side] = [floor_bits(first), floor_bits(second)];
             side += 1;
         }
@@ -109,36 +109,47 @@ impl<const CELLS: usize> Profile<CELLS> {
         Ok(profile)
     }
 
-    /// The octaves' polynomials serve below the first of these fractions `a`, where the first ramp ends,
-    /// and above the second, where the plateau ends. An octave with an end of both ramps in it
-    /// has its polynomial for the longer part, and the shorter is left out.
-    pub(crate) const fn direct_bounds(&self, side: usize) -> [f64; 2] {
+    /// The fraction `a` at which the first ramp ends, and at which the plateau ends.
+    pub(crate) const fn bounds(&self, side: usize) -> [f64; 2] {
         let first = self.ramps[side].mass;
-        let [first, second] = [first / self.area, (first + self.plateau) / self.area];
-        const EXPONENT: u64 = 0x7FF << 52;
-        let low = f64::from_bits(first.to_bits() & EXPONENT);
-        if second < 2.0 * low && first > low {
-            if first - low > 2.0 * low - second {
-                [first, 2.0 * low]
-            } else {
-                [low, second]
-            }
-        } else {
-            [first, second]
-        }
+        let plateau = self.close_start() as f64 - self.open_end() as f64;
+        [first / self.area, (first + plateau) / self.area]
     }
 
     pub(crate) const fn open_start(&self) -> f32 {
         self.ramps[0].ends[0].time
     }
+
     pub(crate) const fn open_end(&self) -> f32 {
         self.ramps[0].ends[1].time
     }
+
     pub(crate) const fn close_start(&self) -> f32 {
         self.ramps[1].ends[0].time
     }
+
     pub(crate) const fn close_end(&self) -> f32 {
         self.ramps[1].ends[1].time
+    }
+
+    /// `K = 1/A`
+    pub(crate) const fn normalization(&self) -> f64 {
+        1.0 / self.area
+    }
+
+    /// The plateau's length, which is its mass: the openness there is 1.
+    const fn plateau(&self) -> Wide {
+        Wide::between(self.open_end(), self.close_start())
+    }
+
+    /// The exponent of the unit of time.
+    pub(crate) const fn unit(&self) -> i32 {
+        (self.unit.to_bits() >> 23) as i32 - 127
+    }
+
+    /// The time from which this side counts, in units.
+    pub(crate) const fn start_in_units(&self, side: usize) -> i64 {
+        in_units(self.start(side), self.unit())
     }
 
     /// The time from which this side counts.
@@ -154,7 +165,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             return Section::Ramp(side, mass);
         }
         let beyond = mass.minus(first);
-        let plateau = Wide::from_f64(self.plateau);
+        let plateau = self.plateau();
         if !beyond.exceeds(plateau) && !plateau.is_zero() {
             return Section::Plateau(self.on_plateau(side, beyond));
         }
@@ -163,12 +174,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     const fn on_plateau(&self, side: usize, elapsed: Wide) -> Place {
         let time = self.ramps[side].ends[1 - side].time;
-        Place {
-            time,
-            back: side == 1,
-            elapsed,
-            evaluations: 0,
-        }
+        Place { time, back: side == 1, elapsed, evaluations: 0 }
     }
 
     /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
@@ -191,22 +197,14 @@ impl<const CELLS: usize> Profile<CELLS> {
         } else {
             self.start(1) as f64 - place.time as f64
         };
-        if place.back == (side == 1) {
-            way + elapsed
-        } else {
-            way - elapsed
-        }
+        if place.back == (side == 1) { way + elapsed } else { way - elapsed }
     }
 
     /// What an error in time is relative to: the time itself, or, where the curve runs across time 0,
     /// the greater end.
     pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
         let (start, end) = (self.open_start() as f64, self.close_end() as f64);
-        let time = if side == 0 {
-            start + elapsed
-        } else {
-            end - elapsed
-        };
+        let time = if side == 0 { start + elapsed } else { end - elapsed };
         if start < 0.0 && end > 0.0 {
             if end > -start { end } else { -start }
         } else if time < 0.0 {
@@ -216,32 +214,35 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
     }
 
-    /// The side from which `u` is counted, and how far, as the bits of a `f32`.
+    /// The side from which `u` is counted, and how far.
     #[inline(always)]
-    fn count(u: f32) -> (usize, u32) {
-        // As integers, the bits of negative numbers, and of NaNs with that sign, are negative, and those
-        // of the other NaNs above infinity's.
-        let bits = u.to_bits() as i32;
-        if bits < HALF {
-            (0, if bits < 0 { 0 } else { bits as u32 })
-        } else if bits < ONE {
-            (1, (1.0 - u).to_bits())
-        } else {
-            (if u.is_nan() { 0 } else { 1 }, 0)
-        }
+    fn count(u: f32) -> (usize, f32) {
+        if u >= 0.5 { (1, 1.0 - u) } else { (0, u) }
     }
 
-    /// The polynomial that serves the fraction whose `f32`, rounded down, has these bits.
+    /// The time, in units, by which the fraction `a` has been collected from a side, where the plateau's
+    /// line or an octave's polynomial gives it outright.
     ///
-    /// A bound itself is left to the exact way, which knows on which side of it the fraction lies.
+    /// `bits` are those of the `f32` at or below `a`, and `x` is the offset in its octave. A bound itself is
+    /// left to the exact way, which knows on which side of it the fraction lies. So are 1/2, and whatever is
+    /// no fraction above 0, since their exponents are no octave's.
     #[inline(always)]
-    fn octave(&self, side: usize, a: u32) -> Option<&Octave> {
-        let index = (0.25f32.to_bits() >> 23).wrapping_sub(a >> 23) as usize;
+    fn direct(&self, side: usize, bits: u32, x: i32) -> Option<i64> {
+        let index = (0.25f32.to_bits() >> 23).wrapping_sub(bits >> 23);
         let [first, second] = self.bounds[side];
-        if index < CELLS && (a < first || a > second) {
-            let octave = &self.octaves[side][index];
-            if octave.scale != 0.0 {
-                return Some(octave);
+        if bits > first && bits < second {
+            // Down to here shifting loses no bit of an `f32`.
+            if index < 8 {
+                // a in units of 2⁻³².
+                let a = ((x as u32 ^ 1 << 31) >> 2 | 1 << 30) >> index;
+                let way = times(self.plateau[1].wrapping_sub(self.plateau[0]), a as i32);
+                let way = if side == 0 { way } else { -way };
+                return Some(self.plateau[side].wrapping_add(way));
+            }
+        } else if (index as usize) < CELLS {
+            let octave = &self.octaves[side][index as usize];
+            if bits.wrapping_sub(octave.from) < octave.length {
+                return Some(octave.time(x));
             }
         }
         None
@@ -251,53 +252,45 @@ impl<const CELLS: usize> Profile<CELLS> {
     #[inline]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let (side, a) = Self::count(u);
-        if let Some(octave) = self.octave(side, a) {
-            let m = octave.at((a << 9 ^ 1 << 31) as i32);
-            let scale = if side == 0 {
-                octave.scale
-            } else {
-                -octave.scale
-            };
-            // 24 bits and 7: both exact.
-            let high = (m & !0x7F) as f32 * scale;
-            let low = (m & 0x7F) as f32 * scale;
-            return sum(self.start(side), high, low);
+        let bits = a.to_bits();
+        match self.direct(side, bits, (bits << 9 ^ 1 << 31) as i32) {
+            Some(time) => time as f32 * self.unit,
+            None => self.solved(side, a).time(),
         }
-        if a == 0 {
-            return self.start(side);
+    }
+
+    /// The place where the fraction `a` has been collected from a side; its start for what is no fraction.
+    fn solved(&self, side: usize, a: f32) -> Place {
+        if a > 0.0 {
+            self.exact(side, Wide::from_f32(a))
+        } else {
+            Place { time: self.start(side), back: false, elapsed: Wide::ZERO, evaluations: 0 }
         }
-        self.exact(side, Wide::from_f32(f32::from_bits(a))).time()
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where a direct
     /// polynomial or the plateau serves.
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
-        if a == 0 || self.octave(side, a).is_some() {
-            return 0;
+        match self.direct(side, a.to_bits(), 0) {
+            Some(_) => 0,
+            None => self.solved(side, a).evaluations,
         }
-        self.exact(side, Wide::from_f32(f32::from_bits(a)))
-            .evaluations
     }
 
-    /// The place where the fraction `a`, in (0, 1/2], has been collected from a side, by a direct
-    /// polynomial where `direct` allows it.
-    pub(crate) fn place(&self, side: usize, a: Wide, direct: bool) -> Place {
-        if direct {
+    /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side, in
+    /// the direct way where `fast` allows it.
+    pub(crate) fn delay(&self, side: usize, a: Wide, fast: bool) -> Wide {
+        if fast {
             let bits = ((a.e + 63 + 127) as u32) << 23 | (a.m >> 40) as u32 & 0x7F_FFFF;
-            if let Some(octave) = self.octave(side, bits) {
-                let x = ((a.m >> 31) as u32 ^ 1 << 31) as i32;
-                let exponent = (octave.scale.to_bits() >> 23) as i32 - 127;
-                let elapsed = Wide::new(octave.at(x) as u64, exponent);
-                return Place {
-                    time: self.start(side),
-                    back: side == 1,
-                    elapsed,
-                    evaluations: 0,
-                };
+            if let Some(time) = self.direct(side, bits, ((a.m >> 31) as u32 ^ 1 << 31) as i32) {
+                let delay = time - self.start_in_units(0);
+                return Wide::new(if delay > 0 { delay as u64 } else { 0 }, self.unit());
             }
         }
-        self.exact(side, a)
+        let place = self.exact(side, a);
+        let base = Wide::between(self.open_start(), place.time);
+        if place.back { base.minus(place.elapsed) } else { base.plus(place.elapsed) }
     }
 
     /// Where `t` lies.
@@ -305,7 +298,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn at(&self, t: f32) -> At<'_> {
         let (start, end) = (self.open_start(), self.open_end());
         // A plateau without length has no instant of its own: it is the ramps' that have length.
-        let plateau = self.plateau > 0.0;
+        let plateau = end < self.close_start();
         if !(t >= start && t <= self.close_end()) {
             At::Outside
         } else if t < end || (t == end && !plateau && start < end) {
@@ -343,28 +336,31 @@ impl<const CELLS: usize> Profile<CELLS> {
             At::Opening(on) if on.from == 0 => on.mass(),
             At::Opening(on) => first().minus(on.mass()),
             At::Plateau => first().plus(Wide::between(self.open_end(), t)),
-            At::Closing(on) if on.from == 0 => {
-                first().plus(Wide::from_f64(self.plateau)).plus(on.mass())
-            }
+            At::Closing(on) if on.from == 0 => first().plus(self.plateau()).plus(on.mass()),
             At::Closing(on) => Wide::from_f64(self.area).minus(on.mass()),
         };
-        if t == self.close_end() {
-            1.0
-        } else {
-            self.normalized(mass)
-        }
+        if t == self.close_end() { 1.0 } else { self.normalized(mass) }
     }
 
     /// `K x`, at most a rounding above 1 for a mass.
     #[inline]
     fn normalized(&self, x: Wide) -> f32 {
-        x.times(Wide::from_f64(self.normalization))
-            .offset(0.0, false)
+        let a = Wide::from_f64(self.area);
+        // With A = s 2^n, s in [1, 2), K is 2/s 2^(-n - 1), or 2^-n.
+        let e = if a.m == 1 << 63 { -126 } else { -127 } - a.e;
+        let k = Wide { m: (self.reciprocal as u64) << 32, e };
+        x.times(k).offset(0.0, false)
     }
 }
 
+/// A time in units of `2^e`.
+const fn in_units(time: f32, e: i32) -> i64 {
+    let units = Wide::from_f32(time).in_units(e);
+    if time < 0.0 { -units } else { units }
+}
+
 /// The bits of the greatest `f32` at or below a non-negative `x` that is at most about 1.
-const fn floor_bits(x: f64) -> u32 {
+pub(crate) const fn floor_bits(x: f64) -> u32 {
     let rounded = x as f32;
     let bits = rounded.to_bits();
     if rounded as f64 > x { bits - 1 } else { bits }

@@ -40,35 +40,19 @@ impl End {
             (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
             a[2] * b[2] / 2.0,
         ];
-        Self {
-            time,
-            openness,
-            elapsed: b,
-            gained: a,
-            mass,
-        }
+        Self { time, openness, elapsed: b, gained: a, mass }
     }
 
     /// The place where `mass` has been collected from here, the end with index `from`.
     const fn at_mass(&self, from: usize, mass: Wide, seed: Seed) -> Place {
         let (time, back) = (self.time, from == 1);
         if mass.is_zero() {
-            return Place {
-                time,
-                back,
-                elapsed: Wide::ZERO,
-                evaluations: 0,
-            };
+            return Place { time, back, elapsed: Wide::ZERO, evaluations: 0 };
         }
         let root = solve(&self.mass, mass, seed);
         let (elapsed, negative) = root.value(&self.elapsed);
         let elapsed = if negative { Wide::ZERO } else { elapsed };
-        Place {
-            time,
-            back,
-            elapsed,
-            evaluations: root.evaluations,
-        }
+        Place { time, back, elapsed, evaluations: root.evaluations }
     }
 
     /// The mass between the two ends.
@@ -82,11 +66,7 @@ impl End {
 /// first or the last. The differences of `f32` are exact in `f64` unless their exponents lie 29 apart.
 const fn powers(v: [f64; 4], last: bool) -> Series<3> {
     let [v0, v1, v2, v3] = if last { [v[3], v[2], v[1], v[0]] } else { v };
-    [
-        3.0 * (v1 - v0),
-        3.0 * ((v2 - v1) - (v1 - v0)),
-        (v3 - v0) - 3.0 * (v2 - v1),
-    ]
+    [3.0 * (v1 - v0), 3.0 * ((v2 - v1) - (v1 - v0)), (v3 - v0) - 3.0 * (v2 - v1)]
 }
 
 /// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
@@ -122,21 +102,14 @@ impl Segment {
         // The mean is the same from both ends, and so for a mirrored ramp. A density that grazes 0 from
         // below can leave a mass below 0 by rounding.
         let mass = 0.5 * (ends[0].total() + ends[1].total());
-        Self {
-            ends,
-            mass: if mass > 0.0 { mass } else { 0.0 },
-        }
+        Self { ends, mass: if mass > 0.0 { mass } else { 0.0 } }
     }
 
     /// The same mass counted from the end that has less of it, where the series is steepest and the
     /// seed best; with the end's index.
     pub(crate) const fn nearer(&self, from: usize, mass: Wide) -> (usize, Wide) {
         let rest = Wide::from_f64(self.mass).minus(mass);
-        if mass.exceeds(rest) {
-            (1 - from, rest)
-        } else {
-            (from, mass)
-        }
+        if mass.exceeds(rest) { (1 - from, rest) } else { (from, mass) }
     }
 
     /// The place where `mass` has been collected, counted from end `from`.
@@ -159,11 +132,7 @@ impl Segment {
     pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
         let before = Wide::between(self.ends[0].time, t);
         let after = Wide::between(t, self.ends[1].time);
-        let (from, elapsed) = if before.exceeds(after) {
-            (1, after)
-        } else {
-            (0, before)
-        };
+        let (from, elapsed) = if before.exceeds(after) { (1, after) } else { (0, before) };
         let end = &self.ends[from];
         let root = if elapsed.is_zero() {
             Root::START

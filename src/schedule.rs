@@ -54,21 +54,11 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let share = half_reciprocal(n);
         Ok((0..n).map(move |i| {
             // (2i + 1) / 2n from the nearer side; the odd number fits 32 bits on both.
-            let (side, odd) = if i < n - i {
-                (0, i + (i + 1))
-            } else {
-                (1, (n - i) + (n - i - 1))
-            };
-            let place = self
-                .profile
-                .place(side, share.times(Wide::new(odd as u64, 0)), direct);
-            // Ticks in units of 2⁻³².
-            let base = Wide::between(self.open_start(), place.time)
-                .times(rate)
-                .in_units(-32);
-            let way = place.elapsed.times(rate).in_units(-32);
-            let ticks = if place.back { base - way } else { base + way };
-            ((ticks + (1 << 31)) >> 32) as u32
+            let (side, odd) = if i < n - i { (0, i + (i + 1)) } else { (1, (n - i) + (n - i - 1)) };
+            let a = share.times(Wide::new(odd as u64, 0));
+            let delay = self.profile.delay(side, a, direct).times(rate);
+            // In halves of a tick, so that the last bit rounds.
+            ((delay.in_units(-1) + 1) >> 1) as u32
         }))
     }
 
@@ -91,9 +81,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         }
         for tick in self.trigger_ticks(n, tick_hz)? {
             if schedule.last().is_some_and(|last| tick - last < min_gap) {
-                return Err(ScheduleError::GapTooSmall {
-                    most: self.most(n, tick_hz, min_gap)?,
-                });
+                return Err(ScheduleError::GapTooSmall { most: self.most(n, tick_hz, min_gap)? });
             }
             let _ = schedule.push(tick);
         }

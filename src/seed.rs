@@ -23,7 +23,8 @@ const fn rough_log(x: Wide) -> i32 {
 const fn curvature(x: i32) -> i32 {
     const WEIGHT: i32 = (0.344 * 1024.0) as i32;
     let fraction = x & (ONE - 1);
-    (((fraction >> 5) * ((ONE - fraction) >> 5)) >> 10) * WEIGHT >> 10
+    let product = ((fraction >> 5) * ((ONE - fraction) >> 5)) >> 10;
+    (product * WEIGHT) >> 10
 }
 
 /// The leading term at the target: `k`, `c_k`, and the linear logarithms of the target and of `c_k`.
@@ -37,12 +38,7 @@ struct Leading {
 
 const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
     let log = rough_log(target);
-    let mut best = Leading {
-        k: 1,
-        coefficient: 1.0,
-        target: log,
-        divisor: 0,
-    };
+    let mut best = Leading { k: 1, coefficient: 1.0, target: log, divisor: 0 };
     let mut least = i32::MAX;
     let mut i = 0;
     while i < N {
@@ -53,12 +49,7 @@ const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
             let root = (log - divisor) / k;
             if root < least {
                 least = root;
-                best = Leading {
-                    k,
-                    coefficient: c[i],
-                    target: log,
-                    divisor,
-                };
+                best = Leading { k, coefficient: c[i], target: log, divisor };
             }
         }
         i += 1;
@@ -70,16 +61,10 @@ const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
 /// 1/4 up, in the largest.
 const fn seed_at(exponent: i32, fraction: i32) -> Seed {
     if exponent >= 0 {
-        return Seed {
-            x: i32::MAX - (1 << 20),
-            shift: -1,
-        };
+        return Seed { x: i32::MAX - (1 << 20), shift: -1 };
     }
     let shift = if exponent < -2 { -exponent - 3 } else { -1 };
-    Seed {
-        x: (ONE + fraction) << (exponent + shift + 12),
-        shift,
-    }
+    Seed { x: (ONE + fraction) << (exponent + shift + 12), shift }
 }
 
 /// The guess from logarithms alone; all that a constant can use.

@@ -65,7 +65,7 @@ struct Local {
 
 /// `a x`, where `x` counts 2⁻³².
 #[inline(always)]
-const fn times(a: i64, x: i32) -> i64 {
+pub(crate) const fn times(a: i64, x: i32) -> i64 {
     let high = (a >> 32) as i32 as i64 * x as i64;
     let low = ((a as u32 as u64) * (x as u32 as u64)) >> 32;
     high.wrapping_add(low as i64)
@@ -103,10 +103,7 @@ impl<const N: usize> Scaled<N> {
             }
             k += 1;
         }
-        Self {
-            c: scaled,
-            unit: unit - BIAS,
-        }
+        Self { c: scaled, unit: unit - BIAS }
     }
 
     /// Horner's rule, and with it, in 32 bits, the first and second derivative.
@@ -162,12 +159,7 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
         if small || size <= goal >> ENOUGH || high - low <= 1 || evaluations == MAX_EVALUATIONS {
             // A longer step than the unit means a flat place, where the residual is good enough.
             let rest = if small { step } else { 0.0 };
-            return Root {
-                x,
-                shift,
-                rest,
-                evaluations,
-            };
+            return Root { x, shift, rest, evaluations };
         }
         if missing > 0 {
             low = x;
@@ -178,11 +170,7 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
         let mut next = x.saturating_add(step as i32);
         if next >= TOP && high == TOP && shift > LEAST_SHIFT {
             // The seed was too low by more than this scale holds: three octaves up.
-            let up = if shift - 3 < LEAST_SHIFT {
-                shift - LEAST_SHIFT
-            } else {
-                3
-            };
+            let up = if shift - 3 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 3 };
             shift -= up;
             scaled = Scaled::new(c, shift);
             goal = target.in_units(scaled.unit);
@@ -197,12 +185,7 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
 
 impl Root {
     /// `p = 0`.
-    pub(crate) const START: Self = Self {
-        x: 0,
-        shift: 0,
-        rest: 0.0,
-        evaluations: 0,
-    };
+    pub(crate) const START: Self = Self { x: 0, shift: 0, rest: 0.0, evaluations: 0 };
 
     /// The series' value here: its magnitude, and whether it is negative.
     pub(crate) const fn value<const N: usize>(&self, c: &Series<N>) -> (Wide, bool) {

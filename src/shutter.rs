@@ -159,7 +159,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// `K = 1/A`, which makes the openness a probability density.
     pub const fn normalization(&self) -> f32 {
-        self.profile.normalization as f32
+        self.profile.normalization() as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].

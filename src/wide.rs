@@ -20,10 +20,7 @@ impl Wide {
             return Self::ZERO;
         }
         let up = m.leading_zeros();
-        Self {
-            m: m << up,
-            e: e - up as i32,
-        }
+        Self { m: m << up, e: e - up as i32 }
     }
 
     /// The magnitude of a finite, normal or zero `x`.
@@ -32,10 +29,7 @@ impl Wide {
         if bits == 0 {
             return Self::ZERO;
         }
-        Self {
-            m: bits << 11 | 1 << 63,
-            e: (bits >> 52) as i32 - (1023 + 63),
-        }
+        Self { m: bits << 11 | 1 << 63, e: (bits >> 52) as i32 - (1023 + 63) }
     }
 
     /// The magnitude of a finite `x`.
@@ -45,10 +39,7 @@ impl Wide {
             return Self::new(bits as u64, -149);
         }
         let m = bits << 8 | 1 << 31;
-        Self {
-            m: (m as u64) << 32,
-            e: (bits >> 23) as i32 - (127 + 63),
-        }
+        Self { m: (m as u64) << 32, e: (bits >> 23) as i32 - (127 + 63) }
     }
 
     /// `|a - b|` of two finite numbers.
@@ -74,11 +65,7 @@ impl Wide {
     /// The number in units of `2^e`, rounded down; the caller sees to it that 63 bits hold it.
     pub(crate) const fn in_units(self, e: i32) -> i64 {
         let down = (e - self.e) as u32;
-        if down < 64 {
-            (self.m >> down) as i64
-        } else {
-            0
-        }
+        if down < 64 { (self.m >> down) as i64 } else { 0 }
     }
 
     /// `self · other`, to 2⁻⁶².
@@ -88,25 +75,15 @@ impl Wide {
         let m = ah * bh + ((ah * bl) >> 32) + ((al * bh) >> 32);
         // A product of two normalised significands is at most one bit short.
         if m >> 63 != 0 || m == 0 {
-            Self {
-                m,
-                e: self.e + other.e + 64,
-            }
+            Self { m, e: self.e + other.e + 64 }
         } else {
-            Self {
-                m: m << 1,
-                e: self.e + other.e + 63,
-            }
+            Self { m: m << 1, e: self.e + other.e + 63 }
         }
     }
 
     /// `self + other`, to 2⁻⁶².
     pub(crate) const fn plus(self, other: Self) -> Self {
-        let (big, small) = if self.exceeds(other) {
-            (self, other)
-        } else {
-            (other, self)
-        };
+        let (big, small) = if self.exceeds(other) { (self, other) } else { (other, self) };
         if small.is_zero() {
             return big;
         }
@@ -136,33 +113,20 @@ impl Wide {
     #[inline]
     pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
         // Two factors reach down to where even the smallest subnormal has underflowed.
-        let (e, reach) = if self.e < -130 {
-            (self.e + 100, pow2(-100))
-        } else {
-            (self.e, 1.0)
-        };
+        let (e, reach) = if self.e < -130 { (self.e + 100, pow2(-100)) } else { (self.e, 1.0) };
         let reach = if back { -reach } else { reach };
         let high = (self.m >> 40) as u32 as f32 * pow2(e + 40) * reach;
         let low = (self.m >> 8) as u32 as f32 * pow2(e + 8) * reach;
-        sum(base, high, low)
+        // Knuth's two-sum keeps what the first addition loses.
+        let near = base + high;
+        let part = near - base;
+        let lost = (base - (near - part)) + (high - part);
+        near + (lost + low)
     }
-}
-
-/// `base + (high + low)`, rounded once: Knuth's two-sum keeps what the first addition lost.
-#[inline(always)]
-pub(crate) const fn sum(base: f32, high: f32, low: f32) -> f32 {
-    let near = base + high;
-    let part = near - base;
-    let lost = (base - (near - part)) + (high - part);
-    near + (lost + low)
 }
 
 /// `2^e`, 0 below the normal numbers; `e` is at most 127.
 #[inline(always)]
 const fn pow2(e: i32) -> f32 {
-    if e < -126 {
-        0.0
-    } else {
-        f32::from_bits(((e + 127) as u32) << 23)
-    }
+    if e < -126 { 0.0 } else { f32::from_bits(((e + 127) as u32) << 23) }
 }
