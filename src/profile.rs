@@ -214,10 +214,21 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
     }
 
-    /// The side from which `u` is counted, and how far.
+    /// The side from which `u` is counted, 1 from 1/2 on, and how far; without a branch, since what `u` will
+    /// be can't be predicted. Below 0 and above 1 the fraction is negative.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
-        if u >= 0.5 { (1, 1.0 - u) } else { (0, u) }
+        let side = (u >= 0.5) as u32;
+        let from_side = u - f32::from_bits(side * 1.0f32.to_bits());
+        (side as usize, f32::from_bits(from_side.to_bits() ^ side << 31))
+    }
+
+    /// The plateau's line at the fraction `a`, counted from a side in units of 2⁻³².
+    #[inline(always)]
+    fn plateau_line(&self, side: usize, a: u32) -> i64 {
+        let way = times(self.plateau[1].wrapping_sub(self.plateau[0]), a as i32);
+        let sign = -(side as i64);
+        self.plateau[side].wrapping_add((way ^ sign) - sign)
     }
 
     /// The time, in units, by which the fraction `a` has been collected from a side, where the plateau's
@@ -233,11 +244,8 @@ impl<const CELLS: usize> Profile<CELLS> {
         if bits > first && bits < second {
             // Down to here shifting loses no bit of an `f32`.
             if index < 8 {
-                // a in units of 2⁻³².
                 let a = ((x as u32 ^ 1 << 31) >> 2 | 1 << 30) >> index;
-                let way = times(self.plateau[1].wrapping_sub(self.plateau[0]), a as i32);
-                let way = if side == 0 { way } else { -way };
-                return Some(self.plateau[side].wrapping_add(way));
+                return Some(self.plateau_line(side, a));
             }
         } else if (index as usize) < CELLS {
             let octave = &self.octaves[side][index as usize];
@@ -260,10 +268,15 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     /// The place where the fraction `a` has been collected from a side; its start for what is no fraction.
+    ///
+    /// Out of line, so that the direct way saves no registers for it.
+    #[cold]
+    #[inline(never)]
     fn solved(&self, side: usize, a: f32) -> Place {
         if a > 0.0 {
             self.exact(side, Wide::from_f32(a))
         } else {
+            let side = if a.is_nan() { 0 } else { side };
             Place { time: self.start(side), back: false, elapsed: Wide::ZERO, evaluations: 0 }
         }
     }
