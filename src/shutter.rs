@@ -147,9 +147,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// If the lengths differ.
     pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
         assert!(u.len() == t.len(), "u and t differ in length");
-        for (u, t) in u.iter().zip(t) {
-            *t = self.profile.inverse_cdf(*u);
-        }
+        self.profile.inverse_cdf_slice(u, t);
     }
 
     /// The effective exposure time `A = ∫ f dt`.
