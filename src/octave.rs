@@ -109,7 +109,7 @@ impl Octave {
             low
         };
         let (from, to) = if first - low > high - second { (low, first) } else { (second, high) };
-        if !(from < to) {
+        if from >= to {
             return Self::NONE;
         }
         // A bound belongs to neither part; that of the octave does.

@@ -110,7 +110,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
         let ramps = [Segment::new(opening), Segment::new(closing)];
         let area = (ramps[0].mass + ramps[1].mass) + (s[0] - t[3]);
-        if !(area > 0.0) {
+        if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
         let normalization = 1.0 / area;

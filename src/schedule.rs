@@ -19,7 +19,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The most triggers whose exact times keep `min_gap`: `max(1, floor(A / min_gap))`, since the
     /// openness is at most 1. `u32::MAX` where nothing is required, that is a gap of 0, below, or NaN.
     pub const fn max_triggers(&self, min_gap: f32) -> u32 {
-        if !(min_gap > 0.0) {
+        if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
         }
         // The cast rounds down and saturates.

@@ -168,7 +168,7 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
         }
         // Saturates; a NaN gives 0 and so stays where it is, on the bracket's edge.
         let mut next = x.saturating_add(step as i32);
-        if next >= TOP && high == TOP && shift > LEAST_SHIFT {
+        if next == TOP && high == TOP && shift > LEAST_SHIFT {
             // The seed was too low by more than this scale holds: three octaves up.
             let up = if shift - 3 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 3 };
             shift -= up;

@@ -1,0 +1,230 @@
+//! Every kind of bad input, and what happens: its own error, a clamp, or an empty answer.
+
+use shutter_curve::{BezierPdf, CubicBezier, CurveError, Ramp, ScheduleError, ShutterCurve};
+
+type Points = [(f32, f32); 4];
+
+const OPENING: Points = [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)];
+const CLOSING: Points = [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)];
+
+fn shutter(opening: Points, closing: Points) -> Result<ShutterCurve, CurveError> {
+    ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing))
+}
+
+fn single(points: Points) -> Result<BezierPdf, CurveError> {
+    BezierPdf::new(CubicBezier::new(points))
+}
+
+/// The good curve with one coordinate changed.
+fn with(
+    ramp: Ramp,
+    point: usize,
+    t: Option<f32>,
+    f: Option<f32>,
+) -> Result<ShutterCurve, CurveError> {
+    let (mut opening, mut closing) = (OPENING, CLOSING);
+    let points = if ramp == Ramp::Opening { &mut opening } else { &mut closing };
+    points[point].0 = t.unwrap_or(points[point].0);
+    points[point].1 = f.unwrap_or(points[point].1);
+    shutter(opening, closing)
+}
+
+#[test]
+fn a_good_curve_is_built() {
+    assert!(shutter(OPENING, CLOSING).is_ok());
+    assert!(single(OPENING).is_ok());
+}
+
+#[test]
+fn control_points_must_be_finite() {
+    for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for point in 0..4 {
+            for ramp in [Ramp::Opening, Ramp::Closing] {
+                let expected = Err(CurveError::NotFinite(ramp));
+                assert_eq!(with(ramp, point, Some(bad), None), expected);
+                assert_eq!(with(ramp, point, None, Some(bad)), expected);
+            }
+            let mut points = OPENING;
+            points[point].0 = bad;
+            assert_eq!(single(points), Err(CurveError::NotFinite(Ramp::Single)));
+        }
+    }
+}
+
+#[test]
+fn times_must_be_in_order() {
+    let expected = Err(CurveError::TimesOutOfOrder);
+    assert_eq!(ShutterCurve::linear(0.0, 0.5, 0.25, 1.0), expected);
+    assert_eq!(ShutterCurve::linear(0.3, 0.25, 0.75, 1.0), expected);
+    assert_eq!(ShutterCurve::linear(0.0, 0.25, 0.75, 0.7), expected);
+    let mut back = OPENING;
+    back.reverse();
+    assert_eq!(single(back).map(|_| ()), expected.map(|_| ()));
+}
+
+#[test]
+fn time_must_not_turn_back() {
+    let back = |ramp, point, t| {
+        assert_eq!(with(ramp, point, Some(t), None), Err(CurveError::TimeTurnsBack(ramp)))
+    };
+    back(Ramp::Opening, 1, -0.01);
+    back(Ramp::Opening, 2, 0.26);
+    back(Ramp::Closing, 1, 0.74);
+    back(Ramp::Closing, 2, 1.01);
+    // Both ends run forward, the middle does not: d1² > d0 d2.
+    let s = [(0.0, 0.0), (0.3, 0.0), (0.0, 1.0), (0.25, 1.0)];
+    assert_eq!(shutter(s, CLOSING), Err(CurveError::TimeTurnsBack(Ramp::Opening)));
+    assert_eq!(single(s), Err(CurveError::TimeTurnsBack(Ramp::Single)));
+    // And just forward: d1² = d0 d2.
+    assert!(shutter([(0.0, 0.0), (0.25, 0.0), (0.0, 1.0), (0.25, 1.0)], CLOSING).is_ok());
+}
+
+#[test]
+fn openness_must_stay_in_bounds() {
+    let negative = |ramp, point, f| {
+        assert_eq!(with(ramp, point, None, Some(f)), Err(CurveError::NegativeOpenness(ramp)))
+    };
+    negative(Ramp::Opening, 0, -1e-3);
+    negative(Ramp::Opening, 1, -0.1);
+    negative(Ramp::Closing, 2, -0.1);
+    negative(Ramp::Closing, 3, -1e-3);
+    let above = |ramp, point, f| {
+        assert_eq!(with(ramp, point, None, Some(f)), Err(CurveError::OpennessAboveOne(ramp)))
+    };
+    above(Ramp::Opening, 3, 1.001);
+    above(Ramp::Opening, 2, 1.1);
+    above(Ramp::Closing, 0, 1.001);
+    above(Ramp::Closing, 1, 1.1);
+    let dip = [(0.0, 1.0), (0.1, -0.4), (0.2, -0.4), (0.3, 1.0)];
+    assert_eq!(single(dip), Err(CurveError::NegativeOpenness(Ramp::Single)));
+    // A single density may have any scale.
+    assert!(single([(0.0, 0.0), (0.1, 1e30), (0.2, 1e30), (0.3, 0.0)]).is_ok());
+}
+
+#[test]
+fn grazing_by_rounding_is_accepted_and_solved() {
+    // A double root of f at p = 1/2 would need -1/3.
+    for f in [-0.33333334, -0.3333333, -0.3333334] {
+        let touch = [(0.0, 1.0), (0.1, f), (0.2, f), (0.3, 1.0)];
+        let curve = shutter(touch, CLOSING).unwrap();
+        assert!((0..=1000).all(|i| (0.0..=1.0).contains(&curve.opening(i as f32 * 3e-4))));
+        let mut last = 0.0;
+        for i in 0..=100_000 {
+            let t = curve.inverse_cdf(i as f32 / 100_000.0);
+            assert!(t >= last && t <= 1.0);
+            last = t;
+        }
+    }
+    // Control values outside [0, 1], the curve just touching 1 at p = 1/2: f = 1 - (1 - 2p)².
+    let bump = [(0.0, 0.0), (0.1, 4.0 / 3.0), (0.2, 4.0 / 3.0), (0.3, 0.0)];
+    assert!(single(bump).is_ok());
+    assert!(shutter(bump, CLOSING).is_ok());
+    // t' with a double root at 1/2, grazing it by the rounding of the control times.
+    for t in [0.3, 0.30000001, 0.3 + f32::EPSILON / 8.0] {
+        assert!(shutter([(0.0, 0.0), (t, 0.1), (0.0, 0.9), (0.3, 1.0)], CLOSING).is_ok());
+    }
+}
+
+#[test]
+fn there_must_be_an_area() {
+    let nothing = |t0, t1| CubicBezier::new([(t0, 0.0), (t0, 0.0), (t1, 0.0), (t1, 0.0)]);
+    assert_eq!(ShutterCurve::new(nothing(0.0, 0.5), nothing(0.5, 1.0)), Err(CurveError::ZeroArea));
+    assert_eq!(BezierPdf::new(nothing(0.0, 1.0)), Err(CurveError::ZeroArea));
+    let faint = [(0.0, 1e-45), (0.1, 1e-45), (0.2, 1e-45), (0.3, 1e-45)];
+    assert_eq!(single(faint), Err(CurveError::AreaOutOfRange));
+    let huge = [(0.0, 3e38), (1e10, 3e38), (2e10, 3e38), (3e10, 3e38)];
+    assert_eq!(single(huge), Err(CurveError::AreaOutOfRange));
+}
+
+#[test]
+fn the_interval_must_be_in_range() {
+    let long = 2f32.powi(64);
+    let expected = Err(CurveError::IntervalOutOfRange);
+    assert!(ShutterCurve::linear(0.0, 0.0, long, long).is_ok());
+    assert_eq!(ShutterCurve::linear(0.0, 0.0, long.next_up(), long.next_up()), expected);
+    assert!(ShutterCurve::linear(0.0, 0.0, 1.0 / long, 1.0 / long).is_ok());
+    let short = (1.0 / long).next_down();
+    assert_eq!(ShutterCurve::linear(0.0, 0.0, short, short), expected);
+    assert_eq!(ShutterCurve::linear(1.0, 1.0, 1.0, 1.0), expected);
+    assert_eq!(ShutterCurve::linear(f32::MIN, 0.0, 1.0, f32::MAX), expected);
+}
+
+#[test]
+fn the_fraction_is_clamped() {
+    let curve = ShutterCurve::linear(2.0, 2.25, 2.75, 3.0).unwrap();
+    for u in [0.0, -0.0, -1e-45, -0.3, -1.0, -2.0, f32::MIN, f32::NEG_INFINITY, f32::NAN, -f32::NAN]
+    {
+        assert_eq!(curve.inverse_cdf(u), 2.0, "{u}");
+    }
+    for u in [1.0, 1.0f32.next_up(), 1.3, 2.0, f32::MAX, f32::INFINITY] {
+        assert_eq!(curve.inverse_cdf(u), 3.0, "{u}");
+    }
+}
+
+#[test]
+fn a_time_outside_is_before_or_after() {
+    let curve = ShutterCurve::linear(2.0, 2.25, 2.75, 3.0).unwrap();
+    let pdf = BezierPdf::new(CubicBezier::line((2.0, 1.0), (3.0, 5.0))).unwrap();
+    for (t, cdf) in [
+        (2.0f32.next_down(), 0.0),
+        (f32::NEG_INFINITY, 0.0),
+        (f32::NAN, 0.0),
+        (-f32::NAN, 0.0),
+        (3.0f32.next_up(), 1.0),
+        (f32::INFINITY, 1.0),
+    ] {
+        assert_eq!((curve.opening(t), curve.pdf(t), curve.cdf(t)), (0.0, 0.0, cdf), "{t}");
+        assert_eq!((pdf.pdf(t), pdf.cdf(t)), (0.0, cdf), "{t}");
+    }
+    assert_eq!((curve.cdf(2.0), curve.cdf(3.0)), (0.0, 1.0));
+    // The ends belong to the curve, where it jumps.
+    assert_eq!((pdf.pdf(2.0), pdf.pdf(3.0)), (1.0 / 3.0, 5.0 / 3.0));
+    let flash = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
+    assert_eq!((flash.opening(0.0), flash.opening(1.0)), (1.0, 1.0));
+}
+
+#[test]
+fn a_gap_that_asks_for_nothing() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    for gap in [0.0, -0.0, -1.0, f32::NEG_INFINITY, f32::NAN, 1e-45] {
+        assert_eq!(curve.max_triggers(gap), u32::MAX, "{gap}");
+    }
+    assert_eq!(curve.max_triggers(f32::INFINITY), 1);
+    assert_eq!(curve.max_triggers(10.0), 1);
+    assert_eq!(curve.max_triggers(0.25), 3);
+    assert_eq!(curve.max_triggers(0.25f32.next_up()), 2);
+}
+
+#[test]
+fn no_triggers() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    assert_eq!(curve.trigger_times(0).len(), 0);
+    assert_eq!(curve.trigger_times(0).next(), None);
+    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().next(), None);
+}
+
+#[test]
+fn tick_rates() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    let error = |hz| curve.trigger_ticks(4, hz).err();
+    assert_eq!(error(0), Some(ScheduleError::TickRateZero));
+    assert_eq!(error(1), None);
+    assert_eq!(error(1 << 31), None);
+    assert_eq!(error((1 << 31) + 1), Some(ScheduleError::TickRateTooHigh));
+    assert_eq!(error(u32::MAX), Some(ScheduleError::TickRateTooHigh));
+}
+
+#[test]
+#[should_panic(expected = "differ in length")]
+fn slices_of_different_length() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    curve.inverse_cdf_slice(&[0.5, 0.6], &mut [0.0]);
+}
+
+#[test]
+fn errors_say_which_and_why() {
+    let text = CurveError::TimeTurnsBack(Ramp::Closing).to_string();
+    assert_eq!(text, "closing ramp: time turns back between the control points");
+    let error: &dyn std::error::Error = &ScheduleError::CapacityExceeded;
+    assert_eq!(error.to_string(), "more triggers than the schedule can hold");
+}
