@@ -37,7 +37,7 @@ const TOP: i32 = i32::MAX;
 const LEAST_SHIFT: i32 = -1;
 
 /// Newton steps before bisection takes over for good.
-const NEWTON: u32 = 9;
+const NEWTON: u32 = 10;
 /// Bisections that bring any bracket of 31-bit numbers down to neighbours.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes.
@@ -61,6 +61,8 @@ struct Local {
     slope: i32,
     /// `S''/2` in units of 2³².
     bend: i32,
+    /// `S'''/6` in units of 2³².
+    twist: i32,
 }
 
 /// `a x`, where `x` counts 2⁻³².
@@ -106,34 +108,57 @@ impl<const N: usize> Scaled<N> {
         Self { c: scaled, unit: unit - BIAS }
     }
 
-    /// Horner's rule, and with it, in 32 bits, the first and second derivative.
+    /// Horner's rule, and with it, in 32 bits, the derivatives.
     #[inline(always)]
     const fn at(&self, x: i32) -> Local {
-        let (mut value, mut slope, mut bend) = (self.c[N - 1], 0i32, 0i32);
+        let mut value = self.c[N - 1];
+        let (mut slope, mut bend, mut twist) = (0i32, 0i32, 0i32);
         let mut k = N - 1;
         while k > 0 {
             k -= 1;
+            twist = times_high(twist, x).wrapping_add(bend);
             bend = times_high(bend, x).wrapping_add(slope);
             slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
             value = times(value, x).wrapping_add(self.c[k]);
         }
+        twist = times_high(twist, x).wrapping_add(bend);
         bend = times_high(bend, x).wrapping_add(slope);
         slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
         value = times(value, x);
-        Local { value, slope, bend }
+        Local { value, slope, bend, twist }
     }
 }
 
+/// 2³², the unit of `x` and of the derivatives.
+const WORD: f32 = 4294967296.0;
+
 impl Local {
-    /// The step of `x` that Halley's method takes to make up for `missing`:
+    /// The step of `x` that Halley's method takes to make up for `missing`, at most twice Newton's:
     /// `r / (S' + S''/2 · r/S')`, with one division.
     #[inline(always)]
-    const fn step(&self, missing: i64) -> f32 {
-        const WORD: f32 = 4294967296.0;
-        let r = (missing >> 32) as i32 as f32 * WORD + missing as u32 as f32;
+    const fn step(&self, missing: f32) -> f32 {
         let slope = self.slope as f32;
-        r * slope / (slope * slope + self.bend as f32 * (r * (1.0 / WORD)))
+        let newton = slope * slope;
+        let halley = newton + self.bend as f32 * (missing * (1.0 / WORD));
+        missing * slope / if halley > 0.5 * newton { halley } else { 0.5 * newton }
     }
+
+    /// The step from or to a flat place, where the density touches 0 and `S` is as `c (x - q)³`, in which
+    /// Newton's method is slow or lost: `q` is where `S''` is 0, and a cube root does the rest.
+    const fn flat_step(&self, missing: f32) -> f32 {
+        let (b, c) = (self.bend as f32 * WORD, self.twist as f32);
+        let from_flat = b / (3.0 * c);
+        let cube = missing * (WORD / c) * WORD + from_flat * from_flat * from_flat;
+        cube_root(cube) - from_flat
+    }
+}
+
+/// The cube root to 0.2 %: a third of the exponent and a step of Newton's method.
+const fn cube_root(x: f32) -> f32 {
+    let size = x.abs();
+    let y = f32::from_bits(size.to_bits() / 3 + 0x2A51_4067);
+    let y = y - (y - size / (y * y)) / 3.0;
+    if x < 0.0 { -y } else { y }
 }
 
 /// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`:
@@ -148,14 +173,16 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
     let mut scaled = Scaled::new(c, shift);
     let mut goal = target.in_units(scaled.unit);
     let (mut low, mut high) = (0, TOP);
-    let mut evaluations = 0;
+    let (mut evaluations, mut last) = (0, 0.0);
     loop {
         let local = scaled.at(x);
         evaluations += 1;
         let missing = goal - local.value;
-        let step = local.step(missing);
         let size = if missing < 0 { -missing } else { missing };
-        let small = -1.0 < step && step < 1.0;
+        let rough = (missing >> 32) as i32 as f32 * WORD + missing as u32 as f32;
+        let step = local.step(rough);
+        // Less is missing than one step of x adds.
+        let small = size < local.slope as i64;
         if small || size <= goal >> ENOUGH || high - low <= 1 || evaluations == MAX_EVALUATIONS {
             // A longer step than the unit means a flat place, where the residual is good enough.
             let rest = if small { step } else { 0.0 };
@@ -166,20 +193,34 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
         } else {
             high = x;
         }
-        // Saturates; a NaN gives 0 and so stays where it is, on the bracket's edge.
-        let mut next = x.saturating_add(step as i32);
-        if next == TOP && high == TOP && shift > LEAST_SHIFT {
-            // The seed was too low by more than this scale holds: three octaves up.
-            let up = if shift - 3 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 3 };
+        // Steps that shrink evenly approach a flat place, where convergence is linear: go to their sum.
+        let ratio = step / last;
+        let even = ratio > 0.25 && ratio < 0.75;
+        let step = if even { step / (1.0 - ratio) } else { step };
+        last = if even { 0.0 } else { step };
+        // A cast saturates; a NaN gives 0 and so stays where it is, on the bracket's edge.
+        let mut next = x as i64 + step as i32 as i64;
+        if next <= low as i64 || next >= high as i64 {
+            // At a flat place Newton's method is lost.
+            next = x as i64 + local.flat_step(rough) as i32 as i64;
+            last = 0.0;
+        }
+        if low == x && high == TOP && shift > LEAST_SHIFT && (x > TOP / 2 || next >= TOP as i64) {
+            // The target may be more than this scale holds: two octaves up.
+            let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
             shift -= up;
             scaled = Scaled::new(c, shift);
             goal = target.in_units(scaled.unit);
             low >>= up;
-            next = TOP >> 1;
-        } else if next <= low || next >= high || evaluations >= NEWTON {
-            next = low + (high - low) / 2;
+            next >>= up;
+            last = 0.0;
         }
-        x = next;
+        // The bracket must shrink, on average, as bisection would shrink it.
+        let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
+        if late || next <= low as i64 || next >= high as i64 {
+            next = (low + (high - low) / 2) as i64;
+        }
+        x = next as i32;
     }
 }
 
