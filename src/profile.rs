@@ -8,7 +8,6 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::octave::Octave;
 use crate::ramp::{OnRamp, Place, Segment};
-use crate::series::times;
 use crate::wide::Wide;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,13 +19,17 @@ pub(crate) struct Profile<const CELLS: usize> {
     reciprocal: u32,
     /// A power of two in which the curve's times count at most 2⁶¹.
     unit: f32,
-    /// The plateau's line, in that unit, continued to `u = 0` and to `u = 1`.
-    plateau: [i64; 2],
-    /// For each side, the `f32` at or below [`bounds`](Self::bounds), as bits.
-    bounds: [[u32; 2]; 2],
+    /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
+    base: i64,
+    slope: i64,
+    /// The `f32` around the plateau, as bits: every `u` between these is on it.
+    plateau: [u32; 2],
     /// For each side, the octaves of `a` below 1/2, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
+
+/// Does the processor have doubles? Those of 64 bits do.
+const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 /// The plateau's line in doubles, `t = base + A u`, for processors that have them.
 ///
@@ -45,9 +48,9 @@ impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(profile: &Profile<CELLS>) -> Self {
         let unit = profile.unit as f64;
-        let [from, to] = profile.bounds[0];
+        let [from, to] = profile.plateau;
         Self {
-            base: profile.plateau[0] as f64 * unit,
+            base: profile.base as f64 * unit,
             slope: profile.area,
             // 2¹² units are 2⁻⁴⁸ of the greatest time.
             slack: 4096.0 * unit,
@@ -64,6 +67,9 @@ impl Line {
         (least, (u > self.from) & (u < self.to) & (least == greatest))
     }
 }
+
+/// From here on a `u` loses no bit when counted in 2⁻³².
+const FINE: u32 = (1.0f32 / 512.0).to_bits();
 
 /// Where a fraction of the exposure is collected.
 enum Section {
@@ -119,24 +125,20 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
         // An octave beyond would hold subnormal numbers.
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
-        let bounds = [[0; 2]; 2];
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
         let (from, to) = (t[0].abs(), s[3].abs());
         let exponent = ((if from > to { from } else { to }).to_bits() >> 52) as i32 - 1023 - 60;
         let unit = f32::from_bits(((exponent + 127) as u32) << 23);
         let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
-        let plateau = [
-            in_units(opening.points()[3].0, exponent) - first.in_units(exponent),
-            in_units(closing.points()[0].0, exponent) + last.in_units(exponent),
-        ];
-        let mut profile = Self { ramps, area, reciprocal, unit, plateau, bounds, octaves };
-        let mut side = 0;
-        while side < 2 {
-            let [first, second] = profile.bounds(side);
-            profile.bounds[side] = [floor_bits(first), floor_bits(second)];
-            side += 1;
-        }
+        let base = in_units(opening.points()[3].0, exponent) - first.in_units(exponent);
+        let end = in_units(closing.points()[0].0, exponent) + last.in_units(exponent);
+        let slope = end - base;
+        let plateau = [0; 2];
+        let mut profile = Self { ramps, area, reciprocal, unit, base, slope, plateau, octaves };
+        let [from, to] = profile.bounds(0);
+        let (from, to) = (floor_bits(from), floor_bits(to));
+        profile.plateau = [if from < FINE { FINE } else { from }, to];
         let mut index = 0;
         while index < CELLS {
             profile.octaves[0][index] = Octave::fit(&profile, 0, index);
@@ -175,7 +177,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     /// The plateau's length, which is its mass: the openness there is 1.
-    const fn plateau(&self) -> Wide {
+    const fn plateau_mass(&self) -> Wide {
         Wide::between(self.open_end(), self.close_start())
     }
 
@@ -202,7 +204,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             return Section::Ramp(side, mass);
         }
         let beyond = mass.minus(first);
-        let plateau = self.plateau();
+        let plateau = self.plateau_mass();
         if !beyond.exceeds(plateau) && !plateau.is_zero() {
             return Section::Plateau(self.on_plateau(side, beyond));
         }
@@ -251,41 +253,30 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
     }
 
-    /// The side from which `u` is counted, 1 from 1/2 on, and how far: the lesser of `u` and `1 - u`, which
-    /// takes no branch, for none could be predicted. Below 0 and above 1 it is negative.
+    /// The side from which `u` is counted and how far: the lesser of `u` and `1 - u`, which takes no branch,
+    /// for none could be predicted. Below 0 and above 1 it is negative.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
         let late = 1.0 - u;
-        ((u >= 0.5) as usize, if late < u { late } else { u })
+        if late < u { (1, late) } else { (0, u) }
     }
 
-    /// The plateau's line at the fraction `a`, counted from a side in units of 2⁻³².
+    /// The time on the plateau, in units, at a `u` that counts 2⁻³².
     #[inline(always)]
-    fn plateau_line(&self, side: usize, a: u32) -> i64 {
-        let way = times(self.plateau[1].wrapping_sub(self.plateau[0]), a as i32);
-        let sign = -(side as i64);
-        self.plateau[side].wrapping_add((way ^ sign) - sign)
+    fn on_line(&self, u: u32) -> i64 {
+        let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+        let way = high * u as u64 + ((low * u as u64) >> 32);
+        self.base.wrapping_add(way as i64)
     }
 
-    /// The time, in units, by which the fraction `a` has been collected from a side, where the plateau's
-    /// line or an octave's polynomial gives it outright.
-    ///
-    /// `bits` are those of the `f32` at or below `a`, and `x` is the offset in its octave. A bound itself is
-    /// left to the exact way, which knows on which side of it the fraction lies. So are 1/2, and whatever is
-    /// no fraction above 0, since their exponents are no octave's.
+    /// The time at the offset `x` of the octave that `a` lies in, by the bits of the `f32` at or below it, if
+    /// there is a polynomial for it. For 1/2, and for what is no fraction above 0, there is none.
     #[inline(always)]
-    fn direct(&self, side: usize, bits: u32, x: i32) -> Option<i64> {
-        let index = (0.25f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-        let [first, second] = self.bounds[side];
-        if bits > first && bits < second {
-            // Down to here shifting loses no bit of an `f32`.
-            if index < 8 {
-                let a = ((x as u32 ^ 1 << 31) >> 2 | 1 << 30) >> index;
-                return Some(self.plateau_line(side, a));
-            }
-        } else if (index as usize) < CELLS {
-            let octave = &self.octaves[side][index as usize];
-            if bits.wrapping_sub(octave.from) < octave.length {
+    fn in_octave(&self, side: usize, a: u32, x: i32) -> Option<i64> {
+        let index = (0.25f32.to_bits() >> 23).wrapping_sub(a >> 23) as usize;
+        if index < CELLS {
+            let octave = &self.octaves[side][index];
+            if a.wrapping_sub(octave.from) < octave.length {
                 return Some(octave.time(x));
             }
         }
@@ -295,22 +286,68 @@ impl<const CELLS: usize> Profile<CELLS> {
     /// The time by which the fraction `u` of the exposure has been collected.
     #[inline]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        if cfg!(target_pointer_width = "64") {
+        if DOUBLES {
             let (time, is_right) = Line::new(self).at(u);
             if is_right {
                 return time;
             }
         }
-        self.in_ramp(u)
+        self.inverse_cdf_in_units(u)
     }
 
+    /// The same in integers throughout.
     #[inline(always)]
-    fn in_ramp(&self, u: f32) -> f32 {
+    fn inverse_cdf_in_units(&self, u: f32) -> f32 {
+        let bits = u.to_bits();
+        if bits > self.plateau[0] && bits < self.plateau[1] {
+            let u = (bits << 8 | 1 << 31) >> (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+            return self.rounded(self.on_line(u));
+        }
         let (side, a) = Self::count(u);
         let bits = a.to_bits();
-        match self.direct(side, bits, (bits << 9 ^ 1 << 31) as i32) {
-            Some(time) => time as f32 * self.unit,
-            None => self.solved(side, a).time(),
+        match self.in_octave(side, bits, (bits << 9 ^ 1 << 31) as i32) {
+            Some(time) => self.rounded(time),
+            None => self.solved(u),
+        }
+    }
+
+    /// A time in units, rounded once.
+    #[inline(always)]
+    fn rounded(&self, time: i64) -> f32 {
+        if DOUBLES {
+            return time as f32 * self.unit;
+        }
+        // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
+        // upper word, the lower one only has to say whether it is 0.
+        let high = (time >> 32) as i32;
+        let up = if high.wrapping_add(1 << 25) as u32 >> 26 != 0 {
+            0
+        } else {
+            (high ^ high >> 31).leading_zeros() - 1
+        };
+        let time = time << up;
+        let high = (time >> 32) as i32 | (time as u32 != 0) as i32;
+        high as f32 * (self.unit * f32::from_bits((127 + 32 - up) << 23))
+    }
+
+    /// [`inverse_cdf`](Self::inverse_cdf) by the exact way: the start or the end for what is no fraction.
+    ///
+    /// Out of line, so that the direct way saves no registers for it.
+    #[cold]
+    #[inline(never)]
+    fn solved(&self, u: f32) -> f32 {
+        let (side, a) = Self::count(u);
+        if a > 0.0 { self.exact(side, Wide::from_f32(a)).time() } else { self.start(side) }
+    }
+
+    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where a direct
+    /// polynomial or the plateau serves.
+    pub(crate) fn evaluations(&self, u: f32) -> u32 {
+        let (side, a) = Self::count(u);
+        if a > 0.0 && self.in_octave(side, a.to_bits(), 0).is_none() {
+            self.exact(side, Wide::from_f32(a)).evaluations
+        } else {
+            0
         }
     }
 
@@ -320,6 +357,12 @@ impl<const CELLS: usize> Profile<CELLS> {
     /// the answer. So a first pass gives every `u` the plateau's answer, several at a time, a second lists,
     /// without a branch, those for which it is none, and a third mends these.
     pub(crate) fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
+        if !DOUBLES {
+            for (u, t) in u.iter().zip(t) {
+                *t = self.inverse_cdf(*u);
+            }
+            return;
+        }
         const CHUNK: usize = 128;
         let line = Line::new(self);
         for (u, t) in u.chunks(CHUNK).zip(t.chunks_mut(CHUNK)) {
@@ -334,41 +377,22 @@ impl<const CELLS: usize> Profile<CELLS> {
                 listed += 1 - *right as usize;
             }
             for i in &list[..listed] {
-                t[*i as usize] = self.in_ramp(u[*i as usize]);
+                t[*i as usize] = self.inverse_cdf_in_units(u[*i as usize]);
             }
         }
     }
 
-    /// The place where the fraction `a` has been collected from a side; its start for what is no fraction.
-    ///
-    /// Out of line, so that the direct way saves no registers for it.
-    #[cold]
-    #[inline(never)]
-    fn solved(&self, side: usize, a: f32) -> Place {
-        if a > 0.0 {
-            self.exact(side, Wide::from_f32(a))
-        } else {
-            let side = if a.is_nan() { 0 } else { side };
-            Place { time: self.start(side), back: false, elapsed: Wide::ZERO, evaluations: 0 }
-        }
-    }
-
-    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where a direct
-    /// polynomial or the plateau serves.
-    pub(crate) fn evaluations(&self, u: f32) -> u32 {
-        let (side, a) = Self::count(u);
-        match self.direct(side, a.to_bits(), 0) {
-            Some(_) => 0,
-            None => self.solved(side, a).evaluations,
-        }
-    }
-
-    /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side, in
-    /// the direct way where `fast` allows it.
-    pub(crate) fn delay(&self, side: usize, a: Wide, fast: bool) -> Wide {
+    /// How long after the curve's start the fraction `u`, in (0, 1), has been collected, of which `a`, in
+    /// (0, 1/2], is the part from a side; in the direct way where `fast` allows it.
+    pub(crate) fn delay(&self, u: Wide, side: usize, a: Wide, fast: bool) -> Wide {
         if fast {
-            let bits = ((a.e + 63 + 127) as u32) << 23 | (a.m >> 40) as u32 & 0x7F_FFFF;
-            if let Some(time) = self.direct(side, bits, ((a.m >> 31) as u32 ^ 1 << 31) as i32) {
+            let bits = u.floor_bits();
+            let time = if bits > self.plateau[0] && bits < self.plateau[1] {
+                Some(self.on_line(u.in_units(-32) as u32))
+            } else {
+                self.in_octave(side, a.floor_bits(), ((a.m >> 31) as u32 ^ 1 << 31) as i32)
+            };
+            if let Some(time) = time {
                 let delay = time - self.start_in_units(0);
                 return Wide::new(if delay > 0 { delay as u64 } else { 0 }, self.unit());
             }
@@ -421,7 +445,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             At::Opening(on) if on.from == 0 => on.mass(),
             At::Opening(on) => first().minus(on.mass()),
             At::Plateau => first().plus(Wide::between(self.open_end(), t)),
-            At::Closing(on) if on.from == 0 => first().plus(self.plateau()).plus(on.mass()),
+            At::Closing(on) if on.from == 0 => first().plus(self.plateau_mass()).plus(on.mass()),
             At::Closing(on) => Wide::from_f64(self.area).minus(on.mass()),
         };
         if t == self.close_end() { 1.0 } else { self.normalized(mass) }

@@ -53,10 +53,11 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let direct = !ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0));
         let share = half_reciprocal(n);
         Ok((0..n).map(move |i| {
-            // (2i + 1) / 2n from the nearer side; the odd number fits 32 bits on both.
-            let (side, odd) = if i < n - i { (0, i + (i + 1)) } else { (1, (n - i) + (n - i - 1)) };
-            let a = share.times(Wide::new(odd as u64, 0));
-            let delay = self.profile.delay(side, a, direct).times(rate);
+            // (2i + 1) / 2n, and that from the nearer side; there the odd number fits 32 bits.
+            let odd = 2 * i as u64 + 1;
+            let (side, near) = if odd <= n as u64 { (0, odd) } else { (1, 2 * n as u64 - odd) };
+            let (u, a) = (share.times(Wide::new(odd, 0)), share.times(Wide::new(near, 0)));
+            let delay = self.profile.delay(u, side, a, direct).times(rate);
             // In halves of a tick, so that the last bit rounds.
             ((delay.in_units(-1) + 1) >> 1) as u32
         }))

@@ -81,36 +81,27 @@ pub(crate) fn seed<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let l = leading(c, target);
-        // The exponents divide by k up to a remainder, which the root takes in with the significands.
-        let exponent = (l.target >> 20) - (l.divisor >> 20);
-        let (whole, rest) = (exponent.div_euclid(l.k), exponent.rem_euclid(l.k));
-        let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-        let ratio = significand((target.m >> 40) as u32 & 0x7F_FFFF)
-            / significand((l.coefficient.to_bits() >> 29) as u32 & 0x7F_FFFF);
-        let root = root(ratio * (1 << rest) as f32, l.k).to_bits();
-        let exponent = (root >> 23) as i32 - 127;
-        seed_at(whole + exponent, (root >> 3) as i32 & (ONE - 1))
+        if l.k == 2 || l.k == 4 {
+            // The exponents divide by k up to a remainder, which the root takes in with the significands.
+            let exponent = (l.target >> 20) - (l.divisor >> 20);
+            let (whole, rest) = (exponent >> (l.k / 2), exponent & (l.k - 1));
+            let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
+            let ratio = significand((target.m >> 40) as u32 & 0x7F_FFFF)
+                / significand((l.coefficient.to_bits() >> 29) as u32 & 0x7F_FFFF);
+            let root = square_root(ratio * (1 << rest) as f32);
+            let root = if l.k == 4 { square_root(root) } else { root }.to_bits();
+            return seed_at(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
+        }
     }
-    #[cfg(not(any(feature = "libm", feature = "micromath")))]
     seed_by_bits(c, target)
 }
 
-/// `x^(1/k)` for `x` in [1/2, 64).
 #[cfg(feature = "libm")]
-fn root(x: f32, k: i32) -> f32 {
-    match k {
-        1 => x,
-        2 => libm::sqrtf(x),
-        _ => libm::powf(x, 1.0 / k as f32),
-    }
+fn square_root(x: f32) -> f32 {
+    libm::sqrtf(x)
 }
 
-/// `x^(1/k)` for `x` in [1/2, 64), within 4 %.
 #[cfg(all(feature = "micromath", not(feature = "libm")))]
-fn root(x: f32, k: i32) -> f32 {
-    use micromath::F32Ext;
-    match k {
-        1 => x,
-        _ => F32Ext::powf(x, 1.0 / k as f32),
-    }
+fn square_root(x: f32) -> f32 {
+    micromath::F32Ext::sqrt(x)
 }

@@ -67,7 +67,7 @@ struct Local {
 
 /// `a x`, where `x` counts 2⁻³².
 #[inline(always)]
-pub(crate) const fn times(a: i64, x: i32) -> i64 {
+const fn times(a: i64, x: i32) -> i64 {
     let high = (a >> 32) as i32 as i64 * x as i64;
     let low = ((a as u32 as u64) * (x as u32 as u64)) >> 32;
     high.wrapping_add(low as i64)

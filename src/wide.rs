@@ -58,6 +58,11 @@ impl Wide {
         self.m as f64 * f64::from_bits(((self.e + 1023) as u64) << 52)
     }
 
+    /// The bits of the greatest `f32` at or below a number that `f32` holds without its subnormals.
+    pub(crate) const fn floor_bits(self) -> u32 {
+        ((self.e + 63 + 127) as u32) << 23 | (self.m >> 40) as u32 & 0x7F_FFFF
+    }
+
     pub(crate) const fn is_zero(self) -> bool {
         self.m == 0
     }
@@ -112,21 +117,22 @@ impl Wide {
     /// `base + self`, or `base - self` where `back`, rounded once (but for a tie missed by 2⁻²⁴ ulp).
     #[inline]
     pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
-        // Two factors reach down to where even the smallest subnormal has underflowed.
-        let (e, reach) = if self.e < -130 { (self.e + 100, pow2(-100)) } else { (self.e, 1.0) };
-        let reach = if back { -reach } else { reach };
-        let high = (self.m >> 40) as u32 as f32 * pow2(e + 40) * reach;
-        let low = (self.m >> 8) as u32 as f32 * pow2(e + 8) * reach;
+        let e = self.e + 63;
+        if e < -126 {
+            // Subnormal by itself: a whole number of the least one, which the addition then keeps.
+            let halves = self.in_units(-150);
+            let part = f32::from_bits(((halves + 1) >> 1) as u32);
+            return if back { base - part } else { base + part };
+        }
+        let scale = f32::from_bits(((e + 127) as u32) << 23);
+        let scale = if back { -scale } else { scale };
+        // 24 bits and the 32 after them, the first exact.
+        let high = (self.m >> 40) as u32 as f32 * (1.0 / (1u32 << 23) as f32) * scale;
+        let low = (self.m >> 8) as u32 as f32 * (1.0 / (1u64 << 55) as f32) * scale;
         // Knuth's two-sum keeps what the first addition loses.
         let near = base + high;
         let part = near - base;
         let lost = (base - (near - part)) + (high - part);
         near + (lost + low)
     }
-}
-
-/// `2^e`, 0 below the normal numbers; `e` is at most 127.
-#[inline(always)]
-const fn pow2(e: i32) -> f32 {
-    if e < -126 { 0.0 } else { f32::from_bits(((e + 127) as u32) << 23) }
 }

@@ -1,0 +1,647 @@
+//! The tests' oracle: a shutter curve, its cdf and its inverse in double-double arithmetic.
+//!
+//! It shares no code with the library and takes the `f32` inputs as exact numbers. Every ramp is
+//! expanded in powers of the distance `x` from each of its two ends, so that times, openness and mass
+//! near an end are accurate relative to their distance from it, however flat the curve is there.
+#![allow(dead_code)] // Each test binary uses a part.
+
+pub mod curves;
+pub mod dd;
+
+pub use dd::Dd;
+
+/// A cubic Bezier's control points as (time, openness).
+pub type Points = [(f32, f32); 4];
+
+/// Opening ramp, plateau with openness 1, closing ramp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    pub opening: Points,
+    pub closing: Points,
+    /// Openness is at most 1 on a shutter; a single Bezier may have any scale.
+    pub is_shutter: bool,
+}
+
+impl Curve {
+    pub fn shutter(opening: Points, closing: Points) -> Self {
+        Self { opening, closing, is_shutter: true }
+    }
+
+    /// One Bezier as a pdf: an opening ramp with nothing after it.
+    pub fn single(points: Points) -> Self {
+        Self { opening: points, closing: [(points[3].0, 0.0); 4], is_shutter: false }
+    }
+
+    /// The curve run backwards: its times negated.
+    pub fn mirrored(&self) -> Self {
+        let mirror = |points: Points| {
+            let [a, b, c, d] = points.map(|(t, f)| (-t, f));
+            [d, c, b, a]
+        };
+        if self.is_shutter {
+            Self::shutter(mirror(self.closing), mirror(self.opening))
+        } else {
+            Self::single(mirror(self.opening))
+        }
+    }
+
+    /// All times multiplied by a power of two, exactly unless they leave the normal numbers.
+    pub fn scaled(&self, power: f32) -> Self {
+        let scale = |points: Points| points.map(|(t, f)| (t * power, f));
+        Self { opening: scale(self.opening), closing: scale(self.closing), ..*self }
+    }
+
+    pub fn open_start(&self) -> f32 {
+        self.opening[0].0
+    }
+
+    pub fn open_end(&self) -> f32 {
+        self.opening[3].0
+    }
+
+    pub fn close_start(&self) -> f32 {
+        self.closing[0].0
+    }
+
+    pub fn close_end(&self) -> f32 {
+        self.closing[3].0
+    }
+}
+
+/// `c[0] x + c[1] x² + ...`, zero at the end from which `x` counts.
+#[derive(Clone, Copy, Debug)]
+struct Poly<const N: usize> {
+    c: [Dd; N],
+}
+
+impl<const N: usize> Poly<N> {
+    #[inline]
+    fn at(&self, x: Dd) -> Dd {
+        self.c.iter().rev().fold(Dd::ZERO, |sum, &c| (sum + c) * x)
+    }
+
+    /// In `f64`: the value, the slope and half the curvature.
+    #[inline]
+    fn approx(&self, x: f64) -> [f64; 3] {
+        let [mut value, mut slope, mut bend] = [0.0; 3];
+        for c in self.c.iter().rev() {
+            bend = bend * x + slope;
+            slope = slope * x + value;
+            value = value * x + c.hi;
+        }
+        // The sums so far are those of value / x.
+        [value * x, slope * x + value, bend * x + slope]
+    }
+
+    /// A bound on the rounding error of [`at`](Self::at).
+    fn noise(&self, x: f64) -> f64 {
+        let size = self.c.iter().rev().fold(0.0, |sum, c| (sum + c.hi.abs()) * x);
+        size * f64::EPSILON * f64::EPSILON * 4.0
+    }
+
+    /// The `x` in [0, 1] where the polynomial, which does not fall but for rounding, reaches `target`.
+    fn solve(&self, target: Dd) -> Dd {
+        if target.hi <= 0.0 {
+            return Dd::ZERO;
+        }
+        // The octave of x, ...
+        let (mut below, mut above) = (-256, 0);
+        while above - below > 1 {
+            let middle = (below + above) / 2;
+            let side =
+                if self.approx(exp2(middle))[0] < target.hi { &mut below } else { &mut above };
+            *side = middle;
+        }
+        // ... then x to f64's accuracy, ...
+        let (mut low, mut high) = (exp2(below), exp2(above));
+        let mut x = 0.75 * high;
+        for _ in 0..64 {
+            let [value, slope, _] = self.approx(x);
+            let side = if value < target.hi { &mut low } else { &mut high };
+            *side = x;
+            let newton = x + (target.hi - value) / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let step = (next - x).abs();
+            x = next;
+            if step <= 2.0 * f64::EPSILON * x {
+                break;
+            }
+        }
+        // ... and in full. The bracket starts afresh: rounding may have misled the one in f64.
+        let (mut low, mut high) = (Dd::from(exp2(below - 1)), Dd::from(exp2(above + 1).min(1.0)));
+        let mut x = Dd::from(x);
+        for iteration in 0..400 {
+            let rest = target - self.at(x);
+            if rest.hi == 0.0 || iteration > 3 && rest.hi.abs() <= self.noise(x.hi) {
+                break;
+            }
+            let side = if rest.hi > 0.0 { &mut low } else { &mut high };
+            *side = x;
+            let [_, slope, bend] = self.approx(x.hi);
+            let step = rest.hi / slope;
+            let newton = x + Dd::from(step);
+            if slope > 0.0 && newton > low && newton < high {
+                x = newton;
+                // What Newton's step leaves: the series' next term, and the step's own rounding.
+                let left = (bend * step / slope).abs().max(2.0 * f64::EPSILON) * step.abs();
+                if left <= exp2(-99) * x.hi {
+                    break;
+                }
+            } else {
+                x = (low + high).scale(0.5);
+                if (high - low).hi <= exp2(-103) * x.hi {
+                    break;
+                }
+            }
+        }
+        x
+    }
+}
+
+/// `2^n`
+pub fn exp2(n: i32) -> f64 {
+    assert!((-1022..1024).contains(&n));
+    f64::from_bits(((n + 1023) as u64) << 52)
+}
+
+/// A ramp expanded at one of its ends; `x` runs from there to 1 at the other.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    /// Time and openness at the end.
+    time: f64,
+    openness: f64,
+    /// +1 if the ramp lies after this end, -1 if before.
+    sign: f64,
+    /// The time between the end and x, the rise of openness, and the mass between.
+    way: Poly<3>,
+    rise: Poly<3>,
+    mass: Poly<6>,
+    /// `way` and `mass` at x = 1/2.
+    half_way: Dd,
+    half_mass: Dd,
+}
+
+impl End {
+    fn new(points: Points, sign: f64) -> Self {
+        let way = cubic(points.map(|p| p.0)).map(|c| c.scale(sign));
+        let rise = cubic(points.map(|p| p.1));
+        let openness = [Dd::from(points[0].1), rise[0], rise[1], rise[2]];
+        let mut mass = [Dd::ZERO; 6];
+        for (i, &f) in openness.iter().enumerate() {
+            for (j, &t) in way.iter().enumerate() {
+                mass[i + j] = mass[i + j] + f * (t * (j + 1) as f64);
+            }
+        }
+        for (i, c) in mass.iter_mut().enumerate() {
+            *c = *c / Dd::from((i + 1) as f64);
+        }
+        let (way, rise, mass) = (Poly { c: way }, Poly { c: rise }, Poly { c: mass });
+        let half = Dd::from(0.5);
+        Self {
+            time: points[0].0 as f64,
+            openness: points[0].1 as f64,
+            sign,
+            way,
+            rise,
+            mass,
+            half_way: way.at(half),
+            half_mass: mass.at(half),
+        }
+    }
+}
+
+/// A cubic Bezier in powers of x, without the constant. The differences of neighbours are exact.
+fn cubic(b: [f32; 4]) -> [Dd; 3] {
+    let d = [0, 1, 2].map(|i| Dd::from(b[i + 1]) - Dd::from(b[i]));
+    let second = [d[1] - d[0], d[2] - d[1]];
+    [d[0] * 3.0, second[0] * 3.0, second[1] - second[0]]
+}
+
+#[derive(Clone, Debug)]
+struct Ramp {
+    ends: [End; 2],
+    mass: Dd,
+    /// Where rounding makes f or t' graze below 0, the mass falls by a trace as p runs on. Then: all
+    /// turning points of the mass, as (p, mass). Otherwise nothing.
+    turns: Vec<(f64, Dd)>,
+}
+
+/// A place on a ramp: the end from which it counts, and the distance.
+#[derive(Clone, Copy)]
+struct Spot {
+    end: usize,
+    x: Dd,
+}
+
+impl Ramp {
+    fn new(points: Points) -> Self {
+        let [a, b, c, d] = points;
+        let ends = [End::new(points, 1.0), End::new([d, c, b, a], -1.0)];
+        let mass = ends[0].mass.at(Dd::ONE);
+        let mut ramp = Self { ends, mass, turns: Vec::new() };
+        let turns: Vec<_> = ramp
+            .turning_points()
+            .into_iter()
+            .map(|p| (p, ramp.mass_from(0, ramp.spot(p))))
+            .collect();
+        let rises = turns.windows(2).all(|pair| pair[0].1 <= pair[1].1);
+        if !rises {
+            ramp.turns = turns;
+        }
+        ramp
+    }
+
+    fn is_empty(&self) -> bool {
+        self.ends[0].time == self.ends[1].time
+    }
+
+    fn spot(&self, p: f64) -> Spot {
+        let end = (p > 0.5) as usize;
+        Spot { end, x: Dd::from(if end == 0 { p } else { 1.0 - p }) }
+    }
+
+    /// The parameter, in order along the ramp.
+    fn parameter(&self, spot: Spot) -> f64 {
+        if spot.end == 0 { spot.x.hi } else { 1.0 - spot.x.hi }
+    }
+
+    fn at_mass(&self, end: usize, mass: Dd) -> Spot {
+        if mass <= self.ends[end].half_mass {
+            return Spot { end, x: self.ends[end].mass.solve(mass) };
+        }
+        let end = 1 - end;
+        Spot { end, x: self.ends[end].mass.solve(self.mass - mass) }
+    }
+
+    fn at_time(&self, t: Dd) -> Spot {
+        let way = [t - Dd::from(self.ends[0].time), Dd::from(self.ends[1].time) - t];
+        let end = (way[0] > self.ends[0].half_way) as usize;
+        Spot { end, x: self.ends[end].way.solve(way[end]) }
+    }
+
+    fn mass_from(&self, end: usize, spot: Spot) -> Dd {
+        let mass = self.ends[spot.end].mass.at(spot.x);
+        if spot.end == end { mass } else { self.mass - mass }
+    }
+
+    fn time(&self, spot: Spot) -> Dd {
+        let end = &self.ends[spot.end];
+        Dd::from(end.time) + end.way.at(spot.x).scale(end.sign)
+    }
+
+    fn openness(&self, spot: Spot) -> Dd {
+        let end = &self.ends[spot.end];
+        Dd::from(end.openness) + end.rise.at(spot.x)
+    }
+
+    /// The masses between which all count as collected at the spot, where the mass grazes downwards.
+    fn band(&self, spot: Spot) -> [Dd; 2] {
+        let (mass, p) = (self.mass_from(0, spot), self.parameter(spot));
+        let mut band = [mass, mass];
+        for &(turn, mass) in &self.turns {
+            if turn <= p {
+                band[1] = band[1].max(mass);
+            }
+            if turn >= p {
+                band[0] = band[0].min(mass);
+            }
+        }
+        band
+    }
+
+    /// The parameters of f's interior extrema, and of that of t'.
+    fn flat_points(&self) -> Vec<f64> {
+        let (rise, way) = (&self.ends[0].rise.c, &self.ends[0].way.c);
+        let mut points = roots(rise[0].hi, 2.0 * rise[1].hi, 3.0 * rise[2].hi);
+        if way[2].hi != 0.0 {
+            points.push(-way[1].hi / (3.0 * way[2].hi));
+        }
+        points.retain(|p| *p > 0.0 && *p < 1.0);
+        points
+    }
+
+    /// 0, 1, and all p between where f or t' changes sign.
+    fn turning_points(&self) -> Vec<f64> {
+        let openness = |p| self.openness(self.spot(p)).hi;
+        let mut cuts = self.flat_points();
+        cuts.extend([0.0, 1.0]);
+        cuts.sort_by(f64::total_cmp);
+        let way = &self.ends[0].way.c;
+        let mut turns = roots(way[0].hi, 2.0 * way[1].hi, 3.0 * way[2].hi);
+        turns.retain(|p| *p > 0.0 && *p < 1.0);
+        for pair in cuts.windows(2) {
+            let (mut from, mut to) = (pair[0], pair[1]);
+            if openness(from) * openness(to) < 0.0 {
+                for _ in 0..60 {
+                    let middle = 0.5 * (from + to);
+                    let same = openness(from) * openness(middle) > 0.0;
+                    *(if same { &mut from } else { &mut to }) = middle;
+                }
+                turns.push(from);
+            }
+        }
+        turns.extend([0.0, 1.0]);
+        turns.sort_by(f64::total_cmp);
+        turns
+    }
+}
+
+/// The real roots of `a + b x + c x²`.
+fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return Vec::new();
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    [q / c, a / q].into_iter().filter(|x| x.is_finite()).collect()
+}
+
+/// What an answer `t` to a question `u` is off by.
+#[derive(Clone, Copy, Debug)]
+pub struct Errors {
+    pub exact: Dd,
+    /// In ulp of the exact time.
+    pub forward: f64,
+    /// In ulp of u.
+    pub backward: f64,
+}
+
+/// A curve with all that does not depend on `u` and `t`.
+#[derive(Clone, Debug)]
+pub struct Exact {
+    curve: Curve,
+    opening: Ramp,
+    closing: Ramp,
+    plateau: Dd,
+    area: Dd,
+}
+
+impl Exact {
+    pub fn new(curve: &Curve) -> Self {
+        let (opening, closing) = (Ramp::new(curve.opening), Ramp::new(curve.closing));
+        let plateau = Dd::from(curve.close_start()) - Dd::from(curve.open_end());
+        let area = opening.mass + plateau + closing.mass;
+        Self { curve: *curve, opening, closing, plateau, area }
+    }
+
+    pub fn dips(&self) -> bool {
+        !self.opening.turns.is_empty() || !self.closing.turns.is_empty()
+    }
+    pub fn curve(&self) -> &Curve {
+        &self.curve
+    }
+
+    /// Does rounding make the mass fall by a trace somewhere? Then a few times near have no single `u`.
+    pub fn grazes(&self) -> bool {
+        !self.opening.turns.is_empty() || !self.closing.turns.is_empty()
+    }
+
+    /// `∫ f dt`; on a shutter the exposure.
+    pub fn area(&self) -> Dd {
+        self.area
+    }
+
+    pub fn normalization(&self) -> Dd {
+        Dd::ONE / self.area
+    }
+
+    pub fn efficiency(&self) -> Dd {
+        self.area / (Dd::from(self.curve.close_end()) - Dd::from(self.curve.open_start()))
+    }
+
+    /// The exact time for `u`; as documented, `u` is clamped to [0, 1] and NaN counts as 0.
+    pub fn inverse_cdf(&self, u: f32) -> Dd {
+        self.inverse_cdf_dd(Dd::from(clamped(u)))
+    }
+
+    /// `u` in [0, 1].
+    ///
+    /// Where no time is the only right one (no density over a stretch, or the mass grazing downwards), it is
+    /// one of the right ones.
+    pub fn inverse_cdf_dd(&self, u: Dd) -> Dd {
+        let curve = &self.curve;
+        if u <= Dd::ZERO {
+            return Dd::from(curve.open_start());
+        }
+        if u >= Dd::ONE {
+            return Dd::from(curve.close_end());
+        }
+        // From the nearer end of the whole, through the sections that lie on the way.
+        let (side, part) = if u.hi <= 0.5 { (0, u) } else { (1, Dd::ONE - u) };
+        let ramps = [&self.opening, &self.closing];
+        let (near, far) = (ramps[side], ramps[1 - side]);
+        let mass = part * self.area;
+        let beyond = mass - near.mass;
+        if beyond < Dd::ZERO {
+            near.time(near.at_mass(side, mass))
+        } else if beyond <= self.plateau && self.plateau > Dd::ZERO {
+            Dd::from(near.ends[1 - side].time) + beyond.scale(near.ends[side].sign)
+        } else {
+            far.time(far.at_mass(side, beyond - self.plateau))
+        }
+    }
+
+    /// The fraction of the exposure collected by `t`; NaN counts as before the start.
+    pub fn cdf(&self, t: f32) -> Dd {
+        if t.is_nan() { Dd::ZERO } else { self.cdf_dd(Dd::from(t)) }
+    }
+
+    pub fn cdf_dd(&self, t: Dd) -> Dd {
+        self.masses(t)[0] / self.area
+    }
+
+    /// `1 - cdf`, relatively accurate at the later end.
+    pub fn complement_dd(&self, t: Dd) -> Dd {
+        self.masses(t)[1] / self.area
+    }
+
+    /// The mass before and after `t`.
+    fn masses(&self, t: Dd) -> [Dd; 2] {
+        let (curve, all) = (&self.curve, self.area);
+        if t <= Dd::from(curve.open_start()) {
+            [Dd::ZERO, all]
+        } else if t >= Dd::from(curve.close_end()) {
+            [all, Dd::ZERO]
+        } else if t < Dd::from(curve.open_end()) {
+            let spot = self.opening.at_time(t);
+            let before = self.opening.mass_from(0, spot);
+            let rest = self.opening.mass_from(1, spot);
+            [before, self.closing.mass + self.plateau + rest]
+        } else if t > Dd::from(curve.close_start()) {
+            let spot = self.closing.at_time(t);
+            let after = self.closing.mass_from(1, spot);
+            let begun = self.closing.mass_from(0, spot);
+            [self.opening.mass + self.plateau + begun, after]
+        } else {
+            let before = self.opening.mass + (t - Dd::from(curve.open_end()));
+            [before, self.closing.mass + (Dd::from(curve.close_start()) - t)]
+        }
+    }
+
+    /// The masses between which all count as collected by `t`: one number twice, but for grazing.
+    fn band(&self, t: Dd) -> [Dd; 2] {
+        let curve = &self.curve;
+        let (start, end) = (Dd::from(curve.open_start()), Dd::from(curve.close_end()));
+        if !self.opening.turns.is_empty() && t > start && t < Dd::from(curve.open_end()) {
+            self.opening.band(self.opening.at_time(t))
+        } else if !self.closing.turns.is_empty() && t < end && t > Dd::from(curve.close_start()) {
+            let begun = self.closing.band(self.closing.at_time(t));
+            begun.map(|mass| self.opening.mass + self.plateau + mass)
+        } else {
+            [self.masses(t)[0]; 2]
+        }
+    }
+
+    /// The openness at `t`: 0 outside the interval and for NaN.
+    pub fn openness(&self, t: f32) -> Dd {
+        if t.is_nan() { Dd::ZERO } else { self.openness_dd(Dd::from(t)) }
+    }
+
+    pub fn openness_dd(&self, t: Dd) -> Dd {
+        let curve = &self.curve;
+        let [start, open, close, end] =
+            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
+                .map(Dd::from);
+        if t < start || t > end {
+            Dd::ZERO
+        } else if t < open || (t == open && open == close && !self.opening.is_empty()) {
+            self.opening.openness(self.opening.at_time(t))
+        } else if t <= close && open < close {
+            Dd::ONE
+        } else {
+            self.closing.openness(self.closing.at_time(t))
+        }
+    }
+
+    pub fn pdf(&self, t: f32) -> Dd {
+        self.openness(t) / self.area
+    }
+
+    pub fn pdf_dd(&self, t: Dd) -> Dd {
+        self.openness_dd(t) / self.area
+    }
+
+    /// The forward and the backward error of the answer `t` to `u`.
+    pub fn judge(&self, u: f32, t: f32) -> Errors {
+        let exact = self.inverse_cdf(u);
+        let [low, high] = rounding_cell(t).map(Dd::from);
+        let rounds = exact >= low && exact <= high && self.is_inside(t);
+        let backward = if rounds { 0.0 } else { self.backward_ulp(u, t) };
+        Errors { exact, forward: self.forward_ulp(t, exact), backward }
+    }
+
+    fn is_inside(&self, t: f32) -> bool {
+        t >= self.curve.open_start() && t <= self.curve.close_end()
+    }
+
+    /// `|t - exact|` in ulp of the exact time, or of the greater end where the curve runs across time 0.
+    /// Infinite if `t` lies outside the interval or is NaN.
+    pub fn forward_ulp(&self, t: f32, exact: Dd) -> f64 {
+        if !self.is_inside(t) {
+            return f64::INFINITY;
+        }
+        (Dd::from(t) - exact).hi.abs() / self.ulp_of_time(exact)
+    }
+
+    pub fn ulp_of_time(&self, exact: Dd) -> f64 {
+        let (start, end) = (self.curve.open_start() as f64, self.curve.close_end() as f64);
+        ulp_f32(if start < 0.0 && end > 0.0 { end.max(-start) } else { exact.hi })
+    }
+
+    /// How many ulp `u` must move for `t` to be the right answer, once the rounding of the exact time
+    /// to `t` is forgiven. Infinite if `t` lies outside the interval or is NaN.
+    pub fn backward_ulp(&self, u: f32, t: f32) -> f64 {
+        if !self.is_inside(t) {
+            return f64::INFINITY;
+        }
+        let u = clamped(u);
+        let [low, high] = rounding_cell(t).map(Dd::from);
+        let target = Dd::from(u) * self.area;
+        let (least, most) = (self.band(low)[0], self.band(high)[1]);
+        let miss = (least - target).max(target - most).max(Dd::ZERO);
+        // Mass at the later end is a difference with the whole area, and so good to 2⁻¹⁰⁰ of it.
+        let miss = if miss.hi <= exp2(-100) * target.hi { Dd::ZERO } else { miss };
+        (miss / self.area).hi / ulp_f32(u as f64)
+    }
+
+    /// The error of a cdf of `got` at `t`, see [`value_ulp`].
+    pub fn cdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
+        value_ulp(got, t, |t| self.cdf_dd(t), floor)
+    }
+
+    /// The error of an openness of `got` at `t`, see [`value_ulp`].
+    pub fn openness_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
+        self.density_ulp(got, t, Dd::ONE, floor)
+    }
+
+    /// The error of a pdf of `got` at `t`, see [`value_ulp`].
+    pub fn pdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
+        self.density_ulp(got, t, self.normalization(), floor)
+    }
+
+    /// Where the curve grazes its bounds by rounding, the bound is as right as the curve.
+    fn density_ulp(&self, got: f32, t: f32, scale: Dd, floor: f64) -> f64 {
+        let most = if self.curve.is_shutter { Dd::ONE } else { Dd::from(f64::MAX) };
+        let raw = value_ulp(got, t, |t| self.openness_dd(t) * scale, floor);
+        if raw == 0.0 {
+            return raw;
+        }
+        let bounded = |t| self.openness_dd(t).max(Dd::ZERO).min(most) * scale;
+        raw.min(value_ulp(got, t, bounded, floor))
+    }
+
+    /// The u at which something changes: the sections' boundaries, and where the density or t' has an
+    /// interior minimum or maximum.
+    pub fn landmarks(&self) -> Vec<Dd> {
+        let mut masses = vec![self.opening.mass, self.opening.mass + self.plateau];
+        let ramps = [(&self.opening, Dd::ZERO), (&self.closing, masses[1])];
+        for (ramp, before) in ramps {
+            for p in ramp.flat_points() {
+                masses.push(before + ramp.mass_from(0, ramp.spot(p)));
+            }
+        }
+        masses.into_iter().map(|mass| mass / self.area).collect()
+    }
+}
+
+fn clamped(u: f32) -> f32 {
+    if u > 0.0 { u.min(1.0) } else { 0.0 }
+}
+
+/// The spacing of `f32` at the magnitude of `x`; below the normal numbers it is that of the subnormal.
+pub fn ulp_f32(x: f64) -> f64 {
+    let exponent = ((x.to_bits() >> 52) & 0x7FF) as i32 - 1023;
+    exp2(exponent.max(-126) - 23)
+}
+
+/// The closed interval of what rounds to `t`: from the middle to its lower neighbour to the middle to
+/// its upper one.
+pub fn rounding_cell(t: f32) -> [f64; 2] {
+    [t.next_down(), t.next_up()].map(|neighbour| 0.5 * (neighbour as f64 + t as f64))
+}
+
+/// The least error of `got`, in ulp, against `g` at some time within 1 ulp of `t`.
+///
+/// A function without a jump takes every value between two of its own, so all between the least and the
+/// greatest of five samples is right. `floor` bounds the ulp from below: it is that of values from `floor` on.
+/// Infinite if `got` is no number.
+pub fn value_ulp(got: f32, t: f32, g: impl Fn(Dd) -> Dd, floor: f64) -> f64 {
+    let (center, ulp, got) = (Dd::from(t), ulp_f32(t as f64), got as f64);
+    let ulp_of = |value: f64| ulp_f32(value.abs().max(floor));
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    // From the middle outwards: most answers are settled after few samples.
+    for offset in [0.0, -1.0, 1.0, -0.5, 0.5] {
+        let value = g(center + Dd::from(offset * ulp)).hi;
+        range = [range[0].min(value), range[1].max(value)];
+        if got >= range[0] && got <= range[1] {
+            return 0.0;
+        }
+    }
+    if !got.is_finite() {
+        f64::INFINITY
+    } else if got < range[0] {
+        (range[0] - got) / ulp_of(range[0])
+    } else {
+        (got - range[1]) / ulp_of(range[1])
+    }
+}

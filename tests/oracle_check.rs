@@ -1,0 +1,238 @@
+//! Holds the oracle against values from elsewhere, against closed forms and against itself.
+
+mod oracle;
+
+use oracle::curves::{
+    Kind, Rng, hard_us, is_valid, named, random_hard, random_single, random_typical,
+};
+use oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32, value_ulp};
+
+/// `|a - b|` relative to `scale`.
+fn relative(a: Dd, b: Dd, scale: Dd) -> f64 {
+    if a == b { 0.0 } else { ((a - b) / scale).hi.abs() }
+}
+
+#[test]
+fn the_reference_values_are_met() {
+    let curves: Vec<_> = named().into_iter().map(|c| (c.name, Exact::new(&c.curve))).collect();
+    let (mut rows, mut worst, mut worst_pdf) = (0, 0f64, 0f64);
+    for line in include_str!("data/inverse_cdf.csv").lines().skip(1) {
+        let mut cells = line.split(',');
+        let name = cells.next().unwrap();
+        let u: f32 = cells.next().unwrap().parse().unwrap();
+        let [t, t_low, pdf] = [(); 3].map(|_| cells.next().unwrap().parse::<f64>().unwrap());
+        let (_, exact) = curves.iter().find(|c| c.0 == name).expect("a curve of curves.csv");
+        let time = exact.inverse_cdf(u);
+        let off = (time - (Dd::from(t) + Dd::from(t_low))).hi.abs() / ulp_f32(t);
+        assert!(off < 1e-9, "{name}: u = {u:e}, t is {off:e} ulp off");
+        let density = exact.pdf_dd(time).hi;
+        let off_pdf = if pdf == density { 0.0 } else { (density / pdf - 1.0).abs() };
+        assert!(off_pdf < 1e-9, "{name}: u = {u:e}, pdf {density:e} for {pdf:e}");
+        (rows, worst, worst_pdf) = (rows + 1, worst.max(off), worst_pdf.max(off_pdf));
+    }
+    println!("{rows} values: t within {worst:.1e} ulp of f32, pdf within {worst_pdf:.1e}");
+    assert_eq!(rows, 4445);
+}
+
+#[test]
+fn the_named_curves_are_all_there() {
+    let curves = named();
+    let count = |kind| curves.iter().filter(|c| c.kind == kind).count();
+    assert_eq!((count(Kind::Typical), count(Kind::Hard)), (15, 21));
+    for curve in &curves {
+        assert!(is_valid(&curve.curve), "{}", curve.name);
+    }
+}
+
+/// Openness `t / 4` up to 3, 1 up to 5, then falling in the same way up to 8: the inverse is a root.
+#[test]
+fn linear_ramps_have_a_closed_form() {
+    let exact = Exact::new(&Curve::shutter(
+        [(0.0, 0.0), (1.0, 0.25), (2.0, 0.5), (3.0, 0.75)],
+        [(5.0, 0.75), (6.0, 0.5), (7.0, 0.25), (8.0, 0.0)],
+    ));
+    assert_eq!(exact.area(), Dd::from(4.25));
+    assert_eq!(exact.efficiency(), Dd::from(0.53125));
+    let mut sections = [0; 3];
+    for u in hard_us(&exact, 1, 4000) {
+        let (part, rest) = (Dd::from(u), Dd::ONE - Dd::from(u));
+        let ramp = Dd::from(1.125) / exact.area();
+        let (time, section) = if part < ramp {
+            ((part * 34.0).sqrt(), 0)
+        } else if rest < ramp {
+            (Dd::from(8.0) - (rest * 34.0).sqrt(), 2)
+        } else {
+            (part * exact.area() + Dd::from(1.875), 1)
+        };
+        let found = exact.inverse_cdf(u);
+        assert!(relative(found, time, time) < 1e-29, "u = {u:e}: {found:?} for {time:?}");
+        assert!(relative(exact.cdf_dd(time), part, part) < 1e-29, "u = {u:e}");
+        sections[section] += 1;
+    }
+    assert!(sections.iter().all(|n| *n > 100), "{sections:?}");
+}
+
+/// Openness as a power of time, along paths of order 1 to 6.
+#[test]
+fn powers_have_a_closed_form() {
+    // t = 3p, f = p³: u = (t/3)⁴.
+    let quartic = Exact::new(&Curve::single([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0)]));
+    // t = p³, f = p³ in some scale: u = t².
+    let square = Exact::new(&Curve::single([(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (1.0, 1e30)]));
+    // t = 3p² - 2p³, f = 1, from an offset: u = (t - 7) / 2.
+    let even = Exact::new(&Curve::single([(7.0, 1.0), (7.0, 1.0), (9.0, 1.0), (9.0, 1.0)]));
+    for u in hard_us(&quartic, 2, 4000) {
+        let part = Dd::from(u);
+        for (exact, time) in [
+            (&quartic, part.sqrt().sqrt() * 3.0),
+            (&square, part.sqrt()),
+            (&even, part * 2.0 + Dd::from(7.0)),
+        ] {
+            let found = exact.inverse_cdf(u);
+            let off = relative(found, time, time);
+            assert!(off < 1e-29, "u = {u:e}: {found:?} for {time:?}");
+        }
+    }
+}
+
+/// The cdf just before and just after the time must enclose u: a test with no condition number in it.
+#[test]
+fn the_cdf_undoes_its_inverse() {
+    let (mut tight, mut grazing) = (0u32, 0u32);
+    let hard = (0..2000).map(|i| random_hard(1, i));
+    for (i, curve) in hard.chain((0..500).map(|i| random_single(1, i))).enumerate() {
+        let exact = Exact::new(&curve);
+        for u in hard_us(&exact, i as u64, 32) {
+            let (time, part) = (exact.inverse_cdf(u), Dd::from(u));
+            if u == 0.0 || u == 1.0 {
+                let end = if u == 0.0 { curve.open_start() } else { curve.close_end() };
+                assert_eq!(time, Dd::from(end));
+                continue;
+            }
+            // A double-double holds a time of this size no better than so.
+            let step = Dd::from(time.hi.abs() * exp2(-104));
+            let (low, high) = (exact.cdf_dd(time - step), exact.cdf_dd(time + step));
+            // Relative to the nearer end. Where the mass grazes downwards there are several times.
+            let slack = if exact.grazes() { exp2(-30) } else { 1e-20 * u.min(1.0 - u) as f64 };
+            let (low, high) = ((low - part).hi, (part - high).hi);
+            assert!(low <= slack && high <= slack, "u = {u:e}, {low:e} {high:e}: {curve:?}");
+            *(if exact.grazes() { &mut grazing } else { &mut tight }) += 1;
+        }
+    }
+    println!("cdf of inverse_cdf: {tight} within 1e-20, {grazing} on curves that graze");
+    assert!(tight > 1_000_000 && grazing > 10_000);
+}
+
+#[test]
+fn a_mirrored_or_scaled_curve_gives_mirrored_or_scaled_times() {
+    for i in 0..500 {
+        let curve = random_hard(2, i);
+        let exact = Exact::new(&curve);
+        if exact.grazes() {
+            continue;
+        }
+        let (mirrored, scaled) =
+            (Exact::new(&curve.mirrored()), Exact::new(&curve.scaled(exp2(-3) as f32)));
+        for u in hard_us(&exact, i, 32) {
+            let time = exact.inverse_cdf(u);
+            assert_eq!(scaled.inverse_cdf(u), time.scale(exp2(-3)));
+            let rest = Dd::ONE - Dd::from(u);
+            let back = mirrored.inverse_cdf_dd(rest);
+            let ulp = exact.ulp_of_time(time);
+            assert!((time + back).hi.abs() < 1e-3 * ulp, "u = {u:e}, {time:?} {back:?}: {curve:?}");
+            let both = exact.cdf_dd(time) - mirrored.complement_dd(-time);
+            assert!(both.hi.abs() <= 1e-25 * exact.cdf_dd(time).hi, "u = {u:e}: {curve:?}");
+        }
+    }
+}
+
+#[test]
+fn errors_are_measured_in_ulp() {
+    assert_eq!(ulp_f32(1.0), exp2(-23));
+    assert_eq!(ulp_f32(0.999), exp2(-24));
+    assert_eq!(ulp_f32(-6.0), exp2(-21));
+    assert_eq!([ulp_f32(0.0), ulp_f32(1e-300), ulp_f32(1e-40)], [exp2(-149); 3]);
+    assert_eq!(rounding_cell(1.0), [1.0 - exp2(-25), 1.0 + exp2(-24)]);
+    assert_eq!(rounding_cell(0.0), [-exp2(-150), exp2(-150)]);
+    // Halfway between two f32 the low part decides.
+    let half = 1.0 + exp2(-24);
+    for (lo, rounded) in [(-1e-30, 1.0), (0.0, 1.0), (1e-30, 1.0 + f32::EPSILON)] {
+        assert_eq!(Dd { hi: half, lo }.to_f32(), rounded);
+    }
+
+    // A box from 0 to 1, where t = u.
+    let start = [(0.0, 0.0), (0.0, 0.0), (0.0, 1.0), (0.0, 1.0)];
+    let exact = Exact::new(&Curve::shutter(start, start.map(|(t, f)| (t + 1.0, 1.0 - f))));
+    let judge = |u, t| [exact.judge(u, t).forward, exact.judge(u, t).backward];
+    assert_eq!(judge(0.75, 0.75), [0.0, 0.0]);
+    assert_eq!(judge(0.75, 0.75f32.next_up()), [1.0, 0.5]);
+    assert_eq!(judge(0.75, 0.75f32.next_down().next_down()), [2.0, 1.5]);
+    assert_eq!(judge(1e-40, 1e-40f32.next_up()), [1.0, 0.5]);
+    assert_eq!(judge(f32::NAN, 0.0), [0.0, 0.0]);
+    assert_eq!(judge(7.0, 1.0), [0.0, 0.0]);
+    for bad in [f32::NAN, f32::INFINITY, 1f32.next_up(), -1e-45] {
+        assert_eq!(judge(0.5, bad), [f64::INFINITY; 2]);
+    }
+    // Across time 0, ulp are those of the greater end.
+    let across = Exact::new(&Curve::single([(-1.0, 1.0), (-0.5, 1.0), (0.5, 1.0), (1.0, 1.0)]));
+    assert_eq!(across.judge(0.5, exp2(-24) as f32).forward, 0.5);
+    // ... but backward they are not: there the rounding of the answer itself is forgiven, and no more.
+    assert_eq!(across.judge(0.5, exp2(-40) as f32).backward, exp2(-17) * (1.0 - exp2(-25)));
+
+    // A value is right if it is within reach of 1 ulp of t.
+    let twice = |t: Dd| t * 2.0;
+    assert_eq!(value_ulp(2.0 + 2.0 * f32::EPSILON, 1.0, twice, 0.0), 0.0);
+    assert_eq!(value_ulp(2.0 + 4.0 * f32::EPSILON, 1.0, twice, 0.0), 1.0);
+    assert_eq!(value_ulp(2.0 - 4.0 * f32::EPSILON, 1.0, twice, 0.0), 2.0);
+    assert_eq!(value_ulp(2.0 - 4.0 * f32::EPSILON, 1.0, twice, 2.0), 1.0);
+    assert_eq!(value_ulp(f32::NAN, 1.0, twice, 0.0), f64::INFINITY);
+    assert_eq!([exact.openness_ulp(1.0, 0.5, 0.0), exact.openness_ulp(0.0, 2.0, 0.0)], [0.0; 2]);
+    assert_eq!(exact.openness_ulp(1f32.next_down(), 0.5, 0.0), 0.5);
+    assert_eq!(exact.cdf_ulp(0.5, 0.5, 0.0), 0.0);
+}
+
+/// The random curves are valid, the same every time, and do hold what they are there for.
+#[test]
+fn the_random_curves_are_as_nasty_as_meant() {
+    const N: u64 = 4000;
+    fn ramp(c: &Curve) -> f32 {
+        c.open_end() - c.open_start()
+    }
+    fn whole(c: &Curve) -> f32 {
+        c.close_end() - c.open_start()
+    }
+    type Feature = (&'static str, fn(&Curve) -> bool, u64);
+    let features: [Feature; 16] = [
+        ("zero-length opening", |c| ramp(c) == 0.0, 100),
+        ("zero-length plateau", |c| c.open_end() == c.close_start(), 500),
+        ("order 3 of t", |c| c.opening[2].0 == c.open_start() && ramp(c) > 0.0, 100),
+        ("order 3 of f", |c| c.opening[2].1 == 0.0 && c.opening[1].1 == 0.0, 100),
+        ("control times outside", |c| c.opening[1].0 > c.open_end(), 50),
+        ("negative control openness", |c| c.closing.iter().any(|p| p.1 < 0.0), 100),
+        ("control openness above 1", |c| c.closing.iter().any(|p| p.1 > 1.0), 100),
+        ("a jump at the start", |c| c.opening[0].1 > 0.0, 500),
+        ("a jump before the plateau", |c| c.opening[3].1 < 1.0, 500),
+        ("dark at the inner end", |c| c.opening[3].1 == 0.0 && c.opening[2].1 == 0.0, 100),
+        ("area in one ramp only", |c| c.opening.iter().all(|p| p.1 == 0.0), 10),
+        ("across time 0", |c| c.open_start() < 0.0 && c.close_end() > 0.0, 200),
+        ("far from time 0", |c| c.open_start().abs() > 1e3 * whole(c), 100),
+        ("huge and tiny times", |c| !(1e-12..1e12).contains(&c.close_end().abs()), 200),
+        ("a tiny ramp", |c| ramp(c) < 1e-3 * whole(c), 500),
+        ("grazing by rounding", |c| Exact::new(c).grazes(), 100),
+    ];
+    let mut seen = [0; 16];
+    for i in 0..N {
+        let curve = random_hard(7, i);
+        assert!(is_valid(&curve) && curve == random_hard(7, i));
+        for ((_, has, _), seen) in features.iter().zip(&mut seen) {
+            *seen += has(&curve) as u64;
+        }
+        assert!(is_valid(&random_single(7, i)) && is_valid(&random_typical(7, i)));
+    }
+    for ((name, _, least), seen) in features.iter().zip(seen) {
+        println!("{seen:5} of {N}: {name}");
+        assert!(seen >= *least, "{name}: only {seen}");
+    }
+    assert_ne!(random_hard(7, 0), random_hard(8, 0));
+    assert_ne!(Rng::new(0, 1).bits(), Rng::new(1, 0).bits());
+}
