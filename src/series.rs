@@ -82,7 +82,8 @@ pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
 impl<const N: usize> Scaled<N> {
     const fn new(c: &Series<N>, shift: i32) -> Self {
         const BIAS: i32 = 1075 + 7;
-        let mut unit = i32::MIN;
+        // Below any exponent that a coefficient of a curve in range has.
+        let mut unit = -10_000;
         let mut k = 0;
         while k < N {
             let exponent = ((c[k].to_bits() >> 52) & 0x7FF) as i32;

@@ -114,7 +114,7 @@ impl Wide {
         self.e > other.e || (self.e == other.e && self.m > other.m)
     }
 
-    /// `base + self`, or `base - self` where `back`, rounded once (but for a tie missed by 2⁻²⁴ ulp).
+    /// `base + self`, or `base - self` where `back`, rounded once.
     #[inline]
     pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
         let e = self.e + 63;
@@ -133,6 +133,19 @@ impl Wide {
         let near = base + high;
         let part = near - base;
         let lost = (base - (near - part)) + (high - part);
-        near + (lost + low)
+        near + odd_sum(lost, low)
     }
+}
+
+/// `a + b` rounded to odd: where it is inexact, the last bit is set, so that rounding it again can't take it
+/// for a tie that it only came near to.
+const fn odd_sum(a: f32, b: f32) -> f32 {
+    let near = a + b;
+    let part = near - a;
+    let lost = (a - (near - part)) + (b - part);
+    if lost == 0.0 {
+        return near;
+    }
+    let beyond = (lost > 0.0) == (near > 0.0);
+    f32::from_bits((near.to_bits() - !beyond as u32) | 1)
 }
