@@ -84,7 +84,11 @@ impl CubicBezier {
     pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
         let t = self.times();
         let slope = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
-        if quadratic_min(slope) < -GRAZE / 3.0 * (t[3] - t[0]) {
+        // Grazing is for the inside: before its start or after its end there is no ramp.
+        let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
+        let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
+        let leaves = first < -slack || last > t[3] - t[0] + slack;
+        if leaves || quadratic_min(slope) < -GRAZE / 3.0 * (t[3] - t[0]) {
             return Err(CurveError::TimeTurnsBack(ramp));
         }
         let (low, high) = cubic_range(self.opennesses());

@@ -71,15 +71,17 @@ impl Octave {
         self.middle.wrapping_add(self.factor as i64 * self.rest(x) as i64)
     }
 
-    /// `P(x)`
+    /// `P(x)`, written out, for firmware is built for size, and that would keep it a loop.
     #[inline(always)]
     const fn rest(&self, x: i32) -> i32 {
-        let mut value = self.c[DEGREE - 1];
-        let mut k = DEGREE - 1;
-        while k > 0 {
-            k -= 1;
-            value = times_high(value, x).wrapping_add(self.c[k]);
-        }
+        let [c1, c2, c3, c4, c5, c6, c7, c8] = self.c;
+        let value = times_high(c8, x).wrapping_add(c7);
+        let value = times_high(value, x).wrapping_add(c6);
+        let value = times_high(value, x).wrapping_add(c5);
+        let value = times_high(value, x).wrapping_add(c4);
+        let value = times_high(value, x).wrapping_add(c3);
+        let value = times_high(value, x).wrapping_add(c2);
+        let value = times_high(value, x).wrapping_add(c1);
         times_high(value, x)
     }
 

@@ -15,6 +15,8 @@ pub(crate) struct Profile<const CELLS: usize> {
     ramps: [Segment; 2],
     /// `A`, the whole mass.
     pub(crate) area: f64,
+    /// The plateau's length, which is its mass: the openness there is 1.
+    plateau_mass: f64,
     /// The significand of `K = 1/A`, its top bit set.
     reciprocal: u32,
     /// A power of two in which the curve's times count at most 2⁶¹.
@@ -115,7 +117,8 @@ impl<const CELLS: usize> Profile<CELLS> {
             return Err(error);
         }
         let ramps = [Segment::new(opening), Segment::new(closing)];
-        let area = (ramps[0].mass + ramps[1].mass) + (s[0] - t[3]);
+        let plateau_mass = s[0] - t[3];
+        let area = (ramps[0].mass + ramps[1].mass) + plateau_mass;
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
@@ -135,7 +138,8 @@ impl<const CELLS: usize> Profile<CELLS> {
         let end = in_units(closing.points()[0].0, exponent) + last.in_units(exponent);
         let slope = end - base;
         let plateau = [0; 2];
-        let mut profile = Self { ramps, area, reciprocal, unit, base, slope, plateau, octaves };
+        let mut profile =
+            Self { ramps, area, plateau_mass, reciprocal, unit, base, slope, plateau, octaves };
         let [from, to] = profile.bounds(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
         profile.plateau = [if from < FINE { FINE } else { from }, to];
@@ -150,9 +154,8 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The fraction `a` at which the first ramp ends, and at which the plateau ends.
     pub(crate) const fn bounds(&self, side: usize) -> [f64; 2] {
-        let first = self.ramps[side].mass;
-        let plateau = self.close_start() as f64 - self.open_end() as f64;
-        [first / self.area, (first + plateau) / self.area]
+        let first = self.ramp(side).mass;
+        [first / self.area, (first + self.plateau_mass) / self.area]
     }
 
     pub(crate) const fn open_start(&self) -> f32 {
@@ -176,11 +179,6 @@ impl<const CELLS: usize> Profile<CELLS> {
         1.0 / self.area
     }
 
-    /// The plateau's length, which is its mass: the openness there is 1.
-    const fn plateau_mass(&self) -> Wide {
-        Wide::between(self.open_end(), self.close_start())
-    }
-
     /// The exponent of the unit of time.
     pub(crate) const fn unit(&self) -> i32 {
         (self.unit.to_bits() >> 23) as i32 - 127
@@ -191,20 +189,25 @@ impl<const CELLS: usize> Profile<CELLS> {
         in_units(self.start(side), self.unit())
     }
 
+    /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
+    const fn ramp(&self, index: usize) -> &Segment {
+        &self.ramps[index & 1]
+    }
+
     /// The time from which this side counts.
     const fn start(&self, side: usize) -> f32 {
-        self.ramps[side].ends[side].time
+        self.ramp(side).end(side).time
     }
 
     /// The section in which the fraction `a` is reached, seen from a side.
     const fn section(&self, side: usize, a: Wide) -> Section {
         let mass = a.times(Wide::from_f64(self.area));
-        let first = Wide::from_f64(self.ramps[side].mass);
+        let first = Wide::from_f64(self.ramp(side).mass);
         if first.exceeds(mass) {
             return Section::Ramp(side, mass);
         }
         let beyond = mass.minus(first);
-        let plateau = self.plateau_mass();
+        let plateau = Wide::from_f64(self.plateau_mass);
         if !beyond.exceeds(plateau) && !plateau.is_zero() {
             return Section::Plateau(self.on_plateau(side, beyond));
         }
@@ -212,7 +215,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     const fn on_plateau(&self, side: usize, elapsed: Wide) -> Place {
-        let time = self.ramps[side].ends[1 - side].time;
+        let time = self.ramp(side).end(1 - side).time;
         Place { time, back: side == 1, elapsed, evaluations: 0 }
     }
 
@@ -220,7 +223,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     fn exact(&self, side: usize, a: Wide) -> Place {
         match self.section(side, a) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramps[ramp].at_mass(side, mass),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass),
         }
     }
 
@@ -228,7 +231,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) const fn elapsed(&self, side: usize, a: Wide) -> f64 {
         let place = match self.section(side, a) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramps[ramp].at_mass_const(side, mass),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
         };
         let elapsed = place.elapsed.to_f64();
         let way = if side == 0 {
@@ -275,7 +278,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     fn in_octave(&self, side: usize, a: u32, x: i32) -> Option<i64> {
         let index = (0.25f32.to_bits() >> 23).wrapping_sub(a >> 23) as usize;
         if index < CELLS {
-            let octave = &self.octaves[side][index];
+            let octave = &self.octaves[side & 1][index];
             if a.wrapping_sub(octave.from) < octave.length {
                 return Some(octave.time(x));
             }
@@ -445,7 +448,9 @@ impl<const CELLS: usize> Profile<CELLS> {
             At::Opening(on) if on.from == 0 => on.mass(),
             At::Opening(on) => first().minus(on.mass()),
             At::Plateau => first().plus(Wide::between(self.open_end(), t)),
-            At::Closing(on) if on.from == 0 => first().plus(self.plateau_mass()).plus(on.mass()),
+            At::Closing(on) if on.from == 0 => {
+                first().plus(Wide::from_f64(self.plateau_mass)).plus(on.mass())
+            }
             At::Closing(on) => Wide::from_f64(self.area).minus(on.mass()),
         };
         if t == self.close_end() { 1.0 } else { self.normalized(mass) }

@@ -105,25 +105,31 @@ impl Segment {
         Self { ends, mass: if mass > 0.0 { mass } else { 0.0 } }
     }
 
+    /// An end by its index, which is 0 or 1.
+    pub(crate) const fn end(&self, index: usize) -> &End {
+        &self.ends[index & 1]
+    }
+
     /// The same mass counted from the end that has less of it, where the series is steepest and the
     /// seed best; with the end's index.
     pub(crate) const fn nearer(&self, from: usize, mass: Wide) -> (usize, Wide) {
-        let rest = Wide::from_f64(self.mass).minus(mass);
-        if mass.exceeds(rest) { (1 - from, rest) } else { (from, mass) }
+        let all = Wide::from_f64(self.mass);
+        let half = Wide { m: all.m, e: all.e - 1 };
+        if mass.exceeds(half) { (1 - from, all.minus(mass)) } else { (from, mass) }
     }
 
     /// The place where `mass` has been collected, counted from end `from`.
     #[inline]
     pub(crate) fn at_mass(&self, from: usize, mass: Wide) -> Place {
         let (from, mass) = self.nearer(from, mass);
-        let end = &self.ends[from];
+        let end = self.end(from);
         end.at_mass(from, mass, seed(&end.mass, mass))
     }
 
     /// The same, seeded as a constant can.
     pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide) -> Place {
         let (from, mass) = self.nearer(from, mass);
-        let end = &self.ends[from];
+        let end = self.end(from);
         end.at_mass(from, mass, seed_by_bits(&end.mass, mass))
     }
 
@@ -133,7 +139,7 @@ impl Segment {
         let before = Wide::between(self.ends[0].time, t);
         let after = Wide::between(t, self.ends[1].time);
         let (from, elapsed) = if before.exceeds(after) { (1, after) } else { (0, before) };
-        let end = &self.ends[from];
+        let end = self.end(from);
         let root = if elapsed.is_zero() {
             Root::START
         } else {

@@ -36,6 +36,13 @@ struct Leading {
     divisor: i32,
 }
 
+/// `x / k` for `k` up to 6, near enough, without a division that could fail.
+const fn divided(x: i32, k: i32) -> i32 {
+    const RECIPROCALS: [i32; 8] =
+        [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
+    ((x as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 30) as i32
+}
+
 const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
     let log = rough_log(target);
     let mut best = Leading { k: 1, coefficient: 1.0, target: log, divisor: 0 };
@@ -46,7 +53,7 @@ const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
         if high > 0 {
             let divisor = high - 1023 * ONE;
             let k = i as i32 + 1;
-            let root = (log - divisor) / k;
+            let root = divided(log - divisor, k);
             if root < least {
                 least = root;
                 best = Leading { k, coefficient: c[i], target: log, divisor };
@@ -71,7 +78,7 @@ const fn seed_at(exponent: i32, fraction: i32) -> Seed {
 pub(crate) const fn seed_by_bits<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
     let l = leading(c, target);
     let ratio = (l.target + curvature(l.target)) - (l.divisor + curvature(l.divisor));
-    let root = ratio / l.k;
+    let root = divided(ratio, l.k);
     seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
 }
 

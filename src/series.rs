@@ -43,9 +43,9 @@ const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes.
 pub const MAX_EVALUATIONS: u32 = NEWTON + BISECTION;
 
-/// A search may stop where the residual is below this share of the target, 2⁻³⁰: a 64th of the
+/// A search may stop where the residual is below this share of the target, 2⁻²⁷: an eighth of the least
 /// distance between neighbouring `f32`, which is what the target came from.
-const ENOUGH: u32 = 30;
+const ENOUGH: u32 = 27;
 
 /// A series made ready for evaluation near `2^-shift`.
 struct Scaled<const N: usize> {
@@ -79,14 +79,23 @@ pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
     ((a as i64 * x as i64) >> 32) as i32
 }
 
+/// The 53 bits of a `f64`, moved up to fill 60 and down again by `down`, with its sign; out of line, for
+/// the loop that calls it gets unrolled.
+#[inline(never)]
+const fn significand(bits: u64, down: u32) -> i64 {
+    let m = (((bits << 11 | 1 << 63) >> 4) >> (down & 63)) as i64;
+    if (bits as i64) < 0 { -m } else { m }
+}
+
 impl<const N: usize> Scaled<N> {
+    #[inline(never)]
     const fn new(c: &Series<N>, shift: i32) -> Self {
-        const BIAS: i32 = 1075 + 7;
+        const EXPONENT: i32 = 0x7FF;
         // Below any exponent that a coefficient of a curve in range has.
         let mut unit = -10_000;
         let mut k = 0;
         while k < N {
-            let exponent = ((c[k].to_bits() >> 52) & 0x7FF) as i32;
+            let exponent = (c[k].to_bits() >> 52) as i32 & EXPONENT;
             let e = exponent - (k as i32 + 1) * shift;
             if exponent != 0 && e > unit {
                 unit = e;
@@ -97,16 +106,14 @@ impl<const N: usize> Scaled<N> {
         k = 0;
         while k < N {
             let bits = c[k].to_bits();
-            let exponent = ((bits >> 52) & 0x7FF) as i32;
-            let down = (unit - (exponent - (k as i32 + 1) * shift)) as u32;
+            let exponent = (bits >> 52) as i32 & EXPONENT;
+            let down = (unit - exponent + (k as i32 + 1) * shift) as u32;
             if exponent != 0 && down < 60 {
-                // The significand's 53 bits, moved up to fill 60.
-                let m = (((bits << 11 | 1 << 63) >> 4) >> down) as i64;
-                scaled[k] = if (bits as i64) < 0 { -m } else { m };
+                scaled[k] = significand(bits, down);
             }
             k += 1;
         }
-        Self { c: scaled, unit: unit - BIAS }
+        Self { c: scaled, unit: unit - (1075 + 7) }
     }
 
     /// Horner's rule, and with it, in 32 bits, the derivatives.
@@ -233,7 +240,7 @@ impl Root {
     pub(crate) const fn value<const N: usize>(&self, c: &Series<N>) -> (Wide, bool) {
         let scaled = Scaled::new(c, self.shift);
         let local = scaled.at(self.x);
-        let value = local.value + (local.slope as f32 * self.rest) as i64;
+        let value = local.value + (local.slope as f32 * self.rest) as i32 as i64;
         (Wide::new(value.unsigned_abs(), scaled.unit), value < 0)
     }
 }

@@ -3,6 +3,8 @@
 //! The microcontrollers this crate is for multiply 32 by 32 bits to 64 in one cycle but have no unit
 //! for doubles, so what `f32` cannot carry is carried here: exact to 2⁻⁶², and the same bits on
 //! every machine.
+//!
+//! What is not in the direct way is kept out of line: it is rare, and flash is small.
 
 /// `m · 2^e`, where `m` is 0 or has its top bit set.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +45,7 @@ impl Wide {
     }
 
     /// `|a - b|` of two finite numbers.
+    #[inline(never)]
     pub(crate) const fn between(a: f32, b: f32) -> Self {
         let (x, y) = (Self::from_f32(a), Self::from_f32(b));
         if (a < 0.0) != (b < 0.0) {
@@ -74,19 +77,21 @@ impl Wide {
     }
 
     /// `self · other`, to 2⁻⁶².
+    #[inline(never)]
     pub(crate) const fn times(self, other: Self) -> Self {
         let (ah, al) = (self.m >> 32, self.m & 0xFFFF_FFFF);
         let (bh, bl) = (other.m >> 32, other.m & 0xFFFF_FFFF);
         let m = ah * bh + ((ah * bl) >> 32) + ((al * bh) >> 32);
-        // A product of two normalised significands is at most one bit short.
-        if m >> 63 != 0 || m == 0 {
-            Self { m, e: self.e + other.e + 64 }
-        } else {
-            Self { m: m << 1, e: self.e + other.e + 63 }
+        // Of two normalised significands it is at most one bit short.
+        let short = (m >> 63 == 0) as u32;
+        if m == 0 {
+            return Self::ZERO;
         }
+        Self { m: m << short, e: self.e + other.e + 64 - short as i32 }
     }
 
     /// `self + other`, to 2⁻⁶².
+    #[inline(never)]
     pub(crate) const fn plus(self, other: Self) -> Self {
         let (big, small) = if self.exceeds(other) { (self, other) } else { (other, self) };
         if small.is_zero() {
@@ -97,6 +102,7 @@ impl Wide {
     }
 
     /// `self - other`, or 0 where `other` is the greater.
+    #[inline(never)]
     pub(crate) const fn minus(self, other: Self) -> Self {
         if !self.exceeds(other) {
             return Self::ZERO;
