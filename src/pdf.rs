@@ -57,7 +57,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
 
     /// The normalised density at `t`; 0 outside the curve and for NaN.
     pub fn pdf(&self, t: f32) -> f32 {
-        self.profile.pdf(self.profile.openness(t))
+        self.profile.normalized(self.profile.openness(t))
     }
 
     /// The fraction of the area before `t`: 0 before the curve and for NaN, 1 after.

@@ -133,10 +133,12 @@ impl<const CELLS: usize> Profile<CELLS> {
         let (from, to) = (t[0].abs(), s[3].abs());
         let exponent = ((if from > to { from } else { to }).to_bits() >> 52) as i32 - 1023 - 60;
         let unit = f32::from_bits(((exponent + 127) as u32) << 23);
-        let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
-        let base = in_units(opening.points()[3].0, exponent) - first.in_units(exponent);
-        let end = in_units(closing.points()[0].0, exponent) + last.in_units(exponent);
-        let slope = end - base;
+        let (mut base, mut slope) = (0, 0);
+        if plateau_mass > 0.0 {
+            let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
+            base = in_units(opening.points()[3].0, exponent) - first.in_units(exponent);
+            slope = in_units(closing.points()[0].0, exponent) + last.in_units(exponent) - base;
+        }
         let plateau = [0; 2];
         let mut profile =
             Self { ramps, area, plateau_mass, reciprocal, unit, base, slope, plateau, octaves };
@@ -424,19 +426,12 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The openness at `t`, at least 0.
     #[inline]
-    pub(crate) fn openness(&self, t: f32) -> f32 {
-        let f = match self.at(t) {
-            At::Outside => 0.0,
-            At::Plateau => 1.0,
+    pub(crate) fn openness(&self, t: f32) -> Wide {
+        match self.at(t) {
+            At::Outside => Wide::ZERO,
+            At::Plateau => Wide::ONE,
             At::Opening(on) | At::Closing(on) => on.openness(),
-        };
-        if f > 0.0 { f } else { 0.0 }
-    }
-
-    /// `K · openness`
-    #[inline]
-    pub(crate) fn pdf(&self, openness: f32) -> f32 {
-        self.normalized(Wide::from_f32(openness))
+        }
     }
 
     /// The fraction of the mass collected by `t`.
@@ -457,8 +452,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     /// `K x`, at most a rounding above 1 for a mass.
-    #[inline]
-    fn normalized(&self, x: Wide) -> f32 {
+    pub(crate) fn normalized(&self, x: Wide) -> f32 {
         let a = Wide::from_f64(self.area);
         // With A = s 2^n, s in [1, 2), K is 2/s 2^(-n - 1), or 2^-n.
         let e = if a.m == 1 << 63 { -126 } else { -127 } - a.e;

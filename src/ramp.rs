@@ -157,11 +157,18 @@ pub(crate) struct OnRamp<'a> {
 }
 
 impl OnRamp<'_> {
-    /// The openness.
+    /// The openness, at least 0.
     #[inline]
-    pub(crate) fn openness(&self) -> f32 {
+    pub(crate) fn openness(&self) -> Wide {
         let (gained, negative) = self.root.value(&self.end.gained);
-        gained.offset(self.end.openness, negative)
+        let end = Wide::from_f32(self.end.openness);
+        // The end itself may graze 0 from below.
+        match (self.end.openness < 0.0, negative) {
+            (false, false) => end.plus(gained),
+            (false, true) => end.minus(gained),
+            (true, false) => gained.minus(end),
+            (true, true) => Wide::ZERO,
+        }
     }
 
     /// The mass between the end and here.

@@ -5,6 +5,7 @@ use core::fmt;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::profile::Profile;
+use crate::wide::Wide;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
@@ -102,13 +103,18 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
+        self.openness(t).offset(0.0, false)
+    }
+
+    /// The openness, no more than 1 where rounding makes the curve graze it.
+    fn openness(&self, t: f32) -> Wide {
         let f = self.profile.openness(t);
-        if f < 1.0 { f } else { 1.0 }
+        if f.exceeds(Wide::ONE) { Wide::ONE } else { f }
     }
 
     /// The normalised density at `t`, `K · opening(t)`.
     pub fn pdf(&self, t: f32) -> f32 {
-        self.profile.pdf(self.opening(t))
+        self.profile.normalized(self.openness(t))
     }
 
     /// The fraction of the exposure collected by `t`: 0 before the shutter opens and for NaN, 1 after

@@ -15,6 +15,7 @@ pub(crate) struct Wide {
 
 impl Wide {
     pub(crate) const ZERO: Self = Self { m: 0, e: 0 };
+    pub(crate) const ONE: Self = Self { m: 1 << 63, e: -63 };
 
     /// `m · 2^e` for any `m`.
     pub(crate) const fn new(m: u64, e: i32) -> Self {
