@@ -1,0 +1,110 @@
+//! Random bit patterns: an error, or a curve that keeps its promises.
+
+mod oracle;
+
+use oracle::{Curve, Exact};
+use proptest::prelude::*;
+use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
+
+type Points = [(f32, f32); 4];
+
+/// Any bits, with a weight for the numbers that curves are made of.
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        1 => any::<u32>().prop_map(f32::from_bits),
+        4 => 0.0f32..=1.0,
+        2 => prop::sample::select(vec![0.0, -0.0, 1.0, 0.5, 1e-7, 1e-30, 1e-45, 1.0 - f32::EPSILON / 2.0]),
+    ]
+}
+
+/// Eight times, sorted so that some make a curve, at any offset and scale; and eight opennesses.
+fn ramps() -> impl Strategy<Value = (Points, Points)> {
+    let times = prop::array::uniform8(number());
+    let scale = (-70i32..70, prop_oneof![3 => Just(0.0f32), 1 => number()]);
+    (times, prop::array::uniform8(number()), scale, any::<bool>()).prop_map(
+        |(mut t, f, (power, offset), sorted)| {
+            if sorted {
+                t.sort_by(f32::total_cmp);
+            }
+            let scale = 2f64.powi(power);
+            let t = t.map(|t| (scale * (t as f64 + offset as f64)) as f32);
+            let point = |i: usize| (t[i], f[i]);
+            ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point))
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn a_shutter_is_refused_or_keeps_its_promises(
+        (opening, closing) in ramps(),
+        mut us in prop::collection::vec(number(), 8),
+        ts in prop::collection::vec(number(), 4),
+    ) {
+        let made = ShutterCurve::<4>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing));
+        let Ok(curve) = made else { return Ok(()) };
+        let exact = Exact::new(&Curve::shutter(opening, closing));
+        us.sort_by(f32::total_cmp);
+        let mut last = curve.open_start();
+        prop_assert_eq!(curve.inverse_cdf(0.0), curve.open_start());
+        prop_assert_eq!(curve.inverse_cdf(1.0), curve.close_end());
+        for u in us {
+            let t = curve.inverse_cdf(u);
+            prop_assert!(t >= curve.open_start() && t <= curve.close_end(), "{} at {:e}", t, u);
+            prop_assert!(curve.evaluations(u) <= MAX_EVALUATIONS);
+            if !u.is_nan() && !exact.grazes() {
+                prop_assert!(t >= last, "back to {} from {} at {:e}", t, last, u);
+                last = t;
+                let error = exact.judge(u, t);
+                prop_assert!(error.backward <= 1.0, "{:?} at {:e}", error, u);
+            }
+        }
+        let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
+        for part in ts {
+            for t in [part, (start + (end - start) * part as f64) as f32] {
+                let (cdf, f, pdf) = (curve.cdf(t), curve.opening(t), curve.pdf(t));
+                prop_assert!((0.0..=1.0).contains(&cdf) && (0.0..=1.0).contains(&f) && pdf >= 0.0);
+                if t >= curve.open_start() && t <= curve.close_end() && !exact.grazes() {
+                    prop_assert!(exact.cdf_ulp(cdf, t, 2f64.powi(-24)) <= 2.0, "cdf({:e}) = {:e}", t, cdf);
+                    prop_assert!(exact.openness_ulp(f, t, 0.0) <= 2.0, "opening({:e}) = {:e}", t, f);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_density_is_refused_or_keeps_its_promises(
+        (points, _) in ramps(),
+        f in prop::array::uniform4(number()),
+        u in number(),
+        t in number(),
+    ) {
+        let points = [0, 1, 2, 3].map(|i: usize| (points[i].0, f[i]));
+        let Ok(pdf) = BezierPdf::<4>::with_cells(CubicBezier::new(points)) else { return Ok(()) };
+        let exact = Exact::new(&Curve::single(points));
+        let time = pdf.inverse_cdf(u);
+        prop_assert!(time >= points[0].0 && time <= points[3].0);
+        if !u.is_nan() && !exact.grazes() {
+            prop_assert!(exact.judge(u, time).backward <= 1.0);
+        }
+        prop_assert!((0.0..=1.0).contains(&pdf.cdf(t)) && pdf.pdf(t) >= 0.0);
+    }
+
+    #[test]
+    fn triggers_return_for_any_numbers(
+        (opening, closing) in ramps(),
+        n in 0u32..200,
+        hz in any::<u32>(),
+        gap in number(),
+    ) {
+        let made = ShutterCurve::<0>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing));
+        let Ok(curve) = made else { return Ok(()) };
+        prop_assert!(curve.trigger_times(n).is_sorted());
+        prop_assert!(curve.max_triggers(gap) >= 1);
+        if let Ok(ticks) = curve.trigger_ticks(n, hz) {
+            prop_assert!(ticks.is_sorted());
+        }
+    }
+}
