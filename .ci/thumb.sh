@@ -89,7 +89,7 @@ set_up_rustc() {
     echo '#![no_std]' >"$work/src/lib.rs"
     printf '[package]\nname="empty"\nedition="2024"\n[profile.release]\ncodegen-units=1\n[workspace]\n' >"$work/Cargo.toml"
     for target in "${targets[@]}"; do
-        (cd "$work" && RUSTC=$bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS= \
+        (cd "$work" && RUSTC=$bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
             cargo build --quiet --release -Zbuild-std=core --target "$target") >&2 ||
             fail "cannot compile core for $target with Debian's rustc-web"
         mkdir -p "$root/lib/rustlib/$target/lib"

@@ -56,8 +56,8 @@ const TIME_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
 /// The error in `u` that it may have, in ulp. Below 1/2 no two neighbouring `u` can change places,
 /// not even where one octave hands over to the next.
 const ULP_ERROR: f64 = 0.4;
-/// What the rounding of products adds at most, in the unit of the coefficients.
-const NOISE: f64 = 1.5;
+/// What the rounding of products and of the middle adds at most, in the unit of the coefficients.
+const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 

@@ -144,7 +144,10 @@ impl<const CELLS: usize> Profile<CELLS> {
             Self { ramps, area, plateau_mass, reciprocal, unit, base, slope, plateau, octaves };
         let [from, to] = profile.bounds(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
-        profile.plateau = [if from < FINE { FINE } else { from }, to];
+        // Where the curve lies too far from time 0 for its unit, the exact way serves.
+        if slope >> 40 != 0 {
+            profile.plateau = [if from < FINE { FINE } else { from }, to];
+        }
         let mut index = 0;
         while index < CELLS {
             profile.octaves[0][index] = Octave::fit(&profile, 0, index);
@@ -387,21 +390,29 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
     }
 
-    /// How long after the curve's start the fraction `u`, in (0, 1), has been collected, of which `a`, in
-    /// (0, 1/2], is the part from a side; in the direct way where `fast` allows it.
-    pub(crate) fn delay(&self, u: Wide, side: usize, a: Wide, fast: bool) -> Wide {
-        if fast {
-            let bits = u.floor_bits();
-            let time = if bits > self.plateau[0] && bits < self.plateau[1] {
-                Some(self.on_line(u.in_units(-32) as u32))
-            } else {
-                self.in_octave(side, a.floor_bits(), ((a.m >> 31) as u32 ^ 1 << 31) as i32)
-            };
-            if let Some(time) = time {
-                let delay = time - self.start_in_units(0);
-                return Wide::new(if delay > 0 { delay as u64 } else { 0 }, self.unit());
-            }
+    /// The plateau in `u` that counts 2⁻³²: its line serves from the first up to, not with, the second.
+    pub(crate) fn plateau_in_words(&self) -> [u32; 2] {
+        let [from, to] = self.plateau.map(f32::from_bits);
+        // A cast saturates.
+        [(from.next_up() * 4294967296.0) as u32, (to * 4294967296.0) as u32]
+    }
+
+    /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
+    #[inline]
+    pub(crate) fn direct(&self, u: u64, plateau: [u32; 2]) -> Option<i64> {
+        let word = (u >> 32) as u32;
+        if word >= plateau[0] && word < plateau[1] {
+            return Some(self.on_line(word));
         }
+        let side = (u >> 63) as usize;
+        let a = if side == 0 { u } else { u.wrapping_neg() };
+        let zeros = a.leading_zeros();
+        let offset = (a << (zeros & 63) << 1 >> 32) as u32;
+        self.in_octave(side, (126 - zeros) << 23 | offset >> 9, (offset ^ 1 << 31) as i32)
+    }
+
+    /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side.
+    pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
         let place = self.exact(side, a);
         let base = Wide::between(self.open_start(), place.time);
         if place.back { base.minus(place.elapsed) } else { base.plus(place.elapsed) }

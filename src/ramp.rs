@@ -5,6 +5,12 @@ use crate::seed::{seed, seed_by_bits};
 use crate::series::{Root, Seed, Series, solve};
 use crate::wide::Wide;
 
+/// How exact a search has to be in a flat place, in bits: for the mass, an eighth of the least distance
+/// between neighbouring `u`, so that these keep their order; for the time, all there is, since what it is
+/// for may be steep there.
+const MASS_ENOUGH: u32 = 27;
+const TIME_ENOUGH: u32 = 40;
+
 /// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct End {
@@ -49,7 +55,7 @@ impl End {
         if mass.is_zero() {
             return Place { time, back, elapsed: Wide::ZERO, evaluations: 0 };
         }
-        let root = solve(&self.mass, mass, seed);
+        let root = solve(&self.mass, mass, seed, MASS_ENOUGH);
         let (elapsed, negative) = root.value(&self.elapsed);
         let elapsed = if negative { Wide::ZERO } else { elapsed };
         Place { time, back, elapsed, evaluations: root.evaluations }
@@ -143,7 +149,7 @@ impl Segment {
         let root = if elapsed.is_zero() {
             Root::START
         } else {
-            solve(&end.elapsed, elapsed, seed(&end.elapsed, elapsed))
+            solve(&end.elapsed, elapsed, seed(&end.elapsed, elapsed), TIME_ENOUGH)
         };
         OnRamp { from, end, root }
     }

@@ -1,6 +1,7 @@
 //! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
 
 use crate::error::ScheduleError;
+use crate::profile::Profile;
 use crate::shutter::ShutterCurve;
 use crate::wide::Wide;
 
@@ -50,14 +51,22 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
             return Err(ScheduleError::TickRateTooHigh);
         }
-        let direct = !ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0));
-        let share = half_reciprocal(n);
+        let profile = &self.profile;
+        let direct = Direct::new(profile, rate, ticks);
+        let plateau = profile.plateau_in_words();
+        // 1 / 2n in units of 2⁻⁶⁴; a 64-bit division is dear on a small processor, so only this one is made.
+        let share = if n == 0 { 0 } else { (1 << 63) / n as u64 };
         Ok((0..n).map(move |i| {
-            // (2i + 1) / 2n, and that from the nearer side; there the odd number fits 32 bits.
+            // (2i + 1) / 2n
             let odd = 2 * i as u64 + 1;
+            if let Some(direct) = &direct
+                && let Some(time) = profile.direct(odd.wrapping_mul(share), plateau)
+            {
+                return direct.tick(time);
+            }
             let (side, near) = if odd <= n as u64 { (0, odd) } else { (1, 2 * n as u64 - odd) };
-            let (u, a) = (share.times(Wide::new(odd, 0)), share.times(Wide::new(near, 0)));
-            let delay = self.profile.delay(u, side, a, direct).times(rate);
+            let a = half_reciprocal(n).times(Wide::new(near, 0));
+            let delay = profile.delay(side, a).times(rate);
             // In halves of a tick, so that the last bit rounds.
             ((delay.in_units(-1) + 1) >> 1) as u32
         }))
@@ -112,12 +121,43 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 }
 
-/// `1 / 2n`, to 2⁻⁶².
-fn half_reciprocal(n: u32) -> Wide {
-    if n == 0 {
-        return Wide::ZERO;
+/// From times in the profile's unit to ticks, in fixed point.
+struct Direct {
+    start: i64,
+    /// What brings a time after the start down to 31 bits, the factor that makes it ticks, and what then
+    /// brings these down.
+    down: u32,
+    factor: u32,
+    shift: u32,
+}
+
+impl Direct {
+    /// For an interval of so many `ticks`; none where they are too many, or next to none.
+    fn new<const CELLS: usize>(profile: &Profile<CELLS>, rate: Wide, ticks: Wide) -> Option<Self> {
+        if ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0)) {
+            return None;
+        }
+        let start = profile.start_in_units(0);
+        let length = (profile.start_in_units(1) - start) as u64;
+        let down = 33u32.saturating_sub(length.leading_zeros());
+        let factor = rate.times(Wide::new(1, profile.unit() + down as i32));
+        let shift = -(factor.e + 32);
+        let factor = (factor.m >> 32) as u32;
+        (0 < shift && shift < 64).then_some(Self { start, down, factor, shift: shift as u32 })
     }
-    let n = n as u64;
+
+    #[inline]
+    fn tick(&self, time: i64) -> u32 {
+        let delay =
+            if time > self.start { (time - self.start) as u64 >> (self.down & 63) } else { 0 };
+        let ticks = delay as u32 as u64 * self.factor as u64;
+        ((ticks + (1 << ((self.shift - 1) & 63))) >> (self.shift & 63)) as u32
+    }
+}
+
+/// `1 / 2n`, to 2⁻⁶², for `n` above 0.
+fn half_reciprocal(n: u32) -> Wide {
+    let n = n as u64 | (n == 0) as u64;
     let (whole, rest) = ((1 << 63) / n, (1 << 63) % n);
     Wide::new(whole, -64).plus(Wide::new((rest << 32) / n, -96))
 }

@@ -43,9 +43,8 @@ const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes.
 pub const MAX_EVALUATIONS: u32 = NEWTON + BISECTION;
 
-/// A search may stop where the residual is below this share of the target, 2⁻²⁷: an eighth of the least
-/// distance between neighbouring `f32`, which is what the target came from.
-const ENOUGH: u32 = 27;
+/// A step longer than this share of `x`, 2⁻¹⁸, is one in a flat place.
+const FLAT: u32 = 18;
 
 /// A series made ready for evaluation near `2^-shift`.
 struct Scaled<const N: usize> {
@@ -173,10 +172,14 @@ const fn cube_root(x: f32) -> f32 {
 /// Newton's method with Halley's correction inside a bracket, bisection where it leaves it or after
 /// [`NEWTON`] steps.
 ///
-/// It stops where the last step is below the unit of `x`, or the residual below [`ENOUGH`] of the
-/// target, or the bracket down to neighbours: each leaves less than 2⁻²⁶ of the target to be made
-/// up for, linearly, by `rest`.
-pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: Seed) -> Root {
+/// It stops where less is missing than one unit of `x` adds, which `rest` then makes up for, or in a flat
+/// place where the residual is below `2^-enough` of the target, or with the bracket down to neighbours.
+pub(crate) const fn solve<const N: usize>(
+    c: &Series<N>,
+    target: Wide,
+    seed: Seed,
+    enough: u32,
+) -> Root {
     let Seed { mut x, mut shift } = seed;
     let mut scaled = Scaled::new(c, shift);
     let mut goal = target.in_units(scaled.unit);
@@ -191,8 +194,9 @@ pub(crate) const fn solve<const N: usize>(c: &Series<N>, target: Wide, seed: See
         let step = local.step(rough);
         // Less is missing than one step of x adds.
         let small = size < local.slope as i64;
-        if small || size <= goal >> ENOUGH || high - low <= 1 || evaluations == MAX_EVALUATIONS {
-            // A longer step than the unit means a flat place, where the residual is good enough.
+        // In a flat place a small residual is a long step, and good enough.
+        let flat = step.abs() > (x >> FLAT) as f32 && size <= goal >> enough;
+        if small || flat || high - low <= 1 || evaluations == MAX_EVALUATIONS {
             let rest = if small { step } else { 0.0 };
             return Root { x, shift, rest, evaluations };
         }

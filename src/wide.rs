@@ -62,11 +62,6 @@ impl Wide {
         self.m as f64 * f64::from_bits(((self.e + 1023) as u64) << 52)
     }
 
-    /// The bits of the greatest `f32` at or below a number that `f32` holds without its subnormals.
-    pub(crate) const fn floor_bits(self) -> u32 {
-        ((self.e + 63 + 127) as u32) << 23 | (self.m >> 40) as u32 & 0x7F_FFFF
-    }
-
     pub(crate) const fn is_zero(self) -> bool {
         self.m == 0
     }

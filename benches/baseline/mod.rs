@@ -1,0 +1,164 @@
+//! The two usual ways to invert a shutter's cdf, written from their public descriptions, as baselines:
+//! Newton's method in `f32` on sextics in powers of the Bezier's parameter, and a table of the inverse.
+//!
+//! Included with `#[path]` by every benchmark, on the host and on the microcontroller; hence only `core`.
+
+/// A ramp's control points `P0..P3`, each as (t, f).
+pub type Ramp = [(f32, f32); 4];
+
+/// A curve's normalised integral as three parts, each inverted on its own, all in `f32`.
+///
+/// Newton's method starts from 0.5 and takes at most 10 steps, or stops where `|K F(p) - u|` is at most
+/// 1e-6; failing that, 21 bisections. The plateau's formula is the right one (the description has a slip).
+#[derive(Clone, Copy)]
+pub struct TextbookNewton {
+    opening: Sextic,
+    closing: Sextic,
+    open_end: f32,
+    close_start: f32,
+    /// `1/K`
+    area: f32,
+    /// The fractions of the exposure at which the plateau starts and ends.
+    plateau: [f32; 2],
+}
+
+impl TextbookNewton {
+    /// The shutter with these ramps; nothing is checked.
+    pub const fn new(opening: Ramp, closing: Ramp) -> Self {
+        let (open_end, close_start) = (opening[3].0, closing[0].0);
+        let (opening, closing) = (Sextic::new(opening), Sextic::new(closing));
+        let (before, length) = (opening.mass(1.0), close_start - open_end);
+        let area = before + length + closing.mass(1.0);
+        Self {
+            opening: opening.scaled(1.0 / area),
+            closing: closing.scaled(1.0 / area),
+            open_end,
+            close_start,
+            area,
+            plateau: [before / area, (before + length) / area],
+        }
+    }
+
+    /// The time by which the fraction `u` of the exposure is collected.
+    pub fn inverse_cdf(&self, u: f32) -> f32 {
+        self.solve(u).0
+    }
+
+    /// That time, and how often the sextic was evaluated for it.
+    #[inline]
+    pub fn solve(&self, u: f32) -> (f32, u32) {
+        let [start, end] = self.plateau;
+        let on_ramp = |ramp: &Sextic, u| {
+            let (p, evaluations) = ramp.solve(u);
+            (ramp.time(p), evaluations)
+        };
+        if u < start {
+            on_ramp(&self.opening, u)
+        } else if u <= end {
+            let t = self.open_end + (u - start) * self.area;
+            (if t < self.close_start { t } else { self.close_start }, 0)
+        } else {
+            on_ramp(&self.closing, u - end)
+        }
+    }
+}
+
+/// A ramp in powers of p: `t(p)`, and `F(p) = ∫ f t' dp`.
+#[derive(Clone, Copy)]
+struct Sextic {
+    t: [f32; 4],
+    /// `F` without its constant term, which is 0.
+    c: [f32; 6],
+}
+
+impl Sextic {
+    const fn new(points: Ramp) -> Self {
+        let [p0, p1, p2, p3] = points;
+        let t = powers([p0.0, p1.0, p2.0, p3.0]);
+        let f = powers([p0.1, p1.1, p2.1, p3.1]);
+        let d = [t[1], 2.0 * t[2], 3.0 * t[3]];
+        let mut c = [0.0; 6];
+        let mut i = 0;
+        while i < 4 {
+            let mut j = 0;
+            while j < 3 {
+                c[i + j] += f[i] * d[j] / (i + j + 1) as f32;
+                j += 1;
+            }
+            i += 1;
+        }
+        Self { t, c }
+    }
+
+    const fn scaled(mut self, by: f32) -> Self {
+        let mut i = 0;
+        while i < 6 {
+            self.c[i] *= by;
+            i += 1;
+        }
+        self
+    }
+
+    const fn mass(&self, p: f32) -> f32 {
+        let c = &self.c;
+        p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * (c[4] + p * c[5])))))
+    }
+
+    fn density(&self, p: f32) -> f32 {
+        let c = &self.c;
+        c[0] + p
+            * (2.0 * c[1] + p * (3.0 * c[2] + p * (4.0 * c[3] + p * (5.0 * c[4] + p * 6.0 * c[5]))))
+    }
+
+    fn time(&self, p: f32) -> f32 {
+        let t = &self.t;
+        t[0] + p * (t[1] + p * (t[2] + p * t[3]))
+    }
+
+    fn solve(&self, target: f32) -> (f32, u32) {
+        let mut p = 0.5;
+        for step in 1..=10 {
+            let error = self.mass(p) - target;
+            if error.abs() <= 1e-6 {
+                return (p, step);
+            }
+            p -= error / self.density(p);
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..21 {
+            let middle = 0.5 * (low + high);
+            if self.mass(middle) < target {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        (0.5 * (low + high), 10 + 21)
+    }
+}
+
+/// A cubic's power coefficients from its Bernstein coefficients.
+const fn powers([a, b, c, d]: [f32; 4]) -> [f32; 4] {
+    [a, 3.0 * (b - a), 3.0 * (a - 2.0 * b + c), d - 3.0 * c + 3.0 * b - a]
+}
+
+/// The inverse at `N` equally spaced `u` from 0 to 1, and straight lines between.
+#[derive(Clone, Copy)]
+pub struct InverseTable<const N: usize> {
+    t: [f32; N],
+}
+
+impl<const N: usize> InverseTable<N> {
+    /// The table of the inverse that `inverse` gives.
+    pub fn new(inverse: impl Fn(f32) -> f32) -> Self {
+        Self { t: core::array::from_fn(|i| inverse(i as f32 / (N - 1) as f32)) }
+    }
+
+    /// The time by which the fraction `u`, in [0, 1], of the exposure is collected.
+    pub fn inverse_cdf(&self, u: f32) -> f32 {
+        let place = u * (N - 1) as f32;
+        // The last line serves its own end too; the cast saturates.
+        let i = (place as usize).min(N - 2);
+        self.t[i] + (self.t[i + 1] - self.t[i]) * (place - i as f32)
+    }
+}

@@ -1,0 +1,115 @@
+//! Runs every series of calls of the plan, for the host to count in QEMU's trace.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use firmware::baseline::{InverseTable, TextbookNewton};
+use firmware::{
+    CELLS, CURVES, Function, Inputs, TICK_HZ, UNIFORM, baselines, selected, series, uniform,
+};
+use semihosting::process::ExitCode;
+
+#[path = "../measured.rs"]
+mod measured;
+#[path = "../prebuilt.rs"]
+mod prebuilt;
+
+use measured::*;
+use prebuilt::prebuilt;
+
+/// Tells the host that the next series begins.
+#[inline(never)]
+fn series_begins() {
+    cortex_m::asm::nop();
+}
+
+/// The inputs of a series on one curve.
+fn each_input(inputs: Inputs, index: usize, mut call: impl FnMut(f32)) {
+    match inputs {
+        Inputs::Row(_) => (0..UNIFORM).for_each(|i| call(uniform(i))),
+        Inputs::Hard => {
+            let curve = &prebuilt::<0>()[index];
+            let ends = [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())];
+            CURVES[index].hard_u(ends).for_each(call);
+        }
+    }
+}
+
+fn run<const C: usize>() {
+    let selection = prebuilt::selection();
+    let index = CELLS.iter().position(|cells| *cells == C).unwrap();
+    if selection & 1 << index == 0 {
+        return;
+    }
+    for (function, inputs) in series().filter(|(f, i)| selected(selection, *f, *i)) {
+        for index in inputs.curves() {
+            series_begins();
+            let curve = black_box(&prebuilt::<C>()[index]);
+            let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+            match function {
+                Function::InverseCdf => each_input(inputs, index, |u| {
+                    black_box(measured_inverse_cdf(curve, black_box(u)));
+                }),
+                Function::Cdf => each_input(inputs, index, |u| {
+                    black_box(measured_cdf(curve, black_box(start + length * u)));
+                }),
+                Function::Opening => each_input(inputs, index, |u| {
+                    black_box(measured_opening(curve, black_box(start + length * u)));
+                }),
+                Function::TickStep => {
+                    let mut ticks =
+                        curve.trigger_ticks(black_box(UNIFORM), black_box(TICK_HZ)).unwrap();
+                    for _ in 0..UNIFORM {
+                        black_box(measured_tick_step(&mut ticks));
+                    }
+                }
+                Function::Schedule => {
+                    let _ = black_box(measured_schedule(curve, black_box(1)));
+                }
+                Function::Construct => {
+                    let (opening, closing) = black_box(&CURVES[index]).ramps();
+                    let _ = black_box(measured_construct::<C>(opening, closing));
+                }
+                Function::Newton | Function::Table => unreachable!(),
+            }
+        }
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    if !prebuilt::loaded() {
+        prebuilt::build();
+        ExitCode::SUCCESS.exit_process()
+    }
+    const { assert!(matches!(CELLS, [0, 4, 8, 16])) };
+    run::<0>();
+    run::<4>();
+    run::<8>();
+    run::<16>();
+    let selection = prebuilt::selection();
+    for (function, inputs) in baselines().filter(|(f, i)| selected(selection, *f, *i)) {
+        for index in inputs.curves() {
+            series_begins();
+            let curve = &CURVES[index];
+            let newton = TextbookNewton::new(curve.opening, curve.closing);
+            let table = InverseTable::new(|u| prebuilt::<8>()[index].inverse_cdf(u));
+            each_input(inputs, index, |u| {
+                if function == Function::Newton {
+                    black_box(measured_newton(black_box(&newton), black_box(u)));
+                } else {
+                    black_box(measured_table(black_box(&table), black_box(u)));
+                }
+            });
+        }
+    }
+    ExitCode::SUCCESS.exit_process()
+}
+
+#[panic_handler]
+fn panic(info: &core::panic::PanicInfo) -> ! {
+    semihosting::eprintln!("{info}");
+    ExitCode::FAILURE.exit_process()
+}

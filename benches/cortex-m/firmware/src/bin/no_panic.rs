@@ -1,0 +1,12 @@
+//! Links only if no public function can panic.
+#![no_std]
+#![no_main]
+
+#[path = "../link.rs"]
+mod link;
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    link::everything();
+    loop {}
+}

@@ -1,0 +1,22 @@
+//! The control for `no_panic`: slices of different lengths, the one documented panic. It must not link.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use shutter_curve::{CubicBezier, ShutterCurve};
+
+#[path = "../link.rs"]
+mod link;
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    link::everything();
+    let ramp = CubicBezier::new(black_box([(0.0, 0.0); 4]));
+    if let Ok(curve) = ShutterCurve::new(ramp, ramp) {
+        let (u, mut t) = (black_box([0.5; 5]), [0.0; 5]);
+        curve.inverse_cdf_slice(&u[..black_box(4)], &mut t);
+        black_box(t);
+    }
+    loop {}
+}

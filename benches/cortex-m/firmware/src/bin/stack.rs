@@ -1,0 +1,106 @@
+//! Prints, for each number of cells, the size of a curve and how deep each call's stack gets.
+#![no_std]
+#![no_main]
+
+use core::arch::asm;
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use firmware::{CELLS, CURVES, Function, TICK_HZ, uniform};
+use semihosting::{print, println, process::ExitCode};
+use shutter_curve::ShutterCurve;
+
+#[allow(dead_code, reason = "the baselines are not measured here")]
+#[path = "../measured.rs"]
+mod measured;
+
+use measured::*;
+
+const PAINT: u32 = 0xA5A5_5A5A;
+/// More than any call takes.
+const DEPTH: usize = 16 << 10;
+
+/// The bytes of stack that `call` takes: paints below the stack pointer, calls, and looks how much is left.
+#[inline(never)]
+fn depth(call: impl FnOnce()) -> u32 {
+    let top: usize;
+    // SAFETY: reads a register.
+    unsafe { asm!("mov {}, sp", out(reg) top) };
+    let words = (top - DEPTH..top).step_by(4);
+    for word in words.clone() {
+        // SAFETY: below the stack pointer is free RAM, and no interrupt is enabled.
+        unsafe { (word as *mut u32).write_volatile(PAINT) };
+    }
+    call();
+    // SAFETY: as above.
+    let untouched =
+        words.take_while(|word| unsafe { (*word as *const u32).read_volatile() } == PAINT);
+    (DEPTH - 4 * untouched.count()) as u32
+}
+
+fn run<const C: usize>() {
+    println!("bytes {C} {}", size_of::<ShutterCurve<C>>());
+    let mut deepest = [0; Function::ALL.len()];
+    let mut note = |function: Function, depth: u32| {
+        let deepest = &mut deepest[function as usize];
+        *deepest = depth.max(*deepest);
+    };
+    for data in CURVES {
+        let (opening, closing) = data.ramps();
+        let mut built = None;
+        note(Function::Construct, depth(|| built = measured_construct::<C>(opening, closing).ok()));
+        let curve = black_box(built.as_ref().unwrap());
+        let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+        let spread = (0..8).map(uniform);
+        for u in data.hard.iter().copied().chain(spread) {
+            note(
+                Function::InverseCdf,
+                depth(|| {
+                    black_box(measured_inverse_cdf(curve, u));
+                }),
+            );
+            let t = start + length * u;
+            note(
+                Function::Cdf,
+                depth(|| {
+                    black_box(measured_cdf(curve, t));
+                }),
+            );
+            note(
+                Function::Opening,
+                depth(|| {
+                    black_box(measured_opening(curve, t));
+                }),
+            );
+        }
+        if let Ok(mut ticks) = curve.trigger_ticks(64, TICK_HZ) {
+            note(
+                Function::TickStep,
+                depth(|| {
+                    black_box(measured_tick_step(&mut ticks));
+                }),
+            );
+        }
+        note(Function::Schedule, depth(|| drop(black_box(measured_schedule(curve, black_box(1))))));
+    }
+    for function in Function::ALL {
+        print!("{} ", deepest[function as usize]);
+    }
+    println!();
+}
+
+#[entry]
+fn main() -> ! {
+    const { assert!(matches!(CELLS, [0, 4, 8, 16])) };
+    run::<0>();
+    run::<4>();
+    run::<8>();
+    run::<16>();
+    ExitCode::SUCCESS.exit_process()
+}
+
+#[panic_handler]
+fn panic(info: &core::panic::PanicInfo) -> ! {
+    semihosting::eprintln!("{info}");
+    ExitCode::FAILURE.exit_process()
+}

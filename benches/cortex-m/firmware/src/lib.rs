@@ -1,0 +1,181 @@
+//! What the firmware measures and the host reports: the curves, the inputs and their order.
+#![no_std]
+
+use shutter_curve::CubicBezier;
+
+pub mod answers;
+#[path = "../../../baseline/mod.rs"]
+pub mod baseline;
+
+/// A curve of the reference data, with the inputs that the reference has for it.
+pub struct Curve {
+    pub name: &'static str,
+    pub opening: baseline::Ramp,
+    pub closing: baseline::Ramp,
+    pub hard: &'static [f32],
+}
+
+include!(concat!(env!("OUT_DIR"), "/curves.rs"));
+
+/// The curves with a row each in the report, as the reader and as the data know them.
+pub const ROWS: [(&str, &str); 3] =
+    [("soft", "rman_soft"), ("all ramp", "raised_cosine"), ("box", "box")];
+
+impl Curve {
+    /// The curve of the data with this name.
+    pub const fn index(name: &str) -> usize {
+        let mut i = 0;
+        while i < CURVES.len() {
+            if same(CURVES[i].name, name) {
+                return i;
+            }
+            i += 1;
+        }
+        panic!("no such curve");
+    }
+
+    pub const fn ramps(&self) -> (CubicBezier, CubicBezier) {
+        (CubicBezier::new(self.opening), CubicBezier::new(self.closing))
+    }
+
+    /// The hard inputs: those of the reference, the ends of the sections with six neighbours on either
+    /// side, every power of two from either end, and fractions that are uniform on a logarithmic scale.
+    pub fn hard_u(&self, ends: [f32; 2]) -> impl Iterator<Item = f32> {
+        let near_ends = ends.into_iter().flat_map(|end| {
+            (0..=12u32).map(move |i| f32::from_bits((end.to_bits() + i).saturating_sub(6)).min(1.0))
+        });
+        let powers = (0..149)
+            .map(|k| if k < 23 { 1 << (22 - k) } else { (150 - k) << 23 })
+            .map(f32::from_bits);
+        let mirrored = (1..25).map(|k| 1.0 - 1.0 / (1 << k) as f32);
+        let spread = (0..SPREAD).flat_map(|i| {
+            // Exponents from 2^-12 up.
+            let u = f32::from_bits(((115 << 23) as f32 + (12 << 23) as f32 * uniform(i)) as u32);
+            [u, 1.0 - u]
+        });
+        self.hard.iter().copied().chain(near_ends).chain(powers).chain(mirrored).chain(spread)
+    }
+}
+
+const SPREAD: u32 = 128;
+
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
+/// Uniform inputs a series.
+pub const UNIFORM: u32 = 512;
+
+/// The `i`-th of numbers spread evenly over [0, 1): the golden ratio's multiples, the first so many of
+/// which are as even as can be, whatever their number.
+pub fn uniform(i: u32) -> f32 {
+    (i.wrapping_mul(0x9E37_79B9).wrapping_add(0x4F1B_BCDC) >> 8) as f32 / (1 << 24) as f32
+}
+
+/// A function whose calls are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    InverseCdf,
+    Cdf,
+    Opening,
+    TickStep,
+    Schedule,
+    Construct,
+    Newton,
+    Table,
+}
+
+impl Function {
+    pub const ALL: [Self; 8] = [
+        Self::InverseCdf,
+        Self::Cdf,
+        Self::Opening,
+        Self::TickStep,
+        Self::Schedule,
+        Self::Construct,
+        Self::Newton,
+        Self::Table,
+    ];
+
+    /// Its bit in a selection.
+    pub const fn bit(self) -> u32 {
+        1 << (4 + self as u32)
+    }
+
+    /// The name of the firmware's function with this call in it.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::InverseCdf => "measured_inverse_cdf",
+            Self::Cdf => "measured_cdf",
+            Self::Opening => "measured_opening",
+            Self::TickStep => "measured_tick_step",
+            Self::Schedule => "measured_schedule",
+            Self::Construct => "measured_construct",
+            Self::Newton => "measured_newton",
+            Self::Table => "measured_table",
+        }
+    }
+}
+
+/// What a series of calls runs over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Inputs {
+    /// Uniform inputs, on the row of [`ROWS`].
+    Row(usize),
+    /// The hard inputs of every curve.
+    Hard,
+}
+
+impl Inputs {
+    /// The curves by their index in [`CURVES`].
+    pub fn curves(self) -> core::ops::Range<usize> {
+        match self {
+            Self::Row(row) => {
+                let curve = Curve::index(ROWS[row].1);
+                curve..curve + 1
+            }
+            Self::Hard => 0..CURVES.len(),
+        }
+    }
+}
+
+/// The triggers of a planned frame, and the timer's rate for an interval of one second.
+pub const TRIGGERS: u32 = 64;
+pub const TICK_HZ: u32 = 1_000_000;
+
+/// The series in the order in which the firmware runs them, for each number of cells.
+pub fn series() -> impl Iterator<Item = (Function, Inputs)> {
+    use Function::*;
+    let calls = [InverseCdf, Cdf, Opening, TickStep, Schedule];
+    let rows =
+        calls.into_iter().flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))));
+    let rows = rows.chain([(Construct, Inputs::Row(0))]);
+    rows.chain([InverseCdf, Cdf, Opening].into_iter().map(|call| (call, Inputs::Hard)))
+}
+
+/// The series of the baselines, after all others.
+pub fn baselines() -> impl Iterator<Item = (Function, Inputs)> {
+    use Function::*;
+    [Newton, Table]
+        .into_iter()
+        .flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))))
+        .chain([(Newton, Inputs::Hard), (Table, Inputs::Hard)])
+}
+
+/// The numbers of cells measured.
+pub const CELLS: [usize; 4] = [0, 4, 8, 16];
+
+/// Where the host places the curves, and a selection of what to run: one bit a number of cells, one a
+/// function, and one for the hard inputs. In RAM, above the statics and far below the stack.
+pub const REGION: u32 = 0x2010_0000;
+pub const SELECTION: u32 = REGION - 8;
+pub const HARD: u32 = 1 << 31;
+
+pub fn selected(selection: u32, function: Function, inputs: Inputs) -> bool {
+    selection & function.bit() != 0 && (inputs != Inputs::Hard || selection & HARD != 0)
+}

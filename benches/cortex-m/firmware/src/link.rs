@@ -1,0 +1,81 @@
+//! Calls every public function with inputs that the compiler knows nothing of.
+
+use core::hint::black_box;
+
+use firmware::baseline::Ramp;
+use shutter_curve::{BezierPdf, CubicBezier, CurveError, ScheduleError, ShutterCurve};
+
+/// A program that links only where its panic handler is never needed: it calls what does not exist.
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    unsafe extern "C" {
+        safe fn a_panic_can_be_reached() -> !;
+    }
+    a_panic_can_be_reached()
+}
+
+pub fn everything() {
+    let ramp: &Ramp = black_box(&[(0.0, 0.0); 4]);
+    let (opening, closing) =
+        (CubicBezier::new(*ramp), black_box(CubicBezier::line(ramp[0], ramp[1])));
+    black_box(opening.points());
+    black_box(
+        ShutterCurve::linear(ramp[0].0, ramp[0].1, ramp[1].0, ramp[1].1)
+            .map_err(curve_error)
+            .is_ok(),
+    );
+    black_box(
+        ShutterCurve::shutteropening(black_box([0.0; 4]), black_box([0.0; 8]))
+            .map_err(curve_error)
+            .is_ok(),
+    );
+    shutter::<0>(opening, closing);
+    shutter::<4>(opening, closing);
+    shutter::<8>(opening, closing);
+    shutter::<16>(opening, closing);
+    pdf::<0>(opening);
+    pdf::<8>(opening);
+}
+
+fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
+    let curve = match ShutterCurve::<CELLS>::with_cells(opening, closing) {
+        Ok(curve) => black_box(curve),
+        Err(error) => return curve_error(error),
+    };
+    black_box([curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]);
+    black_box([curve.exposure(), curve.normalization(), curve.efficiency()]);
+    let x: f32 = black_box(0.5);
+    black_box([curve.opening(x), curve.pdf(x), curve.cdf(x), curve.inverse_cdf(x)]);
+    let (u, mut t) = (black_box([0.5; 5]), [0.0; 5]);
+    curve.inverse_cdf_slice(&u, &mut t);
+    black_box(t);
+    let n: u32 = black_box(64);
+    black_box(curve.max_triggers(x));
+    curve.trigger_times(n).for_each(|t| drop(black_box(t)));
+    match curve.trigger_ticks(n, black_box(1_000)) {
+        Ok(ticks) => ticks.for_each(|tick| drop(black_box(tick))),
+        Err(error) => schedule_error(error),
+    }
+    match curve.schedule::<64>(n, black_box(1_000), black_box(3)) {
+        Ok(ticks) => drop(black_box(ticks)),
+        Err(error) => schedule_error(error),
+    }
+    black_box(curve == black_box(curve));
+}
+
+fn pdf<const CELLS: usize>(curve: CubicBezier) {
+    let pdf = match BezierPdf::<CELLS>::with_cells(curve) {
+        Ok(pdf) => black_box(pdf),
+        Err(error) => return curve_error(error),
+    };
+    let x: f32 = black_box(0.5);
+    black_box([pdf.area(), pdf.normalization(), pdf.pdf(x), pdf.cdf(x), pdf.inverse_cdf(x)]);
+}
+
+fn curve_error(error: CurveError) {
+    black_box(error.message());
+}
+
+fn schedule_error(error: ScheduleError) {
+    black_box(error);
+}

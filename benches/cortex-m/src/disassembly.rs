@@ -1,0 +1,208 @@
+//! A firmware's functions, from its ELF file, and its instructions, as `llvm-objdump` shows them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::process::Command;
+
+use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+
+pub struct Instruction {
+    pub address: u32,
+    pub length: u32,
+    pub name: String,
+    pub operands: String,
+}
+
+pub struct Function {
+    pub symbol: String,
+    pub size: u32,
+    /// What its prologue takes of the stack, as the compiler says.
+    pub stack: Option<u32>,
+}
+
+pub struct Disassembly {
+    /// In the order of their addresses.
+    pub instructions: Vec<Instruction>,
+    /// By their first address.
+    pub functions: BTreeMap<u32, Function>,
+    /// The bytes of `.data` and `.bss`.
+    pub statics: u64,
+}
+
+impl Disassembly {
+    pub fn of(elf: &Path) -> Result<Self, String> {
+        let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
+        let bytes = std::fs::read(elf).map_err(|error| failed(&error))?;
+        let file = object::File::parse(&*bytes).map_err(|error| failed(&error))?;
+        let mut functions = BTreeMap::new();
+        for symbol in file.symbols().filter(|s| s.kind() == SymbolKind::Text && s.size() > 0) {
+            let name = symbol.name().map_err(|error| failed(&error))?.to_owned();
+            let function = Function { symbol: name, size: symbol.size() as u32, stack: None };
+            functions.insert(symbol.address() as u32 & !1, function);
+        }
+        if let Some(section) = file.section_by_name(".stack_sizes") {
+            let sizes = section.data().map_err(|error| failed(&error))?;
+            for (address, size) in stack_sizes(sizes) {
+                if let Some(function) = functions.get_mut(&(address & !1)) {
+                    function.stack = Some(size);
+                }
+            }
+        }
+        let size = |name| file.section_by_name(name).map_or(0, |section| section.size());
+        let statics = size(".data") + size(".bss");
+
+        let output =
+            Command::new("llvm-objdump").args(["-d", "--no-leading-headers"]).arg(elf).output();
+        let output = output.map_err(|error| format!("llvm-objdump: {error}"))?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        }
+        let text = String::from_utf8_lossy(&output.stdout);
+        let instructions = text.lines().filter_map(instruction).collect();
+        Ok(Self { instructions, functions, statics })
+    }
+
+    /// The instances of the firmware's function `name`, one for each number of cells, in no order.
+    pub fn named(&self, name: &str) -> Vec<u32> {
+        // As both of Rust's manglings have it.
+        let part = format!("{}{name}", name.len());
+        let named = self.functions.iter().filter(|(_, function)| function.symbol.contains(&part));
+        named.map(|(address, _)| *address).collect()
+    }
+
+    pub fn in_function(&self, start: u32) -> &[Instruction] {
+        let end = start + self.functions.get(&start).map_or(0, |function| function.size);
+        let from = self.instructions.partition_point(|i| i.address < start);
+        let to = self.instructions.partition_point(|i| i.address < end);
+        &self.instructions[from..to]
+    }
+
+    /// The functions that a function calls or jumps to directly.
+    pub fn calls(&self, function: u32) -> BTreeSet<u32> {
+        let targets = self.in_function(function).iter().filter_map(Instruction::target);
+        let starts = targets.filter_map(|target| self.functions.range(..=target).next_back());
+        starts.map(|(start, _)| *start).filter(|start| *start != function).collect()
+    }
+
+    /// A function and all that it reaches.
+    pub fn reach(&self, function: u32) -> BTreeSet<u32> {
+        let (mut reached, mut open) = (BTreeSet::new(), vec![function]);
+        while let Some(function) = open.pop() {
+            if reached.insert(function) {
+                open.extend(self.calls(function));
+            }
+        }
+        reached
+    }
+
+    /// The code and literals of a function and all that it reaches, in bytes.
+    pub fn code_bytes(&self, function: u32) -> u32 {
+        self.reach(function).iter().map(|start| self.functions[start].size).sum()
+    }
+
+    /// The deepest stack of a function and what it calls, by the compiler's figures and, for what came
+    /// compiled, by the prologue.
+    pub fn stack_bytes(&self, function: u32) -> u32 {
+        self.deepest(function, &mut Vec::new())
+    }
+
+    /// `above` holds the functions on the way: a loop of jumps between functions takes no stack.
+    fn deepest(&self, function: u32, above: &mut Vec<u32>) -> u32 {
+        if above.contains(&function) {
+            return 0;
+        }
+        above.push(function);
+        let below =
+            self.calls(function).into_iter().map(|called| self.deepest(called, above)).max();
+        above.pop();
+        let own = self.functions[&function].stack.unwrap_or_else(|| self.prologue(function));
+        own + below.unwrap_or(0)
+    }
+
+    /// What a function pushes and takes off the stack pointer.
+    fn prologue(&self, function: u32) -> u32 {
+        let taken = self.in_function(function).iter().map(|i| {
+            let operands = i.operands.as_str();
+            match i.name.trim_end_matches(".w") {
+                "push" => 4 * registers(operands),
+                "vpush" => 8 * registers(operands),
+                "sub" => operands.strip_prefix("sp, #").and_then(|n| n.parse().ok()).unwrap_or(0),
+                _ => 0,
+            }
+        });
+        taken.sum()
+    }
+
+    /// What the instructions of all that a function reaches did in a run, as a listing; `profile` holds
+    /// executions and cycles by half the address.
+    pub fn annotated(&self, function: u32, profile: &[(u32, u32)], calls: u32) -> String {
+        use std::fmt::Write;
+        let mut out = format!("executions and cycles a call, of {calls} calls\n");
+        for start in self.reach(function) {
+            let f = &self.functions[&start];
+            let _ = writeln!(out, "\n{:#} ({} bytes)", rustc_demangle::demangle(&f.symbol), f.size);
+            for i in self.in_function(start) {
+                let (count, cycles) = profile[i.address as usize / 2];
+                let a_call = |n: u32| f64::from(n) / f64::from(calls);
+                let counts = if count == 0 {
+                    " ".repeat(16)
+                } else {
+                    format!("{:7.3} {:8.3}", a_call(count), a_call(cycles))
+                };
+                let _ = writeln!(out, "{counts}  {:6x}  {:9} {}", i.address, i.name, i.operands);
+            }
+        }
+        out
+    }
+}
+
+impl Instruction {
+    /// Where a direct branch goes.
+    pub fn target(&self) -> Option<u32> {
+        if !self.name.starts_with(['b', 'c']) {
+            return None;
+        }
+        let target = self.operands.split("0x").nth(1)?.split([' ', ',']).next()?;
+        u32::from_str_radix(target, 16).ok()
+    }
+}
+
+/// `408: 4c 48`, `ldr` and `r0, [pc, #304]   @ 0x53c`, indented and with tabs between; other lines are none.
+fn instruction(line: &str) -> Option<Instruction> {
+    let (address, rest) = line.strip_prefix(' ')?.trim_start().split_once(':')?;
+    let mut columns = rest.split('\t');
+    let digits = columns.next()?.chars().filter(char::is_ascii_hexdigit).count();
+    let name = columns.next()?.trim();
+    if name.starts_with(['.', '<']) {
+        return None;
+    }
+    let operands = columns.next().unwrap_or("").split(" @").next().unwrap_or("");
+    Some(Instruction {
+        address: u32::from_str_radix(address, 16).ok()?,
+        length: digits as u32 / 2,
+        name: name.to_owned(),
+        operands: operands.trim_end().to_owned(),
+    })
+}
+
+/// Pairs of an address, four bytes, and a size in LEB128.
+fn stack_sizes(mut section: &[u8]) -> Vec<(u32, u32)> {
+    let mut sizes = Vec::new();
+    while let Some((address, rest)) = section.split_first_chunk::<4>() {
+        let length = rest.iter().take_while(|byte| **byte & 0x80 != 0).count() + 1;
+        let (leb, rest) = rest.split_at(length.min(rest.len()));
+        let size = leb.iter().rev().fold(0, |size, byte| size << 7 | u32::from(byte & 0x7F));
+        sizes.push((u32::from_le_bytes(*address), size));
+        section = rest;
+    }
+    sizes
+}
+
+/// The registers in `{r4, r5, r7, lr}` or `{d8-d10}`.
+pub fn registers(operands: &str) -> u32 {
+    let list = operands.split('{').nth(1).and_then(|rest| rest.split('}').next()).unwrap_or("");
+    let number =
+        |name: &str| name.trim().trim_start_matches(['r', 'd', 's']).parse::<u32>().unwrap_or(0);
+    let parts = list.split(',').filter(|part| !part.trim().is_empty());
+    parts.map(|part| part.split_once('-').map_or(1, |(a, b)| number(b) - number(a) + 1)).sum()
+}

@@ -1,0 +1,45 @@
+//! What the crate costs on a microcontroller: instructions, cycles, bytes and stack, in tables.
+//!
+//! ```text
+//! cargo run --release              # prints the report and writes ../../docs/cost.md; some minutes
+//! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
+//! cargo run --release -- --answers # the same answers on the host, on a Cortex-M4F and in soft float?
+//! cargo run --release -- --links   # a firmware that links only if nothing can panic
+//! cargo run --release -- --quick [SEED [CELLS]] # the tuner's loop: inverse_cdf, with a listing
+//! ```
+//!
+//! It needs the targets thumbv7em-none-eabihf and thumbv6m-none-eabi, qemu-system-arm, and llvm-objdump.
+
+mod answers;
+mod budget;
+mod disassembly;
+mod firmware;
+mod links;
+mod measure;
+mod model;
+mod quick;
+mod report;
+mod trace;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => report::run(),
+        ["--short"] => budget::run(),
+        ["--answers"] => answers::run(),
+        ["--links"] => links::run(),
+        ["--quick"] => quick::run("libm", "8"),
+        ["--quick", seed] => quick::run(seed, "8"),
+        ["--quick", seed, cells] => quick::run(seed, cells),
+        _ => Err("usage: see src/main.rs".into()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! All that is measured of one build: a core and a seed.
+
+use std::collections::BTreeMap;
+
+use ::firmware::{CELLS, CURVES, Function, Inputs};
+
+use crate::disassembly::Disassembly;
+use crate::firmware::{Core, build, output};
+use crate::trace::{Call, Key, Selection, Trace, trace};
+
+pub struct Measured {
+    pub code: Disassembly,
+    calls: BTreeMap<Key, Vec<Call>>,
+    instance: BTreeMap<(Function, usize), u32>,
+    /// By function and cells.
+    painted: BTreeMap<(Function, usize), u32>,
+    pub curve_bytes: BTreeMap<usize, u32>,
+}
+
+/// Of the calls of a series.
+#[derive(Clone, Copy)]
+pub struct Spread {
+    pub min: u32,
+    pub median: u32,
+    pub mean: f64,
+    pub most: u32,
+    pub max: u32,
+}
+
+impl Spread {
+    fn new(mut values: Vec<u32>) -> Option<Self> {
+        values.sort_unstable();
+        let (n, total) = (values.len(), values.iter().map(|v| f64::from(*v)).sum::<f64>());
+        Some(Self {
+            min: *values.first()?,
+            median: values[n / 2],
+            mean: total / n as f64,
+            most: values[(n * 99 / 100).min(n - 1)],
+            max: *values.last()?,
+        })
+    }
+}
+
+impl Measured {
+    /// Builds for a core with a seed and traces each selection.
+    pub fn new(core: Core, seed: &str, selections: &[Selection]) -> Result<Self, String> {
+        let elf = build(core, "cost", seed)?;
+        let code = Disassembly::of(&elf)?;
+        let (mut calls, mut instance) = (BTreeMap::new(), BTreeMap::new());
+        for selection in selections {
+            let Trace { calls: more, instance: and, .. } =
+                trace(core, &elf, &code, selection, None)?;
+            calls.extend(more);
+            instance.extend(and);
+        }
+        let (painted, curve_bytes) = stack(core, seed)?;
+        Ok(Self { code, calls, instance, painted, curve_bytes })
+    }
+
+    pub fn calls(&self, key: &Key) -> &[Call] {
+        self.calls.get(key).map_or(&[], Vec::as_slice)
+    }
+
+    pub fn cycles(&self, key: &Key) -> Option<Spread> {
+        Spread::new(self.calls(key).iter().map(|call| call.cycles).collect())
+    }
+
+    pub fn instructions(&self, key: &Key) -> Option<Spread> {
+        Spread::new(self.calls(key).iter().map(|call| call.instructions).collect())
+    }
+
+    /// The most cycles of a call over the hard curves and inputs, and the curve.
+    pub fn worst(&self, function: Function, cells: usize) -> Option<(u32, &'static str)> {
+        let hard = self.calls.iter().filter(|(key, _)| {
+            key.inputs == Inputs::Hard && key.function == function && key.cells == cells
+        });
+        hard.flat_map(|(key, calls)| calls.iter().map(|call| (call.cycles, CURVES[key.curve].name)))
+            .max()
+    }
+
+    pub fn code_bytes(&self, function: Function, cells: usize) -> Option<u32> {
+        Some(self.code.code_bytes(*self.instance.get(&(function, cells))?))
+    }
+
+    /// The stack of a call as painted, and as the compiler says.
+    pub fn stack(&self, function: Function, cells: usize) -> Option<(u32, u32)> {
+        let instance = self.instance.get(&(function, cells))?;
+        Some((*self.painted.get(&(function, cells))?, self.code.stack_bytes(*instance)))
+    }
+}
+
+type Stack = (BTreeMap<(Function, usize), u32>, BTreeMap<usize, u32>);
+
+/// Two lines a number of cells: `bytes 8 1376`, and the depth of each function.
+fn stack(core: Core, seed: &str) -> Result<Stack, String> {
+    let output = output(core, &build(core, "stack", seed)?)?;
+    let output = String::from_utf8_lossy(&output);
+    let numbers =
+        output.lines().map(|line| line.split_whitespace().filter_map(|n| n.parse().ok()).collect());
+    let lines: Vec<Vec<u32>> = numbers.collect();
+    let (mut painted, mut bytes) = (BTreeMap::new(), BTreeMap::new());
+    for (cells, lines) in CELLS.into_iter().zip(lines.chunks(2)) {
+        let [size, depths] = lines else { return Err(format!("stack: {output}")) };
+        bytes.insert(cells, *size.last().ok_or("stack: no size")?);
+        painted.extend(Function::ALL.iter().zip(depths).map(|(f, depth)| ((*f, cells), *depth)));
+    }
+    Ok((painted, bytes))
+}

@@ -1,0 +1,200 @@
+//! The frames: plan, fire, check.
+
+use core::cell::RefCell;
+
+use cortex_m::asm::wfi;
+use cortex_m_rt::{entry, exception};
+use critical_section::Mutex;
+use defmt::{Format, error, info};
+use defmt_semihosting as _;
+use heapless::Vec;
+use semihosting::process::ExitCode;
+use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve, valid};
+
+use crate::board::{TICK_HZ, TIMER_IRQ, acknowledge, interrupt_in, now, start, trigger_line};
+
+/// A leaf shutter of 1/100 s, in flash, its polynomials computed by the compiler.
+static CURVE: ShutterCurve = valid(ShutterCurve::new(
+    CubicBezier::new([(0.0, 0.0), (0.001, 0.0), (0.0015, 1.0), (0.0025, 1.0)]),
+    CubicBezier::new([(0.0075, 1.0), (0.0085, 1.0), (0.009, 0.0), (0.01, 0.0)]),
+));
+
+/// The most triggers in a frame.
+const CAPACITY: usize = 96;
+/// The triggers that each frame asks for; the last asks for more than its lamp can follow.
+const FRAMES: [u32; 6] = [8, 16, 33, 48, 64, 90];
+/// What the lamp needs between two pulses: 100 µs.
+const MIN_GAP: u32 = TICK_HZ / 10_000;
+/// The most ticks that a pulse may be late, 0.64 µs.
+const LATEST: u32 = 16;
+/// How long before a pulse its interrupt comes, to have the handler ready.
+const LEAD: u32 = 128;
+/// From one frame's start to the next's: 20 ms.
+const PERIOD: u32 = TICK_HZ / 50;
+
+/// An error to make, to see that it is seen.
+const FAULT: Option<&str> = option_env!("TRIGGER_FAULT");
+
+type Ticks = Vec<u32, CAPACITY>;
+
+/// A frame as it is being fired: what is due, and what has been.
+struct Frame {
+    due: Ticks,
+    fired: Ticks,
+}
+
+static FRAME: Mutex<RefCell<Frame>> =
+    Mutex::new(RefCell::new(Frame { due: Vec::new(), fired: Vec::new() }));
+
+/// What is wrong with a frame's pulses.
+#[derive(Format)]
+enum Wrong {
+    Missing(usize),
+    TooMany(usize),
+    Early(usize),
+    Late(usize, u32),
+    TooClose(usize, u32),
+}
+
+/// The schedule of a frame, with fewer triggers where the gap asks for it, and the ticks it took.
+fn plan(wanted: u32) -> (Result<Ticks, ScheduleError>, u32) {
+    let begun = now();
+    // A pulse may be late and the next on time.
+    let gap = MIN_GAP + LATEST;
+    let plan = match CURVE.schedule(wanted, TICK_HZ, gap) {
+        Err(ScheduleError::GapTooSmall { most }) => CURVE.schedule(most, TICK_HZ, gap),
+        plan => plan,
+    };
+    (plan, now().wrapping_sub(begun))
+}
+
+/// Fires the pulses that are due and arms the timer for the next.
+fn fire(frame: &mut Frame) {
+    acknowledge();
+    let next = frame.fired.len();
+    let Some(&due) = frame.due.get(next) else { return };
+    while (now().wrapping_sub(due) as i32) < 0 && FAULT != Some("early") {}
+    if FAULT == Some("late") && next == 5 {
+        while now().wrapping_sub(due) <= LATEST {}
+    }
+    if FAULT == Some("lost") && next == 5 {
+        frame.due.pop();
+    }
+    trigger_line(true);
+    let fired = now();
+    trigger_line(false);
+    let _ = frame.fired.push(fired);
+    if FAULT == Some("twice") && next == 5 {
+        let _ = frame.fired.push(now());
+    }
+    if let Some(&due) = frame.due.get(frame.fired.len()) {
+        arm(due);
+    }
+}
+
+/// Has the interrupt come [`LEAD`] ticks before `due`, or at once if that has passed.
+fn arm(due: u32) {
+    let ticks = due.wrapping_sub(LEAD).wrapping_sub(now()) as i32;
+    interrupt_in(if ticks > 1 { ticks as u32 } else { 1 });
+}
+
+#[exception]
+unsafe fn DefaultHandler(irq: i16) {
+    if irq == TIMER_IRQ {
+        critical_section::with(|cs| fire(&mut FRAME.borrow_ref_mut(cs)));
+    }
+}
+
+/// The greatest lateness of a frame's pulses, if they are what was planned. Those on time are in order, for
+/// the plan is.
+fn check(base: u32, plan: &[u32], fired: &[u32]) -> Result<u32, Wrong> {
+    if fired.len() < plan.len() {
+        return Err(Wrong::Missing(fired.len()));
+    }
+    if fired.len() > plan.len() {
+        return Err(Wrong::TooMany(fired.len()));
+    }
+    let mut worst = 0;
+    for (i, (&tick, &at)) in plan.iter().zip(fired).enumerate() {
+        let late = at.wrapping_sub(base.wrapping_add(tick));
+        if (late as i32) < 0 {
+            return Err(Wrong::Early(i));
+        }
+        if late > LATEST {
+            return Err(Wrong::Late(i, late));
+        }
+        if i > 0 && at.wrapping_sub(fired[i - 1]) < MIN_GAP {
+            return Err(Wrong::TooClose(i, at.wrapping_sub(fired[i - 1])));
+        }
+        worst = worst.max(late);
+    }
+    Ok(worst)
+}
+
+#[entry]
+fn main() -> ! {
+    // The counter wraps in the middle of the third frame.
+    start(PERIOD * 3 + PERIOD / 4);
+    let first = now().wrapping_add(PERIOD);
+    let mut good = true;
+    info!("{}: exposure {} s", CURVE, CURVE.exposure());
+    for (i, wanted) in FRAMES.into_iter().enumerate() {
+        let base = first.wrapping_add(i as u32 * PERIOD);
+        let (plan, planning) = plan(wanted);
+        let plan = match plan {
+            Ok(plan) => plan,
+            Err(error) => {
+                error!("frame {}: {}", i, error);
+                exit(false)
+            }
+        };
+        critical_section::with(|cs| {
+            let mut frame = FRAME.borrow_ref_mut(cs);
+            frame.due = plan.iter().map(|tick| base.wrapping_add(*tick)).collect();
+            frame.fired.clear();
+            if let Some(&due) = frame.due.first() {
+                arm(due);
+            }
+        });
+        // The frame is over when a gap has passed after its end.
+        let length = (CURVE.close_end() * TICK_HZ as f32) as u32 + MIN_GAP;
+        while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
+            // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
+            critical_section::with(|cs| {
+                let frame = FRAME.borrow_ref(cs);
+                if frame.fired.len() < frame.due.len() {
+                    wfi();
+                }
+            });
+        }
+        let fired = critical_section::with(|cs| FRAME.borrow_ref(cs).fired.clone());
+        match check(base, &plan, &fired) {
+            Ok(late) => info!(
+                "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",
+                i,
+                fired.len(),
+                wanted,
+                plan[0],
+                plan[plan.len() - 1],
+                late,
+                planning,
+                if fired[fired.len() - 1] < fired[0] { ", across the counter's wrap" } else { "" }
+            ),
+            Err(wrong) => {
+                error!("frame {}: {} of {} triggers: {}", i, fired.len(), plan.len(), wrong);
+                good = false;
+            }
+        }
+    }
+    exit(good)
+}
+
+fn exit(good: bool) -> ! {
+    if good { ExitCode::SUCCESS } else { ExitCode::FAILURE }.exit_process()
+}
+
+#[panic_handler]
+fn panic(info: &core::panic::PanicInfo) -> ! {
+    error!("{}", defmt::Display2Format(info));
+    exit(false)
+}

@@ -1,0 +1,25 @@
+//! Firmware that triggers: a frame's pulses, planned before it begins, fired by a timer's interrupt and
+//! checked against the clock. It runs on the mps2-an386 board, a Cortex-M4F at 25 MHz, that QEMU has:
+//!
+//! ```text
+//! cargo run --release --target thumbv7em-none-eabihf --example trigger
+//! ```
+//!
+//! It exits with 0 only if every pulse of every frame came once, in order, never early, at most
+//! `LATEST` ticks late and with the minimum gap kept. `TRIGGER_FAULT=lost` (or `twice`, `early`,
+//! `late`) when it is built shows that the check sees such a fault.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+// Registers are written, as they must be, in `board` alone; the entry and the handler take unsafe attributes.
+#![cfg_attr(target_os = "none", allow(unsafe_code))]
+
+#[cfg(target_os = "none")]
+mod board;
+#[cfg(target_os = "none")]
+mod firmware;
+
+#[cfg(not(target_os = "none"))]
+fn main() {
+    eprintln!(
+        "this is firmware: cargo run --release --target thumbv7em-none-eabihf --example trigger"
+    );
+}
