@@ -1,0 +1,111 @@
+//! The plan as text: the curve's facts, the drawing, the table.
+
+use std::fmt::{self, Write};
+use std::iter::once;
+
+use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
+
+use super::plan::{Plan, Trigger};
+use super::unit::{Unit, decimals, short};
+
+/// Longer tables lose their middle; half as many rows stay at each end.
+const MOST_ROWS: usize = 25;
+/// With more triggers than this, a full line at each would hide the curve.
+const MOST_LINES: usize = 36;
+/// The drawing's size in dots, 2 by 4 a character: with its labels it fits in 80 columns.
+const DOTS: (u32, u32) = (143, 39);
+
+pub fn text(name: &str, plan: &Plan) -> String {
+    let mut text = String::new();
+    write_text(&mut text, name, plan).expect("a string takes all");
+    text
+}
+
+fn write_text(out: &mut String, name: &str, plan: &Plan) -> fmt::Result {
+    let unit = plan.unit();
+    facts(out, name, plan, unit)?;
+    let curve = &plan.curve;
+    writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name)?;
+    out.push_str(&drawing(plan, unit, |t| curve.opening(t)));
+    writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name)?;
+    out.push_str(&drawing(plan, unit, |t| curve.cdf(t)));
+    writeln!(out)?;
+    table(out, plan, unit)
+}
+
+fn facts(out: &mut String, name: &str, plan: &Plan, unit: Unit) -> fmt::Result {
+    let curve = &plan.curve;
+    let of = |seconds: f32| short(unit.of(seconds), 5);
+    writeln!(out, "scene        {name}")?;
+    writeln!(
+        out,
+        "shutter      opens from {} to {}, closes from {} to {} {}",
+        of(curve.open_start()),
+        of(curve.open_end()),
+        of(curve.close_start()),
+        of(curve.close_end()),
+        unit.name
+    )?;
+    writeln!(out, "exposure     {}", unit.show(curve.exposure()))?;
+    writeln!(out, "efficiency   {} %", short(100.0 * f64::from(curve.efficiency()), 4))?;
+    writeln!(out, "timer        {} Hz", plan.timer_hz)?;
+    write!(out, "gap          at least {}", unit.show(plan.min_gap))?;
+    if let Some(ticks) = plan.gaps().min() {
+        write!(out, "; the closest two come {} apart", unit.show(plan.seconds(ticks)))?;
+    }
+    writeln!(out, "\ntriggers     {}; up to {} keep the gap", plan.triggers.len(), plan.most)
+}
+
+/// The function `f` of time with a line up to it at each trigger.
+fn drawing(plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> String {
+    let curve = &plan.curve;
+    let (start, end) = (curve.open_start(), curve.close_end());
+    // Counted from the start: a late start would leave f32 too few digits for a short interval.
+    let x = |t: f32| t - start;
+    let times = (0..=DOTS.0).map(|i| start + (end - start) * (i as f32 / DOTS.0 as f32));
+    // From just before to just after, so that a jump at an end is drawn.
+    let times = once(start.next_down()).chain(times).chain(once(end.next_up()));
+    let line: Vec<_> = times.map(|t| (x(t), f(t))).collect();
+    let graph = Shape::Lines(&line);
+    let tallest = if plan.triggers.len() > MOST_LINES { 0.1 } else { 1.0 };
+    let stem = |&Trigger { time, .. }: &Trigger| [(x(time), 0.0), (x(time), f(time).min(tallest))];
+    let stems: Vec<_> = plan.triggers.iter().map(stem).collect();
+    let stems: Vec<_> = stems.iter().map(|stem| Shape::Lines(stem)).collect();
+
+    let mut chart = Chart::new_with_y_range(DOTS.0, DOTS.1, 0.0, x(end), 0.0, 1.0);
+    let label = move |x: f32| short(unit.of(start + x), 5);
+    let mut chart = chart
+        .x_label_format(LabelFormat::Custom(Box::new(label)))
+        .y_label_format(LabelFormat::Custom(Box::new(|y| format!("{y}"))))
+        .lineplot(&graph);
+    for stem in &stems {
+        chart = chart.lineplot(stem);
+    }
+    chart.axis();
+    chart.figures();
+    chart.to_string()
+}
+
+fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
+    // A digit more than tells one tick from the next, as far as f32 has them.
+    let tick = unit.of(plan.seconds(1));
+    let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
+    let (time, gap) = (format!("time ({})", unit.name), format!("gap ({})", unit.name));
+    writeln!(out, "    #        u  {time:>13}       ticks  {gap:>13}")?;
+    let n = plan.triggers.len();
+    let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };
+    for (i, Trigger { u, time, ticks }) in plan.triggers.iter().enumerate() {
+        if i == hidden.start {
+            writeln!(out, "  ...  {} more", hidden.len())?;
+        }
+        if hidden.contains(&i) {
+            continue;
+        }
+        let gap = match i.checked_sub(1).map(|last| ticks - plan.triggers[last].ticks) {
+            Some(gap) => format!("{:.places$}", unit.of(plan.seconds(gap))),
+            None => "-".into(),
+        };
+        writeln!(out, "{i:5}  {u:.5}  {:13.places$}  {ticks:10}  {gap:>13}", unit.of(*time))?;
+    }
+    Ok(())
+}
