@@ -31,6 +31,7 @@ const fn curvature(x: i32) -> i32 {
 #[derive(Clone, Copy)]
 struct Leading {
     k: i32,
+    #[cfg_attr(not(any(feature = "libm", feature = "micromath")), expect(dead_code))]
     coefficient: f64,
     target: i32,
     divisor: i32,

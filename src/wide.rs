@@ -119,13 +119,23 @@ impl Wide {
     /// `base + self`, or `base - self` where `back`, rounded once.
     #[inline]
     pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
+        // 2⁶⁴
+        const UP: f32 = 18446744073709551616.0;
         let e = self.e + 63;
-        if e < -126 {
-            // Subnormal by itself: a whole number of the least one, which the addition then keeps.
+        let small = base.abs() < 1.0 / UP;
+        let (e, base, down) = if e < -126 && base.abs() < f32::MIN_POSITIVE {
+            // Both subnormal: whole numbers of the least one, whose sum is exact.
             let halves = self.in_units(-150);
             let part = f32::from_bits(((halves + 1) >> 1) as u32);
             return if back { base - part } else { base + part };
-        }
+        } else if e < -102 && small && e >= -190 {
+            // The lower bits would be subnormal, and so rounded by themselves: scaled up, they are not.
+            (e + 64, base * UP, 1.0 / UP)
+        } else if e < -126 {
+            return base;
+        } else {
+            (e, base, 1.0)
+        };
         let scale = f32::from_bits(((e + 127) as u32) << 23);
         let scale = if back { -scale } else { scale };
         // 24 bits and the 32 after them, the first exact.
@@ -135,7 +145,7 @@ impl Wide {
         let near = base + high;
         let part = near - base;
         let lost = (base - (near - part)) + (high - part);
-        near + odd_sum(lost, low)
+        (near + odd_sum(lost, low)) * down
     }
 }
 

@@ -1,0 +1,426 @@
+//! The report's text.
+
+use std::fmt::Write as _;
+
+use crate::accuracy::Figures;
+use crate::baseline::InverseTable;
+use crate::cases::{CASES, Verdict, judge, shutter};
+use crate::cost::Cost;
+use crate::every_f32::Row;
+use crate::methods::{METHODS, Method, TEXTBOOK};
+use crate::oracle::Exact;
+use crate::pictures::name;
+use crate::rendering::Pulses;
+use crate::search::Find;
+use crate::seeds::SeedRow;
+use crate::timing::{CURVES, FORWARDS, Time};
+
+/// Everything measured.
+pub struct Measured {
+    pub curves: usize,
+    pub samples: usize,
+    pub figures: Vec<Figures>,
+    /// By curve, then by method.
+    pub times: Vec<Vec<Time>>,
+    /// By curve: nanoseconds and error of [`FORWARDS`].
+    pub forwards: Vec<[(f64, f64); 4]>,
+    pub costs: Vec<Cost>,
+    pub seeds: Vec<SeedRow>,
+    pub rendering: Vec<(Pulses, Vec<(u32, f64)>)>,
+    pub finds: Vec<Find>,
+    pub every_f32: Vec<Row>,
+}
+
+/// A figure as one reads it.
+pub fn number(x: f64) -> String {
+    match x.abs() {
+        _ if !x.is_finite() => "∞".into(),
+        0.0 => "0".into(),
+        ..0.01 | 1e6.. => {
+            let text = format!("{x:.1e}");
+            let (digits, exponent) = text.split_once('e').expect("an exponent");
+            format!("{digits}·10<sup>{exponent}</sup>")
+        }
+        ..0.1 => format!("{x:.3}"),
+        ..10.0 => format!("{x:.2}"),
+        ..100.0 => format!("{x:.1}"),
+        _ => format!("{x:.0}"),
+    }
+}
+
+pub const SEED: &str = if cfg!(feature = "libm") {
+    "libm"
+} else if cfg!(feature = "micromath") {
+    "micromath"
+} else {
+    "none"
+};
+
+pub fn write(measured: &Measured) -> String {
+    let mut out = String::new();
+    introduction(&mut out, measured).expect("a string takes text");
+    methods(&mut out, measured).expect("a string takes text");
+    seeds(&mut out, measured).expect("a string takes text");
+    forwards(&mut out, measured).expect("a string takes text");
+    errors(&mut out).expect("a string takes text");
+    hard_cases(&mut out).expect("a string takes text");
+    search(&mut out, measured).expect("a string takes text");
+    every_f32(&mut out, measured).expect("a string takes text");
+    rendering(&mut out, measured).expect("a string takes text");
+    out
+}
+
+fn introduction(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    write!(
+        out,
+        "# Speed against error
+
+Written by `cargo bench --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
+an ordinary machine, medians of interleaved repeats over 65 536 random `u`, so that no branch on `u` is ever
+predicted; on another machine trust the ratios. Seeds by `{SEED}` unless said otherwise.
+
+Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones
+as scenes hold them), {} fractions each: half of them uniform, a quarter towards either end on a scale of
+octaves, since that is where tables and absolute tolerances fail.
+
+- *forward*: |t - exact| in ulp(t);
+- *of the interval*: the same as a share of `close_end - open_start`;
+- *backward*: by how many ulp(u) must `u` move for the answer to be right, once the rounding of the exact time to
+  `t` is forgiven. It holds everywhere, however flat the curve;
+- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
+- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
+  other columns a time outside the interval counts as its nearer end, and NaN as its start.
+
+![Error against cost](frontier.svg)
+
+Full dots are the greatest error, rings the mean.
+
+",
+        std::env::consts::ARCH,
+        measured.curves,
+        measured.samples,
+    )
+}
+
+fn methods(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    writeln!(
+        out,
+        "## The methods
+
+The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
+of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer); Newton inside a bracket until an
+absolute 1e-6 (another renderer); tables of the exact inverse at equally spaced `u`, joined by lines or by monotone
+cubics; and Newton in doubles.
+
+### Cost
+
+`soft` has a third of its mass in ramps, `all ramp` all of it, `box` none. Cycles are a model of a Cortex-M4F without
+wait states, over uniform `u`, where `cost.md` has them.
+
+| method | bytes | {} |",
+        CURVES
+            .map(|(name, ..)| format!("{name}: single, ns | slice, ns | ratios to textbook"))
+            .join(" | "),
+    )?;
+    let has_costs = !measured.costs.is_empty();
+    let header = if has_costs { " M4F cycles, soft: mean | max |" } else { "" };
+    // The header's line ends in a bar; the cycles follow it.
+    if has_costs {
+        out.truncate(out.trim_end().len());
+        writeln!(out, "{header}")?;
+    }
+    let columns = 2 + 3 * CURVES.len() + if has_costs { 2 } else { 0 };
+    writeln!(out, "|---|{}", "---:|".repeat(columns - 1))?;
+    for (index, method) in METHODS.iter().enumerate() {
+        write!(out, "| {} | {} |", method.name, method.bytes)?;
+        for times in &measured.times {
+            let (time, textbook) = (times[index], times[TEXTBOOK]);
+            write!(
+                out,
+                " {:.1} | {:.1} | {:.2}, {:.2} |",
+                time.single,
+                time.slice,
+                time.single / textbook.single,
+                time.slice / textbook.single
+            )?;
+        }
+        if has_costs {
+            match cost(measured, method) {
+                Some(cost) => write!(out, " {:.0} | {:.0} |", cost.mean, cost.max)?,
+                None => write!(out, " | |")?,
+            }
+        }
+        writeln!(out)?;
+    }
+    writeln!(
+        out,
+        "
+The slice's ratio too is to single calls of the textbook Newton.
+
+### Error
+
+| method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) | steps back | failures | evaluations: mean | worst |
+|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+    )?;
+    for (method, figures) in METHODS.iter().zip(&measured.figures) {
+        writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            method.name,
+            number(figures.quantile(1.0)),
+            number(figures.quantile(0.999)),
+            number(figures.mean()),
+            number(figures.of_interval.0),
+            number(figures.of_interval.1),
+            number(figures.backward),
+            number(figures.steps_back),
+            number(figures.failures),
+            number(figures.evaluations.0),
+            figures.evaluations.1
+        )?;
+    }
+    writeln!(
+        out,
+        "
+Evaluations are of the mass, a polynomial of degree 6; this crate's direct polynomials and its plateau take none.
+"
+    )
+}
+
+/// A method's cycles, this crate's with the seed of this build.
+pub fn cost<'a>(measured: &'a Measured, method: &Method) -> Option<&'a Cost> {
+    let seed = if method.is_ours { SEED } else { "" };
+    measured.costs.iter().find(|cost| cost.method == method.cost && cost.seed == seed)
+}
+
+fn seeds(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    if measured.seeds.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "## The seed
+
+What the features `libm` and `micromath` change: the first guess of the solver, and so its steps, not its promise.
+Times are ratios to the textbook Newton in the same run.
+
+| seed | cells | soft: single | all ramp: single | forward, max | backward, ulp(u) | evaluations: mean | worst |
+|---|---|---:|---:|---:|---:|---:|---:|"
+    )?;
+    for row in &measured.seeds {
+        writeln!(
+            out,
+            "| {} | {} | {:.2} | {:.2} | {} | {} | {} | {} |",
+            row.seed,
+            row.cells,
+            row.soft,
+            row.all_ramp,
+            number(row.forward),
+            number(row.backward),
+            number(row.mean),
+            row.worst
+        )?;
+    }
+    writeln!(out)
+}
+
+fn forwards(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    writeln!(
+        out,
+        "## Openness and cdf
+
+Against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
+bisection. Nanoseconds a sample at random times, and the greatest error seen, absolute: of the openness, and of the
+fraction of the exposure.
+
+| curve | {} |
+|---|---:|---:|---:|---:|---:|---:|---:|---:|",
+        FORWARDS.map(|name| format!("{name}, ns | error")).join(" | ")
+    )?;
+    for ((name, ..), forwards) in CURVES.iter().zip(&measured.forwards) {
+        let cells = forwards.map(|(time, error)| format!("{time:.1} | {}", number(error)));
+        writeln!(out, "| {name} | {} |", cells.join(" | "))?;
+    }
+    writeln!(
+        out,
+        "
+Both need `p` for a `t`, which no table gives: this crate solves in 64-bit integers, to the promised 2 ulp.
+"
+    )
+}
+
+fn errors(out: &mut String) -> std::fmt::Result {
+    writeln!(
+        out,
+        "## Where the errors are
+
+![Error over u](error-over-u.svg)
+
+The greatest error of 16 neighbouring samples. On the plateau all are exact to their rounding.
+
+![Histogram of errors](histogram.svg)
+
+The signed error of all samples: no better than rounding is possible, and little worse is seen. Some times are exact,
+hence the peak in the middle.
+
+![Worst cases](worst-cases.svg)
+
+Each random curve's worst `u`, over some 800 that are likely to be bad: octave ends, section bounds with their
+neighbours, the smallest numbers, random ones.
+"
+    )
+}
+
+fn hard_cases(out: &mut String) -> std::fmt::Result {
+    writeln!(
+        out,
+        "## Hard cases
+
+Each is a test in `tests/hard_cases.rs`, which also rebuilds where other systems fail. The textbook Newton and the
+table of 256 beside this crate with 8 octaves: the greatest error as a share of the interval, failures and steps back
+of some 800 `u` a curve, and this crate's errors in ulp(t) and, once half an ulp(t) is forgiven, in ulp(u). The error
+in ulp(t) is large where the density is next to nothing: there a small ulp(u) is all that can be had.
+
+| case | textbook: error | failures | steps back | table: error | failures | this crate: error | ulp(t) | ulp(u) | failures, steps back | evaluations: worst |
+|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+    )?;
+    for case in CASES {
+        let curve = case.curve();
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        let textbook = (METHODS[TEXTBOOK].build)(&curve);
+        let table = InverseTable::<256>::new(|u| ours.inverse_cdf(u));
+        let judge = |inverse: &dyn Fn(f32) -> f32| judge(&exact, inverse);
+        let [textbook, table, crate_]: [Verdict; 3] = [
+            judge(&|u| textbook.inverse_cdf(u)),
+            judge(&|u| table.inverse_cdf(u)),
+            judge(&|u| ours.inverse_cdf(u)),
+        ];
+        let us = crate::oracle::curves::hard_us(&exact, 4, 400);
+        let evaluations = us.iter().map(|u| ours.evaluations(*u)).max();
+        writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {}, {} | {} |",
+            case.name,
+            number(textbook.of_interval),
+            textbook.failures,
+            textbook.steps_back,
+            number(table.of_interval),
+            table.failures,
+            number(crate_.of_interval),
+            number(crate_.forward),
+            number(crate_.backward),
+            crate_.failures,
+            crate_.steps_back,
+            evaluations.unwrap_or(0)
+        )?;
+    }
+    writeln!(
+        out,
+        "
+### Where others fail
+
+The failures that are known of other systems, rebuilt from their public descriptions: the greatest error over {} equally
+spaced inputs.
+
+{}",
+        crate::others::COUNT,
+        crate::others::table()
+    )
+}
+
+fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    let Some(first) = measured.finds.first() else { return Ok(()) };
+    writeln!(
+        out,
+        "### Found by search
+
+`cargo bench --bench speed_vs_error -- --search N` draws random curves, three of four of them hard, and climbs from the
+worst of them by moving control points. {} valid curves were tried, each on some 450 `u`.
+
+| aim | worst found | opening | closing |
+|---|---:|---|---|",
+        first.curves_tried
+    )?;
+    for find in &measured.finds {
+        writeln!(
+            out,
+            "| {} | {} | {} | {} |",
+            find.aim.name(),
+            number(find.worst),
+            find.opening,
+            find.closing
+        )?;
+    }
+    writeln!(out)
+}
+
+fn every_f32(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    if measured.every_f32.is_empty() {
+        return Ok(());
+    }
+    let seconds: f64 = measured.every_f32.iter().map(|row| row.seconds).sum();
+    let answers: u64 = measured.every_f32.iter().map(|row| row.count).sum();
+    writeln!(
+        out,
+        "## Every f32
+
+`cargo bench --bench speed_vs_error -- --every-f32` asks for all 1 065 353 217 `f32` in [0, 1] with 8 octaves; with
+other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. The answers are held against
+a second formulation, a solver in doubles that follows u, and samples and the worst of each 4 million against the
+double-double oracle (*judged*). {} answers took {:.0} minutes on two cores, in a run of its own.
+
+| curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) | judged | evaluations: worst |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|",
+        answers,
+        seconds / 60.0
+    )?;
+    for row in &measured.every_f32 {
+        writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            row.curve,
+            row.kind,
+            row.cells,
+            row.count,
+            row.out_of_range,
+            row.steps_back,
+            number(row.forward),
+            number(row.backward),
+            number(row.judged),
+            row.evaluations
+        )?;
+    }
+    writeln!(
+        out,
+        "
+The forward error leaves out answers where the density is so low that doubles cannot tell the time to an ulp.
+"
+    )
+}
+
+fn rendering(out: &mut String, measured: &Measured) -> std::fmt::Result {
+    writeln!(
+        out,
+        "## What it is for
+
+A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
+within 1/n of the exact integral at every pixel, since they split the exposure evenly: half a share at either edge.
+Equally spaced pulses must be dimmed by the openness, which a lamp that fires equal pulses cannot do, and random ones
+are far noisier. `tests/statistics.rs` holds this for every scene of the main example, together with chi-square and
+Kolmogorov-Smirnov tests of the samples.
+
+![A moving bar in pulses](rendering.svg)
+
+Root-mean-square error over the picture, soft curve (random: mean of 16 seeds):
+
+| pulses | {} |
+|---:|---:|---:|---:|",
+        measured.rendering.iter().map(|(pulses, _)| name(*pulses)).collect::<Vec<_>>().join(" | ")
+    )?;
+    for (i, (n, _)) in measured.rendering[0].1.iter().enumerate() {
+        let row: Vec<_> =
+            measured.rendering.iter().map(|(_, errors)| number(errors[i].1)).collect();
+        writeln!(out, "| {n} | {} |", row.join(" | "))?;
+    }
+    Ok(())
+}

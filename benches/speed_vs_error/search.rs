@@ -1,0 +1,152 @@
+//! A search for the worst curves: random ones, then uphill from the worst of them.
+
+use crate::cases::{judge_on, shutter};
+use crate::oracle::curves::{Rng, hard_us, is_valid, random_hard, random_typical};
+use crate::oracle::{Curve, Exact, ulp_f32};
+
+const SEED: u64 = 20_240_611;
+/// How many of the worst are climbed from, for each aim.
+const STARTS: usize = 4;
+/// The share of random curves in all that are tried; the rest are steps uphill.
+const RANDOM_SHARE: f64 = 0.6;
+
+/// What is searched for.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Aim {
+    /// Error in ulp(t), where an ulp of u moves the time by no more than one.
+    Forward,
+    /// Error in ulp(u), once half an ulp(t) is forgiven.
+    Backward,
+    Evaluations,
+    StepsBack,
+    /// `|cdf(inverse_cdf(u)) - u|` in units of what the rounding of t and of the cdf explain.
+    RoundTrip,
+}
+
+const AIMS: [Aim; 5] =
+    [Aim::Forward, Aim::Backward, Aim::Evaluations, Aim::StepsBack, Aim::RoundTrip];
+
+impl Aim {
+    pub fn name(self) -> &'static str {
+        match self {
+            Aim::Forward => "error in ulp(t), where an ulp of u moves the time by at most one",
+            Aim::Backward => "error in ulp(u)",
+            Aim::Evaluations => "evaluations",
+            Aim::StepsBack => "steps back",
+            Aim::RoundTrip => {
+                "cdf(inverse_cdf(u)) - u, over what one ulp of t and three of the cdf explain"
+            }
+        }
+    }
+}
+
+/// The worst found for an aim, as a line of `docs/search.csv`.
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+pub struct Find {
+    pub aim: Aim,
+    pub curves_tried: u64,
+    pub worst: f64,
+    /// Control points, as `t f` pairs of the opening and the closing ramp.
+    pub opening: String,
+    pub closing: String,
+}
+
+/// How bad a curve is, for each of the aims.
+fn score(curve: &Curve) -> [f64; 5] {
+    let (exact, ours) = (Exact::new(curve), shutter::<8>(curve));
+    let mut us = hard_us(&exact, SEED, 60);
+    us.sort_by(f32::total_cmp);
+    let verdict = judge_on(&exact, |u| ours.inverse_cdf(u), &us);
+    let (mut evaluations, mut forward, mut round_trip) = (0, 0.0f64, 0.0f64);
+    for &u in us.iter().step_by(7) {
+        evaluations = evaluations.max(ours.evaluations(u));
+        let t = ours.inverse_cdf(u);
+        let density = exact.pdf(t).hi;
+        let conditioned = ulp_f32(u.into()) <= density * ulp_f32(t.into());
+        if conditioned && u > 0.0 && u < 1.0 {
+            let f = exact.judge(u, t).forward;
+            if f > 2.0 {
+                eprintln!("{u:e} {t:e} {f} {curve:?}");
+            }
+            forward = forward.max(exact.judge(u, t).forward);
+        }
+        // What the fraction gains from t's lower neighbour to its upper one, and three ulp of the cdf, which
+        // count from 2⁻²⁴ on.
+        let [low, high] = [t.next_down(), t.next_up()].map(|t| exact.cdf(t).hi);
+        let explained = (high - low) + 3.0 * ulp_f32(f64::from(u).max(6e-8));
+        let miss = (f64::from(ours.cdf(t)) - f64::from(u)).abs();
+        round_trip = round_trip.max(miss / explained);
+    }
+    if exact.grazes() {
+        // Time or openness below its bound by rounding: a few times have no single u to be judged by.
+        return [0.0, 0.0, evaluations.into(), 0.0, 0.0];
+    }
+    [forward, verdict.backward, evaluations.into(), verdict.steps_back.into(), round_trip]
+}
+
+/// A neighbour: one or two control points moved a little, on a scale of its own, or onto each other.
+fn step(curve: &Curve, rng: &mut Rng) -> Curve {
+    let mut next = *curve;
+    let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+    for _ in 0..=rng.below(2) {
+        let points = if rng.chance(0.5) { &mut next.opening } else { &mut next.closing };
+        let [i, other] = [0, 1].map(|_| rng.below(4) as usize);
+        let size = rng.power_of_ten(-7.0, -0.5) * rng.between(-1.0, 1.0);
+        match rng.below(5) {
+            0 => points[i].0 = points[other].0,
+            1 => points[i].1 = points[other].1,
+            2 | 3 => points[i].0 = (f64::from(points[i].0) + size * length) as f32,
+            _ => points[i].1 = (f64::from(points[i].1) + size) as f32,
+        }
+    }
+    next
+}
+
+/// Tries about `curves` curves; `tick` hears of each.
+pub fn search(curves: u64, tick: impl Fn()) -> Vec<Find> {
+    let random = (curves as f64 * RANDOM_SHARE) as u64;
+    let mut tried = 0;
+    let mut worst: [Vec<(f64, Curve)>; 5] = Default::default();
+    for index in 0..random {
+        let curve =
+            if index % 4 == 3 { random_typical(SEED, index) } else { random_hard(SEED, index) };
+        for (worst, score) in worst.iter_mut().zip(score(&curve)) {
+            worst.push((score, curve));
+            worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+            worst.truncate(STARTS);
+        }
+        tried += 1;
+        tick();
+    }
+    let steps = (curves - random) / (AIMS.len() * STARTS) as u64;
+    for (aim, worst) in worst.iter_mut().enumerate() {
+        for (start, (best, curve)) in worst.iter_mut().enumerate() {
+            let mut rng = Rng::new(SEED, ((aim * STARTS + start) as u64) << 32);
+            for _ in 0..steps {
+                let next = step(curve, &mut rng);
+                tick();
+                if !is_valid(&next) {
+                    continue;
+                }
+                tried += 1;
+                let score = score(&next)[aim];
+                if score >= *best {
+                    (*best, *curve) = (score, next);
+                }
+            }
+        }
+        worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    }
+    let text =
+        |points: crate::oracle::Points| points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ");
+    let finds = AIMS.into_iter().zip(&worst);
+    finds
+        .map(|(aim, worst)| Find {
+            aim,
+            curves_tried: tried,
+            worst: worst[0].0,
+            opening: text(worst[0].1.opening),
+            closing: text(worst[0].1.closing),
+        })
+        .collect()
+}
