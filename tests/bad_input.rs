@@ -120,7 +120,7 @@ fn grazing_by_rounding_is_accepted_and_solved() {
     assert!(single(bump).is_ok());
     assert!(shutter(bump, CLOSING).is_ok());
     // t' with a double root at 1/2, grazing it by the rounding of the control times.
-    for t in [0.3, 0.30000001, 0.3 + f32::EPSILON / 8.0] {
+    for t in [0.3f32, 0.3f32.next_up(), 0.3f32.next_down()] {
         assert!(shutter([(0.0, 0.0), (t, 0.1), (0.0, 0.9), (0.3, 1.0)], CLOSING).is_ok());
     }
 }
