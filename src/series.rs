@@ -36,7 +36,7 @@ pub(crate) struct Seed {
 const TOP: i32 = i32::MAX;
 const LEAST_SHIFT: i32 = -1;
 
-/// Newton steps before bisection takes over for good.
+/// Newton steps before the bracket has to keep up with what bisection would make of it.
 const NEWTON: u32 = 10;
 /// Bisections that bring any bracket of 31-bit numbers down to neighbours.
 const BISECTION: u32 = 31;
@@ -169,8 +169,8 @@ const fn cube_root(x: f32) -> f32 {
 }
 
 /// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`:
-/// Newton's method with Halley's correction inside a bracket, bisection where it leaves it or after
-/// [`NEWTON`] steps.
+/// Newton's method with Halley's correction inside a bracket, and bisection where a step leaves it or where,
+/// after [`NEWTON`] steps, the bracket is wider than bisection alone would have left it.
 ///
 /// It stops where less is missing than one unit of `x` adds, which `rest` then makes up for, or in a flat
 /// place where the residual is below `2^-enough` of the target, or with the bracket down to neighbours.
