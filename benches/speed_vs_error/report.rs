@@ -364,10 +364,10 @@ fn every_f32(out: &mut String, measured: &Measured) -> std::fmt::Result {
         out,
         "## Every f32
 
-`cargo bench --bench speed_vs_error -- --every-f32` asks for all 1 065 353 217 `f32` in [0, 1] with 8 octaves; with
+`cargo bench --bench speed_vs_error -- --every-f32` asks for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and then with
 other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. The answers are held against
 a second formulation, a solver in doubles that follows u, and samples and the worst of each 4 million against the
-double-double oracle (*judged*). {} answers took {:.0} minutes on two cores, in a run of its own.
+double-double oracle (*judged*). These {} answers took {:.0} minutes on two busy cores, in a run of its own.
 
 | curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) | judged | evaluations: worst |
 |---|---|---:|---:|---:|---:|---:|---:|---:|---:|",
