@@ -2,7 +2,7 @@
 
 use crate::bezier::CubicBezier;
 use crate::seed::{seed, seed_by_bits};
-use crate::series::{Root, Seed, Series, solve};
+use crate::series::{Coefficient, Root, Seed, Series, solve};
 use crate::wide::Wide;
 
 /// How exact a search has to be in a flat place, in bits: for the mass, an eighth of the least distance
@@ -28,7 +28,7 @@ pub(crate) struct End {
 
 impl End {
     /// The end at `P0` where `!last`, at `P3` where `last`.
-    const fn new(curve: &CubicBezier, last: bool) -> Self {
+    const fn new(curve: &CubicBezier, last: bool) -> (Self, f64) {
         let points = curve.points();
         let (time, openness) = if last { points[3] } else { points[0] };
         let b = powers(curve.times(), last);
@@ -38,7 +38,7 @@ impl End {
         let b = [sign * b[0], sign * b[1], sign * b[2]];
         let f = openness as f64;
         // The product of f = f0 + a1 p + a2 p² + a3 p³ and t' = b1 + 2 b2 p + 3 b3 p², integrated.
-        let mass = [
+        let m = [
             f * b[0],
             (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
             (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
@@ -46,7 +46,9 @@ impl End {
             (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
             a[2] * b[2] / 2.0,
         ];
-        Self { time, openness, elapsed: b, gained: a, mass }
+        let total = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
+        let end = Self { time, openness, elapsed: cubic(b), gained: cubic(a), mass: sextic(m) };
+        (end, total)
     }
 
     /// The place where `mass` has been collected from here, the end with index `from`.
@@ -60,19 +62,23 @@ impl End {
         let elapsed = if negative { Wide::ZERO } else { elapsed };
         Place { time, back, elapsed, evaluations: root.evaluations }
     }
-
-    /// The mass between the two ends.
-    const fn total(&self) -> f64 {
-        let m = &self.mass;
-        m[0] + m[1] + m[2] + m[3] + m[4] + m[5]
-    }
 }
 
 /// A cubic's coefficients of `p`, `p²` and `p³`, from its Bernstein coefficients, measured from the
 /// first or the last. The differences of `f32` are exact in `f64` unless their exponents lie 29 apart.
-const fn powers(v: [f64; 4], last: bool) -> Series<3> {
+const fn powers(v: [f64; 4], last: bool) -> [f64; 3] {
     let [v0, v1, v2, v3] = if last { [v[3], v[2], v[1], v[0]] } else { v };
     [3.0 * (v1 - v0), 3.0 * ((v2 - v1) - (v1 - v0)), (v3 - v0) - 3.0 * (v2 - v1)]
+}
+
+const fn cubic(c: [f64; 3]) -> Series<3> {
+    [Coefficient::new(c[0]), Coefficient::new(c[1]), Coefficient::new(c[2])]
+}
+
+const fn sextic(c: [f64; 6]) -> Series<6> {
+    let [c1, c2, c3, c4, c5, c6] = c;
+    let ([c1, c2, c3], [c4, c5, c6]) = (cubic([c1, c2, c3]), cubic([c4, c5, c6]));
+    [c1, c2, c3, c4, c5, c6]
 }
 
 /// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
@@ -104,11 +110,12 @@ pub(crate) struct Segment {
 
 impl Segment {
     pub(crate) const fn new(curve: &CubicBezier) -> Self {
-        let ends = [End::new(curve, false), End::new(curve, true)];
+        let (first, mass) = End::new(curve, false);
+        let (last, again) = End::new(curve, true);
         // The mean is the same from both ends, and so for a mirrored ramp. A density that grazes 0 from
         // below can leave a mass below 0 by rounding.
-        let mass = 0.5 * (ends[0].total() + ends[1].total());
-        Self { ends, mass: if mass > 0.0 { mass } else { 0.0 } }
+        let mass = 0.5 * (mass + again);
+        Self { ends: [first, last], mass: if mass > 0.0 { mass } else { 0.0 } }
     }
 
     /// An end by its index, which is 0 or 1.

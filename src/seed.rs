@@ -31,8 +31,6 @@ const fn curvature(x: i32) -> i32 {
 #[derive(Clone, Copy)]
 struct Leading {
     k: i32,
-    #[cfg_attr(not(any(feature = "libm", feature = "micromath")), expect(dead_code))]
-    coefficient: f64,
     target: i32,
     divisor: i32,
 }
@@ -46,18 +44,17 @@ const fn divided(x: i32, k: i32) -> i32 {
 
 const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
     let log = rough_log(target);
-    let mut best = Leading { k: 1, coefficient: 1.0, target: log, divisor: 0 };
+    let mut best = Leading { k: 1, target: log, divisor: 0 };
     let mut least = i32::MAX;
     let mut i = 0;
     while i < N {
-        let high = (c[i].to_bits() >> 32) as i32;
-        if high > 0 {
-            let divisor = high - 1023 * ONE;
+        if c[i].is_positive() {
+            let divisor = c[i].rough_log();
             let k = i as i32 + 1;
             let root = divided(log - divisor, k);
             if root < least {
                 least = root;
-                best = Leading { k, coefficient: c[i], target: log, divisor };
+                best = Leading { k, target: log, divisor };
             }
         }
         i += 1;
@@ -94,8 +91,8 @@ pub(crate) fn seed<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
             let exponent = (l.target >> 20) - (l.divisor >> 20);
             let (whole, rest) = (exponent >> (l.k / 2), exponent & (l.k - 1));
             let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-            let ratio = significand((target.m >> 40) as u32 & 0x7F_FFFF)
-                / significand((l.coefficient.to_bits() >> 29) as u32 & 0x7F_FFFF);
+            let ratio = significand((l.target as u32 & 0xF_FFFF) << 3)
+                / significand((l.divisor as u32 & 0xF_FFFF) << 3);
             let root = square_root(ratio * (1 << rest) as f32);
             let root = if l.k == 4 { square_root(root) } else { root }.to_bits();
             return seed_at(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));

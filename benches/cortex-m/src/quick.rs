@@ -45,7 +45,7 @@ pub fn run(seed: &str, cells: &str) -> Result<(), String> {
             worst.sort_unstable();
             println!(
                 "worst over hard curves and inputs: {:?}",
-                worst.iter().rev().take(5).collect::<Vec<_>>()
+                worst.iter().rev().take(80).collect::<Vec<_>>()
             );
             println!(
                 "code {} B, stack {} B:",
