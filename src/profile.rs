@@ -204,9 +204,15 @@ impl<const CELLS: usize> Profile<CELLS> {
         self.ramp(side).end(side).time
     }
 
-    /// The section in which the fraction `a` is reached, seen from a side.
-    const fn section(&self, side: usize, a: Wide) -> Section {
-        let mass = a.times(Wide::from_f64(self.area));
+    /// The mass in the fraction `a`, which is above 0.
+    #[inline(always)]
+    const fn share(&self, a: f32) -> Wide {
+        Wide::from_f64(self.area).share(a)
+    }
+
+    /// The section in which a mass is reached, seen from a side.
+    #[inline(always)]
+    const fn section(&self, side: usize, mass: Wide) -> Section {
         let first = Wide::from_f64(self.ramp(side).mass);
         if first.exceeds(mass) {
             return Section::Ramp(side, mass);
@@ -225,8 +231,9 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
-    fn exact(&self, side: usize, a: Wide) -> Place {
-        match self.section(side, a) {
+    #[inline(always)]
+    fn exact(&self, side: usize, mass: Wide) -> Place {
+        match self.section(side, mass) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass),
         }
@@ -234,7 +241,8 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The time that has elapsed from the side's start when the fraction `a` has been collected.
     pub(crate) const fn elapsed(&self, side: usize, a: Wide) -> f64 {
-        let place = match self.section(side, a) {
+        let mass = a.times(Wide::from_f64(self.area));
+        let place = match self.section(side, mass) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
         };
@@ -345,7 +353,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     #[inline(never)]
     fn solved(&self, u: f32) -> f32 {
         let (side, a) = Self::count(u);
-        if a > 0.0 { self.exact(side, Wide::from_f32(a)).time() } else { self.start(side) }
+        if a > 0.0 { self.exact(side, self.share(a)).time() } else { self.start(side) }
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where a direct
@@ -353,7 +361,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
         if a > 0.0 && self.in_octave(side, a.to_bits(), 0).is_none() {
-            self.exact(side, Wide::from_f32(a)).evaluations
+            self.exact(side, self.share(a)).evaluations
         } else {
             0
         }
@@ -413,7 +421,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side.
     pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
-        let place = self.exact(side, a);
+        let place = self.exact(side, a.times(Wide::from_f64(self.area)));
         let base = Wide::between(self.open_start(), place.time);
         if place.back { base.minus(place.elapsed) } else { base.plus(place.elapsed) }
     }

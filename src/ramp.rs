@@ -52,6 +52,7 @@ impl End {
     }
 
     /// The place where `mass` has been collected from here, the end with index `from`.
+    #[inline(always)]
     const fn at_mass(&self, from: usize, mass: Wide, seed: Seed) -> Place {
         let (time, back) = (self.time, from == 1);
         if mass.is_zero() {
@@ -125,6 +126,7 @@ impl Segment {
 
     /// The same mass counted from the end that has less of it, where the series is steepest and the
     /// seed best; with the end's index.
+    #[inline(always)]
     pub(crate) const fn nearer(&self, from: usize, mass: Wide) -> (usize, Wide) {
         let all = Wide::from_f64(self.mass);
         let half = Wide { m: all.m, e: all.e - 1 };
@@ -132,7 +134,7 @@ impl Segment {
     }
 
     /// The place where `mass` has been collected, counted from end `from`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at_mass(&self, from: usize, mass: Wide) -> Place {
         let (from, mass) = self.nearer(from, mass);
         let end = self.end(from);

@@ -6,7 +6,7 @@
 //! corrected to 1 %, or by `libm` or `micromath` where these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
 
-use crate::series::{Seed, Series};
+use crate::series::{Coefficient, Seed, times_high};
 use crate::wide::Wide;
 
 /// Logarithms here have 20 fraction bits, as many as the upper half of a `f64` has of significand.
@@ -39,15 +39,14 @@ struct Leading {
 const fn divided(x: i32, k: i32) -> i32 {
     const RECIPROCALS: [i32; 8] =
         [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
-    ((x as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 30) as i32
+    times_high(x, RECIPROCALS[(k & 7) as usize]) << 2
 }
 
-const fn leading<const N: usize>(c: &Series<N>, target: Wide) -> Leading {
-    let log = rough_log(target);
+const fn leading(c: &[Coefficient], log: i32) -> Leading {
     let mut best = Leading { k: 1, target: log, divisor: 0 };
     let mut least = i32::MAX;
     let mut i = 0;
-    while i < N {
+    while i < c.len() {
         if c[i].is_positive() {
             let divisor = c[i].rough_log();
             let k = i as i32 + 1;
@@ -73,8 +72,14 @@ const fn seed_at(exponent: i32, fraction: i32) -> Seed {
 }
 
 /// The guess from logarithms alone; all that a constant can use.
-pub(crate) const fn seed_by_bits<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
-    let l = leading(c, target);
+#[inline(always)]
+pub(crate) const fn seed_by_bits(c: &[Coefficient], target: Wide) -> Seed {
+    root_by_bits(c, rough_log(target))
+}
+
+#[inline(never)]
+const fn root_by_bits(c: &[Coefficient], log: i32) -> Seed {
+    let l = leading(c, log);
     let ratio = (l.target + curvature(l.target)) - (l.divisor + curvature(l.divisor));
     let root = divided(ratio, l.k);
     seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
@@ -82,10 +87,10 @@ pub(crate) const fn seed_by_bits<const N: usize>(c: &Series<N>, target: Wide) ->
 
 /// The guess by the root that the features choose.
 #[inline]
-pub(crate) fn seed<const N: usize>(c: &Series<N>, target: Wide) -> Seed {
+pub(crate) fn seed(c: &[Coefficient], target: Wide) -> Seed {
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
-        let l = leading(c, target);
+        let l = leading(c, rough_log(target));
         if l.k == 2 || l.k == 4 {
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
             let exponent = (l.target >> 20) - (l.divisor >> 20);

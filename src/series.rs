@@ -41,10 +41,6 @@ impl Coefficient {
         self.0 as i32 & Self::EXPONENT
     }
 
-    pub(crate) const fn is_zero(self) -> bool {
-        self.0 == 0
-    }
-
     /// The base-2 logarithm, linear between powers of two, in units of 2⁻²⁰; of a positive coefficient.
     pub(crate) const fn rough_log(self) -> i32 {
         ((self.0 >> 42) as i32) + ((self.exponent() - (Self::BIAS - 62) - 1) << 20)
@@ -54,15 +50,28 @@ impl Coefficient {
         self.0 > 0
     }
 
-    /// In units of 2^(top + GUARD).
+    /// Shifted down by `down`.
     #[inline(always)]
     const fn aligned(self, down: i32) -> i64 {
-        self.0 >> (if down < 63 { down } else { 63 } & 63)
+        self.0 >> clamped(down, 63)
     }
 
+    /// The upper 32 bits of that.
     #[inline(always)]
     const fn rough(self, down: i32) -> i32 {
-        ((self.0 >> 32) as i32) >> (if down < 31 { down } else { 31 } & 31)
+        (self.0 >> 32) as i32 >> clamped(down, 31)
+    }
+}
+
+/// `x` brought into [0, most], in one instruction of a microcontroller that has one.
+#[inline(always)]
+const fn clamped(x: i32, most: i32) -> i32 {
+    if x < 0 {
+        0
+    } else if x > most {
+        most
+    } else {
+        x
     }
 }
 
@@ -72,8 +81,8 @@ pub(crate) struct Root {
     /// `p 2^shift` in units of 2⁻³², at most 1/2.
     x: i32,
     shift: i32,
-    /// The rest of `p`, less than a unit of `x`.
-    rest: f32,
+    /// The rest of `p`, in units of 2⁻³¹ of one of `x`.
+    finer: i32,
     pub(crate) evaluations: u32,
 }
 
@@ -103,7 +112,7 @@ const NOISE: u32 = 8;
 /// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say ...
 const CLOSE: u32 = 8;
 /// ... and a step by less than 2⁻¹⁴ is the last, for it leaves less than 2⁻³⁰.
-const LAST: u32 = 16;
+const LAST: u32 = 18;
 const STRAIGHT: u32 = 12;
 
 /// `a x`, where `x` counts 2⁻³².
@@ -121,15 +130,15 @@ pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
 }
 
 /// The exponent of the greatest `c_k 2^(-k shift)`.
-#[inline(always)]
+#[inline(never)]
 const fn top(series: &[Coefficient], shift: i32) -> i32 {
-    // Below any.
-    let mut top = -100_000;
+    // Zeros count as 2⁻⁵⁷⁴, which in the range of curves is below any other.
+    let mut top = i32::MIN;
     let (mut k, mut by) = (0, 0);
     while k < series.len() {
         by += shift;
         let e = series[k].exponent() - by;
-        if e > top && !series[k].is_zero() {
+        if e > top {
             top = e;
         }
         k += 1;
@@ -137,20 +146,19 @@ const fn top(series: &[Coefficient], shift: i32) -> i32 {
     top
 }
 
-/// `S` at `x` by Horner's rule, in units of `2^(top + GUARD - BIAS)`, and `S'`, in units of 2³² of these.
-#[inline(always)]
-const fn value<const N: usize>(series: &Series<N>, x: i32, shift: i32, top: i32) -> (i64, i32) {
-    let (mut value, mut slope) = (0i64, 0i32);
-    let mut k = N;
-    let mut down = top + GUARD + N as i32 * shift;
+/// `S` at `x + finer 2^-31` by Horner's rule, in units of `2^(top + GUARD - BIAS)`.
+#[inline(never)]
+const fn value(series: &[Coefficient], x: i32, finer: i32, down: i32, shift: i32) -> i64 {
+    let mut value = 0;
+    let mut down = down;
+    let mut k = series.len();
     while k > 0 {
         k -= 1;
-        slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
-        value = times(value, x).wrapping_add(series[k].aligned(down - series[k].exponent()));
+        value = times(value, x).wrapping_add(2 * times_high((value >> 32) as i32, finer) as i64);
+        value = value.wrapping_add(series[k].aligned(down - series[k].exponent()));
         down -= shift;
     }
-    slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
-    (times(value, x), slope)
+    times(value, x).wrapping_add(2 * times_high((value >> 32) as i32, finer) as i64)
 }
 
 /// The upper 32 bits of a series near `2^-shift`.
@@ -203,43 +211,43 @@ impl<const N: usize> Rough<N> {
 const WORD: f32 = 4294967296.0;
 
 impl Local {
-    /// The step of `x` that makes up for `missing`, in the unit of the value, and whether it lands within 2⁻²⁸.
+    /// The step of `x` that makes up for `missing`, in the unit of the value.
     ///
-    /// Near a flat place, where the density touches 0 and `S` is as `c (x - q)³ + d`, `3 S' S'''/6` is
-    /// `(S''/2)²`, Newton's method is slow, and a cube root right. Elsewhere it is Halley's step,
-    /// `r / (S' + S''/2 · r/S')`, with one division and at most twice Newton's.
+    /// Mostly Halley's, `r / (S' + S''/2 · r/S')`, with one division and at most twice Newton's. Where that is
+    /// long and `S` is near a flat place, as `c (x - q)^k + d`, which three derivatives tell, it is a root.
+    ///
+    /// Out of line, so that the search keeps no float.
     #[inline(always)]
-    const fn step(&self, missing: f32) -> (f32, bool) {
-        let (slope, bend) = (self.slope as f32, self.bend as f32);
+    const fn step(&self, missing: f32) -> f32 {
+        Self::step_of(self.slope, self.bend, self.twist, missing)
+    }
+
+    #[inline(never)]
+    const fn step_of(slope: i32, bend: i32, twist: i32, missing: f32) -> f32 {
+        let (slope, bend) = (slope as f32, bend as f32);
         let newton = slope * slope;
         let curve = bend * missing;
-        let straight = curve.abs() < newton * (1.0 / (1 << STRAIGHT) as f32);
         if curve.abs() > 0.2 * newton {
-            let (cubic, square) = (3.0 * slope * self.twist as f32, bend * bend);
-            if cubic > 0.8 * square && cubic < 1.25 * square {
-                return (self.flat_step(missing), false);
+            let ratio = 3.0 * slope * twist as f32 / (bend * bend);
+            if ratio > 0.7 && ratio < 1.8 {
+                let from_flat = slope / (bend * (2.0 - ratio));
+                let order = (2.0 - ratio) / (4.0 - ratio);
+                let share = 1.0 + missing / (slope * from_flat * order);
+                let root = power(share.abs(), order);
+                let root = if share < 0.0 { -root } else { root };
+                return from_flat * (root - 1.0) * WORD;
             }
         }
         let halley = newton + curve;
-        (missing * WORD * slope / if halley > 0.5 * newton { halley } else { 0.5 * newton }, straight)
-    }
-
-    /// `q` is where `S''` is 0, and a cube root does the rest.
-    #[inline(always)]
-    const fn flat_step(&self, missing: f32) -> f32 {
-        let (b, c) = (self.bend as f32, self.twist as f32);
-        let from_flat = b / (3.0 * c);
-        (cube_root(missing / c + from_flat * from_flat * from_flat) - from_flat) * WORD
+        missing * WORD * slope / if halley > 0.5 * newton { halley } else { 0.5 * newton }
     }
 }
 
-/// The cube root to 0.2 %: a third of the exponent and a step of Newton's method.
-#[inline(never)]
-const fn cube_root(x: f32) -> f32 {
-    let size = x.abs();
-    let y = f32::from_bits(size.to_bits() / 3 + 0x2A51_4067);
-    let y = y - (y - size / (y * y)) / 3.0;
-    if x < 0.0 { -y } else { y }
+/// `x^y` for `x > 0` and `y` in [0, 1], to a few percent: floats are nearly logarithms.
+const fn power(x: f32, y: f32) -> f32 {
+    const ONE: i32 = 1.0f32.to_bits() as i32;
+    const MEAN: f32 = 0.045 * (1 << 23) as f32;
+    f32::from_bits((ONE + ((x.to_bits() as i32 - ONE) as f32 * y - MEAN * (1.0 - y)) as i32) as u32)
 }
 
 /// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`:
@@ -259,69 +267,97 @@ pub(crate) const fn solve<const N: usize>(
     let (mut low, mut high) = (0, TOP);
     let mut evaluations = 0;
     let mut exact = false;
-    let mut exponent = top(series, shift);
-    let mut rough = Rough::new(series, shift, exponent);
-    let mut goal = target.in_units(exponent + GUARD - Coefficient::BIAS);
-    loop {
-        let local = rough.at(x);
-        evaluations += 1;
-        let mut missing = (goal >> 32) as i32 - local.value;
-        exact |= missing.unsigned_abs() <= NOISE;
-        let mut rest = missing as f32;
-        let mut last = high - low <= 1 || evaluations == MAX_EVALUATIONS;
-        if exact {
-            let all = goal - value(series, x, shift, exponent).0;
-            missing = (all >> 32) as i32;
-            rest = missing as f32 + all as u32 as f32 * (1.0 / WORD);
-            last |= all.unsigned_abs() <= (goal as u64) >> enough;
+    'scale: loop {
+        let top = top(series, shift);
+        let rough = Rough::new(series, shift, top);
+        let goal = target.in_units(top + GUARD - Coefficient::BIAS);
+        loop {
+            let mut local = rough.at(x);
+            evaluations += 1;
+            let mut next;
+            let below;
+            if !exact {
+                let missing = (goal >> 32) as i32 - local.value;
+                exact = missing.unsigned_abs() <= NOISE || evaluations >= NEWTON;
+                if !exact {
+                    let step = local.step(missing as f32) as i32;
+                    next = x.saturating_add(step);
+                    if next > low && next < high && (step ^ step >> 31) < x >> CLOSE {
+                        // The slope there, where it changes little.
+                        let change = times_high(local.bend, step);
+                        if change.abs() <= local.slope >> 7 {
+                            local.slope += 2 * change;
+                            x = next;
+                        }
+                        exact = true;
+                    }
+                    below = missing > 0;
+                } else {
+                    next = x;
+                    below = false;
+                }
+            } else {
+                next = x;
+                below = false;
+            }
+            let mut below = below;
+            if exact {
+                let missing = goal - value(series, x, 0, top + GUARD + N as i32 * shift, shift);
+                let rest = (missing >> 32) as i32 as f32 + missing as u32 as f32 * (1.0 / WORD);
+                let step = local.step(rest);
+                // A cast saturates; a NaN gives 0.
+                let whole = step as i32;
+                let size = whole ^ whole >> 31;
+                // With a slope whose noise does not count, and in a straight place.
+                if size < x >> LAST
+                    && size as i64 <= goal >> 31
+                    && local.slope > 0
+                    && times_high(local.bend, whole).abs() <= local.slope >> STRAIGHT
+                {
+                    let finer = ((step - whole as f32) * (1u32 << 31) as f32) as i32;
+                    return Root { x: x + whole, shift, finer, evaluations };
+                }
+                if missing.unsigned_abs() <= (goal as u64) >> enough {
+                    return Root { x, shift, finer: 0, evaluations };
+                }
+                below = missing > 0;
+                next = x.saturating_add(whole);
+            }
+            if below {
+                low = x;
+            } else {
+                high = x;
+            }
+            // The bracket must shrink, on average, as bisection would shrink it.
+            let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
+            if late || next <= low || next >= high {
+                next = low + (high - low) / 2;
+                if next == low || evaluations == MAX_EVALUATIONS {
+                    return Root { x, shift, finer: 0, evaluations };
+                }
+            }
+            x = next;
+            if x > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
+                // The target may be more than this scale holds: two octaves up.
+                let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
+                shift -= up;
+                low >>= up;
+                x >>= up;
+                continue 'scale;
+            }
         }
-        let (step, straight) = local.step(rest);
-        let size = step.abs();
-        // With a slope whose noise does not count.
-        let fine = (goal >> 31) as i32;
-        let fine = if fine < x >> LAST { fine } else { x >> LAST };
-        let small = exact && straight && size < fine as f32;
-        if small || last {
-            let step = if small { step } else { 0.0 };
-            let whole = step as i32;
-            return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
-        }
-        exact |= size < (x >> CLOSE) as f32;
-        if missing >= 0 {
-            low = x;
-        } else {
-            high = x;
-        }
-        // A cast saturates; a NaN gives 0 and so stays where it is, on the bracket's edge.
-        let mut next = x.saturating_add(step as i32);
-        if low == x && high == TOP && shift > LEAST_SHIFT && (x > TOP / 2 || next == TOP) {
-            // The target may be more than this scale holds: two octaves up.
-            let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
-            shift -= up;
-            exponent = top(series, shift);
-            rough = Rough::new(series, shift, exponent);
-            goal = target.in_units(exponent + GUARD - Coefficient::BIAS);
-            low >>= up;
-            next >>= up;
-        }
-        // The bracket must shrink, on average, as bisection would shrink it.
-        let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
-        if late || next <= low || next >= high {
-            next = low + (high - low) / 2;
-        }
-        x = next;
     }
 }
 
 impl Root {
     /// `p = 0`.
-    pub(crate) const START: Self = Self { x: 0, shift: 0, rest: 0.0, evaluations: 0 };
+    pub(crate) const START: Self = Self { x: 0, shift: 0, finer: 0, evaluations: 0 };
 
     /// The series' value here: its magnitude, and whether it is negative.
+    #[inline(always)]
     pub(crate) const fn value<const N: usize>(&self, series: &Series<N>) -> (Wide, bool) {
-        let top = top(series, self.shift);
-        let (value, slope) = value(series, self.x, self.shift, top);
-        let value = value + (slope as f32 * self.rest) as i32 as i64;
-        (Wide::new(value.unsigned_abs(), top + GUARD - Coefficient::BIAS), value < 0)
+        let down = top(series, self.shift) + GUARD;
+        let value = value(series, self.x, self.finer, down + N as i32 * self.shift, self.shift);
+        (Wide::new(value.unsigned_abs(), down - Coefficient::BIAS), value < 0)
     }
 }

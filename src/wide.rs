@@ -14,7 +14,7 @@ pub(crate) struct Wide {
 }
 
 impl Wide {
-    pub(crate) const ZERO: Self = Self { m: 0, e: 0 };
+    pub(crate) const ZERO: Self = Self { m: 0, e: -10_000 };
     pub(crate) const ONE: Self = Self { m: 1 << 63, e: -63 };
 
     /// `m · 2^e` for any `m`.
@@ -26,12 +26,10 @@ impl Wide {
         Self { m: m << up, e: e - up as i32 }
     }
 
-    /// The magnitude of a finite, normal or zero `x`.
+    /// A finite `x` that is not below 0, where 0 counts as 2⁻¹⁰²³.
+    #[inline(always)]
     pub(crate) const fn from_f64(x: f64) -> Self {
-        let bits = x.to_bits() & (u64::MAX >> 1);
-        if bits == 0 {
-            return Self::ZERO;
-        }
+        let bits = x.to_bits();
         Self { m: bits << 11 | 1 << 63, e: (bits >> 52) as i32 - (1023 + 63) }
     }
 
@@ -110,54 +108,49 @@ impl Wide {
 
     /// `self > other`.
     pub(crate) const fn exceeds(self, other: Self) -> bool {
-        if self.is_zero() || other.is_zero() {
-            return !self.is_zero();
-        }
         self.e > other.e || (self.e == other.e && self.m > other.m)
     }
 
-    /// `base + self`, or `base - self` where `back`, rounded once.
-    #[inline]
-    pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
-        // 2⁶⁴
-        const UP: f32 = 18446744073709551616.0;
-        let e = self.e + 63;
-        let small = base.abs() < 1.0 / UP;
-        let (e, base, down) = if e < -126 && base.abs() < f32::MIN_POSITIVE {
-            // Both subnormal: whole numbers of the least one, whose sum is exact.
-            let halves = self.in_units(-150);
-            let part = f32::from_bits(((halves + 1) >> 1) as u32);
-            return if back { base - part } else { base + part };
-        } else if e < -102 && small && e >= -190 {
-            // The lower bits would be subnormal, and so rounded by themselves: scaled up, they are not.
-            (e + 64, base * UP, 1.0 / UP)
-        } else if e < -126 {
-            return base;
-        } else {
-            (e, base, 1.0)
-        };
-        let scale = f32::from_bits(((e + 127) as u32) << 23);
-        let scale = if back { -scale } else { scale };
-        // 24 bits and the 32 after them, the first exact.
-        let high = (self.m >> 40) as u32 as f32 * (1.0 / (1u32 << 23) as f32) * scale;
-        let low = (self.m >> 8) as u32 as f32 * (1.0 / (1u64 << 55) as f32) * scale;
-        // Knuth's two-sum keeps what the first addition loses.
-        let near = base + high;
-        let part = near - base;
-        let lost = (base - (near - part)) + (high - part);
-        (near + odd_sum(lost, low)) * down
+    /// `self · x` for a finite `x` above 0, to 2⁻⁶².
+    #[inline(always)]
+    pub(crate) const fn share(self, x: f32) -> Self {
+        let x = Self::from_f32(x);
+        let a = x.m >> 32;
+        let m = a * (self.m >> 32) + ((a * (self.m & 0xFFFF_FFFF)) >> 32);
+        let short = (m >> 63 == 0) as u32;
+        Self { m: m << short, e: self.e + x.e + 64 - short as i32 }
     }
-}
 
-/// `a + b` rounded to odd: where it is inexact, the last bit is set, so that rounding it again can't take it
-/// for a tie that it only came near to.
-const fn odd_sum(a: f32, b: f32) -> f32 {
-    let near = a + b;
-    let part = near - a;
-    let lost = (a - (near - part)) + (b - part);
-    if lost == 0.0 {
-        return near;
+    /// `base + self`, or `base - self` where `back`, rounded once more than to 2⁻⁶² of the greater.
+    #[inline(always)]
+    pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
+        let size = Self::from_f32(base);
+        let negative = base < 0.0;
+        let (big, small, sign) =
+            if self.exceeds(size) { (self, size, back) } else { (size, self, negative) };
+        // One unit up, so that the carry has room.
+        let (m, e) = (big.m >> 1, big.e + 1);
+        let other = small.in_units(e) as u64;
+        let m = if back == negative { m + other } else { m - other };
+        let bits = Self::new(m, e).to_f32().to_bits();
+        f32::from_bits(if sign && bits != 0 { bits | 1 << 31 } else { bits })
     }
-    let beyond = (lost > 0.0) == (near > 0.0);
-    f32::from_bits((near.to_bits() - !beyond as u32) | 1)
+
+    /// The nearest `f32`.
+    #[inline(always)]
+    const fn to_f32(self) -> f32 {
+        // The exponent as `f32` counts it, less one, for the significand's top bit adds to it.
+        let exponent = self.e + 63 + 126;
+        let (exponent, down) = if exponent < 0 { (0, -exponent as u32) } else { (exponent as u32, 0) };
+        if down > 31 {
+            return 0.0;
+        }
+        let low = self.m as u32 != 0;
+        let m = (self.m >> 32) as u32;
+        let lost = low | (m & ((2 << down) - 1) != 0);
+        let m = m >> down >> 1 | lost as u32;
+        // To nearest, and to even from the middle.
+        let m = (m + 0x3F + (m >> 7 & 1)) >> 7;
+        f32::from_bits((exponent << 23) + m)
+    }
 }
