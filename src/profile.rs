@@ -219,7 +219,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
         let beyond = mass.minus(first);
         let plateau = Wide::from_f64(self.plateau_mass);
-        if !beyond.exceeds(plateau) && !plateau.is_zero() {
+        if !beyond.exceeds(plateau) {
             return Section::Plateau(self.on_plateau(side, beyond));
         }
         Section::Ramp(1 - side, beyond.minus(plateau))
@@ -227,7 +227,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     const fn on_plateau(&self, side: usize, elapsed: Wide) -> Place {
         let time = self.ramp(side).end(1 - side).time;
-        Place { time, back: side == 1, elapsed, evaluations: 0 }
+        Place::new(time, side == 1, elapsed)
     }
 
     /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
@@ -246,7 +246,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
         };
-        let elapsed = place.elapsed.to_f64();
+        let elapsed = place.elapsed().to_f64();
         let way = if side == 0 {
             place.time as f64 - self.start(0) as f64
         } else {
@@ -423,7 +423,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
         let place = self.exact(side, a.times(Wide::from_f64(self.area)));
         let base = Wide::between(self.open_start(), place.time);
-        if place.back { base.minus(place.elapsed) } else { base.plus(place.elapsed) }
+        if place.back { base.minus(place.elapsed()) } else { base.plus(place.elapsed()) }
     }
 
     /// Where `t` lies.
@@ -476,7 +476,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         // With A = s 2^n, s in [1, 2), K is 2/s 2^(-n - 1), or 2^-n.
         let e = if a.m == 1 << 63 { -126 } else { -127 } - a.e;
         let k = Wide { m: (self.reciprocal as u64) << 32, e };
-        x.times(k).offset(0.0, false)
+        x.times(k).to_f32()
     }
 }
 

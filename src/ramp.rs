@@ -3,7 +3,7 @@
 use crate::bezier::CubicBezier;
 use crate::seed::{seed, seed_by_bits};
 use crate::series::{Coefficient, Root, Seed, Series, solve};
-use crate::wide::Wide;
+use crate::wide::{Wide, sum};
 
 /// How exact a search has to be in a flat place, in bits: for the mass, an eighth of the least distance
 /// between neighbouring `u`, so that these keep their order; for the time, all there is, since what it is
@@ -56,12 +56,12 @@ impl End {
     const fn at_mass(&self, from: usize, mass: Wide, seed: Seed) -> Place {
         let (time, back) = (self.time, from == 1);
         if mass.is_zero() {
-            return Place { time, back, elapsed: Wide::ZERO, evaluations: 0 };
+            return Place { time, back, elapsed: 0, unit: 0, evaluations: 0 };
         }
         let root = solve(&self.mass, mass, seed, MASS_ENOUGH);
-        let (elapsed, negative) = root.value(&self.elapsed);
-        let elapsed = if negative { Wide::ZERO } else { elapsed };
-        Place { time, back, elapsed, evaluations: root.evaluations }
+        let (elapsed, unit) = root.value(&self.elapsed);
+        let elapsed = if elapsed < 0 { 0 } else { elapsed };
+        Place { time, back, elapsed, unit, evaluations: root.evaluations }
     }
 }
 
@@ -87,16 +87,30 @@ const fn sextic(c: [f64; 6]) -> Series<6> {
 pub(crate) struct Place {
     pub(crate) time: f32,
     pub(crate) back: bool,
-    pub(crate) elapsed: Wide,
+    /// In units of `2^unit`.
+    elapsed: i64,
+    unit: i32,
     /// Evaluations of the mass that it took to find.
     pub(crate) evaluations: u32,
 }
 
 impl Place {
+    /// A place on the plateau.
+    pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
+        let Wide { m, e } = elapsed;
+        // Two bits of room.
+        Self { time, back, elapsed: (m >> 2) as i64, unit: e + 2, evaluations: 0 }
+    }
+
+    pub(crate) const fn elapsed(self) -> Wide {
+        Wide::new(self.elapsed as u64, self.unit)
+    }
+
     /// The time, rounded once.
-    #[inline]
+    #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
-        self.elapsed.offset(self.time, self.back)
+        let elapsed = if self.back { -self.elapsed } else { self.elapsed };
+        sum(self.time, elapsed, self.unit)
     }
 }
 
@@ -175,7 +189,8 @@ impl OnRamp<'_> {
     /// The openness, at least 0.
     #[inline]
     pub(crate) fn openness(&self) -> Wide {
-        let (gained, negative) = self.root.value(&self.end.gained);
+        let (gained, unit) = self.root.value(&self.end.gained);
+        let (gained, negative) = (Wide::new(gained.unsigned_abs(), unit), gained < 0);
         let end = Wide::from_f32(self.end.openness);
         // The end itself may graze 0 from below.
         match (self.end.openness < 0.0, negative) {
@@ -189,7 +204,7 @@ impl OnRamp<'_> {
     /// The mass between the end and here.
     #[inline]
     pub(crate) fn mass(&self) -> Wide {
-        let (mass, negative) = self.root.value(&self.end.mass);
-        if negative { Wide::ZERO } else { mass }
+        let (mass, unit) = self.root.value(&self.end.mass);
+        if mass < 0 { Wide::ZERO } else { Wide::new(mass as u64, unit) }
     }
 }

@@ -81,8 +81,8 @@ pub(crate) struct Root {
     /// `p 2^shift` in units of 2⁻³², at most 1/2.
     x: i32,
     shift: i32,
-    /// The rest of `p`, in units of 2⁻³¹ of one of `x`.
-    finer: i32,
+    /// The rest of `p`, less than a unit of `x`.
+    rest: f32,
     pub(crate) evaluations: u32,
 }
 
@@ -130,7 +130,7 @@ pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
 }
 
 /// The exponent of the greatest `c_k 2^(-k shift)`.
-#[inline(never)]
+#[inline(always)]
 const fn top(series: &[Coefficient], shift: i32) -> i32 {
     // Zeros count as 2⁻⁵⁷⁴, which in the range of curves is below any other.
     let mut top = i32::MIN;
@@ -146,19 +146,18 @@ const fn top(series: &[Coefficient], shift: i32) -> i32 {
     top
 }
 
-/// `S` at `x + finer 2^-31` by Horner's rule, in units of `2^(top + GUARD - BIAS)`.
+/// `S` at `x` by Horner's rule, in units of `2^(top + GUARD - BIAS)`, where `down` is `top + GUARD`
+/// and `shift` for each coefficient.
 #[inline(never)]
-const fn value(series: &[Coefficient], x: i32, finer: i32, down: i32, shift: i32) -> i64 {
-    let mut value = 0;
-    let mut down = down;
+const fn value(series: &[Coefficient], x: i32, down: i32, shift: i32) -> i64 {
+    let (mut value, mut down) = (0, down);
     let mut k = series.len();
     while k > 0 {
         k -= 1;
-        value = times(value, x).wrapping_add(2 * times_high((value >> 32) as i32, finer) as i64);
-        value = value.wrapping_add(series[k].aligned(down - series[k].exponent()));
+        value = times(value, x).wrapping_add(series[k].aligned(down - series[k].exponent()));
         down -= shift;
     }
-    times(value, x).wrapping_add(2 * times_high((value >> 32) as i32, finer) as i64)
+    times(value, x)
 }
 
 /// The upper 32 bits of a series near `2^-shift`.
@@ -265,80 +264,77 @@ pub(crate) const fn solve<const N: usize>(
 ) -> Root {
     let Seed { mut x, mut shift } = seed;
     let (mut low, mut high) = (0, TOP);
-    let mut evaluations = 0;
-    let mut exact = false;
+    let (mut evaluations, mut exact) = (0, false);
     'scale: loop {
         let top = top(series, shift);
         let rough = Rough::new(series, shift, top);
         let goal = target.in_units(top + GUARD - Coefficient::BIAS);
-        loop {
+        'at: loop {
             let mut local = rough.at(x);
             evaluations += 1;
-            let mut next;
-            let below;
             if !exact {
                 let missing = (goal >> 32) as i32 - local.value;
                 exact = missing.unsigned_abs() <= NOISE || evaluations >= NEWTON;
                 if !exact {
                     let step = local.step(missing as f32) as i32;
-                    next = x.saturating_add(step);
-                    if next > low && next < high && (step ^ step >> 31) < x >> CLOSE {
-                        // The slope there, where it changes little.
-                        let change = times_high(local.bend, step);
-                        if change.abs() <= local.slope >> 7 {
-                            local.slope += 2 * change;
-                            x = next;
+                    let next = x.saturating_add(step);
+                    exact = (step ^ step >> 31) < x >> CLOSE;
+                    let change = times_high(local.bend, step);
+                    if !exact || change.abs() > local.slope >> 7 || next <= low || next >= high {
+                        if missing > 0 {
+                            low = x;
+                        } else {
+                            high = x;
                         }
-                        exact = true;
+                        x = if next > low && next < high { next } else { low + (high - low) / 2 };
+                        if x > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
+                            // The target may be more than this scale holds: two octaves up.
+                            let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
+                            shift -= up;
+                            low >>= up;
+                            x >>= up;
+                            continue 'scale;
+                        }
+                        continue 'at;
                     }
-                    below = missing > 0;
-                } else {
-                    next = x;
-                    below = false;
+                    // The slope there, where it changes little.
+                    local.slope += 2 * change;
+                    x = next;
                 }
-            } else {
-                next = x;
-                below = false;
             }
-            let mut below = below;
-            if exact {
-                let missing = goal - value(series, x, 0, top + GUARD + N as i32 * shift, shift);
-                let rest = (missing >> 32) as i32 as f32 + missing as u32 as f32 * (1.0 / WORD);
-                let step = local.step(rest);
-                // A cast saturates; a NaN gives 0.
-                let whole = step as i32;
-                let size = whole ^ whole >> 31;
-                // With a slope whose noise does not count, and in a straight place.
-                if size < x >> LAST
-                    && size as i64 <= goal >> 31
-                    && local.slope > 0
-                    && times_high(local.bend, whole).abs() <= local.slope >> STRAIGHT
-                {
-                    let finer = ((step - whole as f32) * (1u32 << 31) as f32) as i32;
-                    return Root { x: x + whole, shift, finer, evaluations };
-                }
-                if missing.unsigned_abs() <= (goal as u64) >> enough {
-                    return Root { x, shift, finer: 0, evaluations };
-                }
-                below = missing > 0;
-                next = x.saturating_add(whole);
+            let missing = goal - value(series, x, top + GUARD + N as i32 * shift, shift);
+            let rest = (missing >> 32) as i32 as f32 + missing as u32 as f32 * (1.0 / WORD);
+            let step = local.step(rest);
+            // A cast saturates; a NaN gives 0.
+            let whole = step as i32;
+            let size = whole ^ whole >> 31;
+            // With a slope whose noise does not count, and in a straight place.
+            if size < x >> LAST
+                && size as i64 <= goal >> 31
+                && local.slope > 0
+                && times_high(local.bend, whole).abs() <= local.slope >> STRAIGHT
+            {
+                return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
             }
-            if below {
+            if missing.unsigned_abs() <= (goal as u64) >> enough {
+                return Root { x, shift, rest: 0.0, evaluations };
+            }
+            if missing > 0 {
                 low = x;
             } else {
                 high = x;
             }
+            let mut next = x.saturating_add(whole);
             // The bracket must shrink, on average, as bisection would shrink it.
             let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
             if late || next <= low || next >= high {
                 next = low + (high - low) / 2;
                 if next == low || evaluations == MAX_EVALUATIONS {
-                    return Root { x, shift, finer: 0, evaluations };
+                    return Root { x, shift, rest: 0.0, evaluations };
                 }
             }
             x = next;
             if x > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
-                // The target may be more than this scale holds: two octaves up.
                 let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
                 shift -= up;
                 low >>= up;
@@ -351,13 +347,24 @@ pub(crate) const fn solve<const N: usize>(
 
 impl Root {
     /// `p = 0`.
-    pub(crate) const START: Self = Self { x: 0, shift: 0, finer: 0, evaluations: 0 };
+    pub(crate) const START: Self = Self { x: 0, shift: 0, rest: 0.0, evaluations: 0 };
 
-    /// The series' value here: its magnitude, and whether it is negative.
+    /// The series' value here, in units of a power of two, and its exponent.
     #[inline(always)]
-    pub(crate) const fn value<const N: usize>(&self, series: &Series<N>) -> (Wide, bool) {
-        let down = top(series, self.shift) + GUARD;
-        let value = value(series, self.x, self.finer, down + N as i32 * self.shift, self.shift);
-        (Wide::new(value.unsigned_abs(), down - Coefficient::BIAS), value < 0)
+    pub(crate) const fn value<const N: usize>(&self, series: &Series<N>) -> (i64, i32) {
+        let Self { x, shift, .. } = *self;
+        let top = top(series, shift);
+        let mut down = top + GUARD + N as i32 * shift;
+        let (mut value, mut slope) = (0i64, 0i32);
+        let mut k = N;
+        while k > 0 {
+            k -= 1;
+            slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
+            value = times(value, x).wrapping_add(series[k].aligned(down - series[k].exponent()));
+            down -= shift;
+        }
+        slope = times_high(slope, x).wrapping_add((value >> 32) as i32);
+        let rest = (slope as f32 * self.rest) as i32;
+        (times(value, x).wrapping_add(rest as i64), top + GUARD - Coefficient::BIAS)
     }
 }

@@ -104,7 +104,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
-        self.openness(t).offset(0.0, false)
+        self.openness(t).to_f32()
     }
 
     /// The openness, no more than 1 where rounding makes the curve graze it.

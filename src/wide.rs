@@ -121,24 +121,9 @@ impl Wide {
         Self { m: m << short, e: self.e + x.e + 64 - short as i32 }
     }
 
-    /// `base + self`, or `base - self` where `back`, rounded once more than to 2⁻⁶² of the greater.
-    #[inline(always)]
-    pub(crate) const fn offset(self, base: f32, back: bool) -> f32 {
-        let size = Self::from_f32(base);
-        let negative = base < 0.0;
-        let (big, small, sign) =
-            if self.exceeds(size) { (self, size, back) } else { (size, self, negative) };
-        // One unit up, so that the carry has room.
-        let (m, e) = (big.m >> 1, big.e + 1);
-        let other = small.in_units(e) as u64;
-        let m = if back == negative { m + other } else { m - other };
-        let bits = Self::new(m, e).to_f32().to_bits();
-        f32::from_bits(if sign && bits != 0 { bits | 1 << 31 } else { bits })
-    }
-
     /// The nearest `f32`.
     #[inline(always)]
-    const fn to_f32(self) -> f32 {
+    pub(crate) const fn to_f32(self) -> f32 {
         // The exponent as `f32` counts it, less one, for the significand's top bit adds to it.
         let exponent = self.e + 63 + 126;
         let (exponent, down) = if exponent < 0 { (0, -exponent as u32) } else { (exponent as u32, 0) };
@@ -153,4 +138,26 @@ impl Wide {
         let m = (m + 0x3F + (m >> 7 & 1)) >> 7;
         f32::from_bits((exponent << 23) + m)
     }
+}
+
+/// `base + way 2^unit`, rounded once, for a finite `base` and a `way` of at most 61 bits.
+#[inline(always)]
+pub(crate) const fn sum(base: f32, way: i64, unit: i32) -> f32 {
+    // The base in whole units of its own, 24 bits.
+    let exponent = (base.to_bits() >> 23 & 0xFF) as i32;
+    let fraction = (base.to_bits() & 0x7F_FFFF) as i32;
+    let size = if exponent == 0 { fraction } else { fraction | 1 << 23 };
+    let size = if base < 0.0 { -size } else { size } as i64;
+    let own = if exponent == 0 { -149 } else { exponent - 150 };
+    // Where the base is so large that its units would overflow, the way gives up its lowest bits.
+    let e = if own - 37 > unit { own - 37 } else { unit };
+    let size = if own >= e { size << (own - e) } else { shifted(size, e - own) };
+    let sum = size + shifted(way, e - unit);
+    let near = Wide::new(sum.unsigned_abs(), e).to_f32();
+    if sum < 0 { -near } else { near }
+}
+
+/// `x / 2^down`, rounded down.
+const fn shifted(x: i64, down: i32) -> i64 {
+    x >> if down < 63 { down } else { 63 }
 }
