@@ -61,6 +61,9 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
+/// 2²², the unit of a guess: what is left of 32 bits for coefficients above 1.
+pub(crate) const GUESS: f64 = 4194304.0;
+
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, from: 0, length: 0, c: [0; DEGREE] };
 
@@ -83,6 +86,16 @@ impl Octave {
         let value = times_high(value, x).wrapping_add(c2);
         let value = times_high(value, x).wrapping_add(c1);
         times_high(value, x)
+    }
+
+    /// The fraction of the ramp, in units of [`GUESS`], at which a search for `a`, by its bits, may start; 0 if
+    /// nothing is known.
+    #[inline(always)]
+    pub(crate) const fn guess(&self, a: u32) -> i32 {
+        if self.factor == 0 && a.wrapping_sub(self.from) < self.middle as u32 {
+            return (self.middle >> 32) as i32 + self.rest((a << 9 ^ 1 << 31) as i32);
+        }
+        0
     }
 
     /// The polynomial for the octave `a` in [2^-(index + 2), 2^-(index + 1)) from one side, or
@@ -123,7 +136,8 @@ impl Octave {
             middle: (from + to) / (2.0 * low) - 1.5,
             half: (to - from) / (2.0 * low),
         };
-        let c = part.interpolate(profile);
+        let guess = part.guess(profile, start, length);
+        let c = part.interpolate(profile, false);
 
         // The largest value that Horner's rule meets fills 31 bits.
         let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
@@ -133,12 +147,12 @@ impl Octave {
             k -= 1;
         }
         if !(most > 0.0 && most < f64::MAX) {
-            return Self::NONE;
+            return guess;
         }
         let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
         let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
         if exponent - profile.unit() > 30 {
-            return Self::NONE;
+            return guess;
         }
         let scale = power_of_two(exponent);
         let factor = 1 << (exponent - profile.unit());
@@ -152,7 +166,7 @@ impl Octave {
         let middle = (c[0] / power_of_two(profile.unit())) as i64 + factor as i64 / 2;
         octave.middle = profile.start_in_units(side) + if side == 0 { middle } else { -middle };
         octave.factor = if side == 0 { factor } else { -factor };
-        if octave.keeps_promise(profile, &part, c[0], scale) { octave } else { Self::NONE }
+        if octave.keeps_promise(profile, &part, c[0], scale) { octave } else { guess }
     }
 
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
@@ -167,7 +181,7 @@ impl Octave {
         let mut i = 0;
         while i < PEAKS.len() {
             let x = part.offset(PEAKS[i]);
-            let exact = part.elapsed(profile, x);
+            let exact = part.exact(profile, x, false);
             let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
             let error = if error < 0.0 { -error } else { error };
             // What one ulp of u is in time: the octave is 2²³ ulp long.
@@ -210,21 +224,52 @@ impl Part {
         ((self.middle + self.half * point) * WORD) as i32
     }
 
-    /// The exact time from the side's start at an offset.
-    const fn elapsed<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32) -> f64 {
+    /// The exact time from the side's start at an offset, or the exact place on the ramp.
+    const fn exact<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32, place: bool) -> f64 {
         let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
-        profile.elapsed(self.side, Wide { m, e: -(self.index as i32 + 2 + 63) })
+        let a = Wide { m, e: -(self.index as i32 + 2 + 63) };
+        if place { profile.fraction(self.side, a) } else { profile.elapsed(self.side, a) }
     }
 
-    /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.
-    const fn interpolate<const CELLS: usize>(&self, profile: &Profile<CELLS>) -> [f64; DEGREE + 1] {
+    /// The octave that guesses how far into the ramp a search has to go.
+    const fn guess<const CELLS: usize>(
+        &self,
+        profile: &Profile<CELLS>,
+        from: u32,
+        length: u32,
+    ) -> Octave {
+        let c = self.interpolate(profile, true);
+        let mut octave = Octave { from, ..Octave::NONE };
+        let mut k = 0;
+        while k <= DEGREE {
+            let c = c[k] * GUESS;
+            if !(c < 2147483648.0 && c > -2147483648.0) {
+                return Octave::NONE;
+            }
+            if k > 0 {
+                octave.c[k - 1] = round(c);
+            } else {
+                octave.middle = (round(c) as i64) << 32 | length as i64;
+            }
+            k += 1;
+        }
+        octave
+    }
+
+    /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes, or through the
+    /// places on the ramp.
+    const fn interpolate<const CELLS: usize>(
+        &self,
+        profile: &Profile<CELLS>,
+        places: bool,
+    ) -> [f64; DEGREE + 1] {
         // Newton's divided differences ...
         let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         let mut i = 0;
         while i <= DEGREE {
             let offset = self.offset(NODES[i]);
             x[i] = offset as f64 / WORD;
-            d[i] = self.elapsed(profile, offset);
+            d[i] = self.exact(profile, offset, places);
             i += 1;
         }
         let mut order = 1;

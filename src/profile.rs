@@ -232,10 +232,10 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
     #[inline(always)]
-    fn exact(&self, side: usize, mass: Wide) -> Place {
+    fn exact(&self, side: usize, mass: Wide, guess: i32) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, guess),
         }
     }
 
@@ -253,6 +253,14 @@ impl<const CELLS: usize> Profile<CELLS> {
             self.start(1) as f64 - place.time as f64
         };
         if place.back == (side == 1) { way + elapsed } else { way - elapsed }
+    }
+
+    /// How far into its ramp the fraction `a` has been collected, from the end that faces the side.
+    pub(crate) const fn fraction(&self, side: usize, a: Wide) -> f64 {
+        match self.section(side, a.times(Wide::from_f64(self.area))) {
+            Section::Plateau(_) => 1.0,
+            Section::Ramp(ramp, mass) => self.ramp(ramp).fraction(side, mass),
+        }
     }
 
     /// What an error in time is relative to: the time itself, or, where the curve runs across time 0,
@@ -297,6 +305,13 @@ impl<const CELLS: usize> Profile<CELLS> {
             }
         }
         None
+    }
+
+    /// How far into its ramp a search for `a`, by its bits, may start, if an octave knows it.
+    #[inline(always)]
+    fn guess(&self, side: usize, a: u32) -> i32 {
+        let index = (0.25f32.to_bits() >> 23).wrapping_sub(a >> 23) as usize;
+        if index < CELLS { self.octaves[side & 1][index].guess(a) } else { 0 }
     }
 
     /// The time by which the fraction `u` of the exposure has been collected.
@@ -353,7 +368,11 @@ impl<const CELLS: usize> Profile<CELLS> {
     #[inline(never)]
     fn solved(&self, u: f32) -> f32 {
         let (side, a) = Self::count(u);
-        if a > 0.0 { self.exact(side, self.share(a)).time() } else { self.start(side) }
+        if a > 0.0 {
+            self.exact(side, self.share(a), self.guess(side, a.to_bits())).time()
+        } else {
+            self.start(side)
+        }
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where a direct
@@ -361,7 +380,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
         if a > 0.0 && self.in_octave(side, a.to_bits(), 0).is_none() {
-            self.exact(side, self.share(a)).evaluations
+            self.exact(side, self.share(a), self.guess(side, a.to_bits())).evaluations
         } else {
             0
         }
@@ -421,7 +440,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side.
     pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
-        let place = self.exact(side, a.times(Wide::from_f64(self.area)));
+        let place = self.exact(side, a.times(Wide::from_f64(self.area)), 0);
         let base = Wide::between(self.open_start(), place.time);
         if place.back { base.minus(place.elapsed()) } else { base.plus(place.elapsed()) }
     }

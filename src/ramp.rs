@@ -1,15 +1,15 @@
 //! A ramp: one Bezier, seen from both of its ends.
 
 use crate::bezier::CubicBezier;
-use crate::seed::{seed, seed_by_bits};
-use crate::series::{Coefficient, Root, Seed, Series, solve};
+use crate::seed::{seed, seed_by_bits, seed_from};
+use crate::series::{Coefficient, Enough, Root, Seed, Series, solve};
 use crate::wide::{Wide, sum};
 
-/// How exact a search has to be in a flat place, in bits: for the mass, an eighth of the least distance
-/// between neighbouring `u`, so that these keep their order; for the time, all there is, since what it is
-/// for may be steep there.
-const MASS_ENOUGH: u32 = 27;
-const TIME_ENOUGH: u32 = 40;
+/// For the mass, in a flat place, an eighth of the least distance between neighbouring `u`, so that these
+/// keep their order.
+const MASS_ENOUGH: Enough = Enough { near: 14, slope: 31, flat: 27, long: 31 };
+/// For the time all there is, since what it is for may be steep there.
+const TIME_ENOUGH: Enough = Enough { near: 27, slope: 44, flat: 60, long: 18 };
 
 /// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,19 +147,38 @@ impl Segment {
         if mass.exceeds(half) { (1 - from, all.minus(mass)) } else { (from, mass) }
     }
 
-    /// The place where `mass` has been collected, counted from end `from`.
+    /// The place where `mass` has been collected, counted from end `from`, which may be about `guess`, in
+    /// units of 2⁻²², from there.
     #[inline(always)]
-    pub(crate) fn at_mass(&self, from: usize, mass: Wide) -> Place {
-        let (from, mass) = self.nearer(from, mass);
-        let end = self.end(from);
-        end.at_mass(from, mass, seed(&end.mass, mass))
+    pub(crate) fn at_mass(&self, from: usize, mass: Wide, guess: i32) -> Place {
+        let (near, mass) = self.nearer(from, mass);
+        let end = self.end(near);
+        let guess = if near == from { guess } else { (1 << 22) - guess };
+        // Less than 2⁻¹⁰ is not a guess to rely on.
+        let seed = if guess > 1 << 12 && guess < 1 << 22 {
+            seed_from(guess)
+        } else {
+            seed(&end.mass, mass)
+        };
+        end.at_mass(near, mass, seed)
     }
 
     /// The same, seeded as a constant can.
     pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide) -> Place {
-        let (from, mass) = self.nearer(from, mass);
-        let end = self.end(from);
-        end.at_mass(from, mass, seed_by_bits(&end.mass, mass))
+        let (near, mass) = self.nearer(from, mass);
+        let end = self.end(near);
+        end.at_mass(near, mass, seed_by_bits(&end.mass, mass))
+    }
+
+    /// How far into the ramp that is, from end `from`.
+    pub(crate) const fn fraction(&self, from: usize, mass: Wide) -> f64 {
+        let (near, mass) = self.nearer(from, mass);
+        if mass.is_zero() {
+            return if near == from { 0.0 } else { 1.0 };
+        }
+        let series = &self.end(near).mass;
+        let p = solve(series, mass, seed_by_bits(series, mass), MASS_ENOUGH).place();
+        if near == from { p } else { 1.0 - p }
     }
 
     /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.

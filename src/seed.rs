@@ -85,6 +85,13 @@ const fn root_by_bits(c: &[Coefficient], log: i32) -> Seed {
     seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
 }
 
+/// A guess that stands in the curve, in units of 2⁻²².
+pub(crate) const fn seed_from(guess: i32) -> Seed {
+    let shift = guess.leading_zeros() as i32 - 12;
+    let shift = if shift < -1 { -1 } else { shift };
+    Seed { x: guess << ((shift + 10) & 31), shift }
+}
+
 /// The guess by the root that the features choose.
 #[inline]
 pub(crate) fn seed(c: &[Coefficient], target: Wide) -> Seed {

@@ -15,7 +15,7 @@
 use crate::wide::Wide;
 
 /// A coefficient: in the upper 54 bits the significand of a `f64`, with its sign, and in the lower 10
-/// the exponent, so that one shift aligns it. What these bits add to its value is rounding.
+/// the exponent, so that one shift aligns it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coefficient(i64);
 
@@ -53,7 +53,7 @@ impl Coefficient {
     /// Shifted down by `down`.
     #[inline(always)]
     const fn aligned(self, down: i32) -> i64 {
-        self.0 >> clamped(down, 63)
+        (self.0 & !(Self::EXPONENT as i64)) >> clamped(down, 63)
     }
 
     /// The upper 32 bits of that.
@@ -109,11 +109,23 @@ pub const MAX_EVALUATIONS: u32 = NEWTON + BISECTION;
 const GUARD: i32 = 3;
 /// What rounding leaves uncertain of the upper 32 bits.
 const NOISE: u32 = 8;
-/// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say ...
+/// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say.
 const CLOSE: u32 = 8;
-/// ... and a step by less than 2⁻¹⁴ is the last, for it leaves less than 2⁻³⁰.
-const LAST: u32 = 18;
-const STRAIGHT: u32 = 12;
+/// A slope below this is too much of it.
+const SLOPE: i32 = 256;
+
+/// How exact a search has to be, in bits of the target.
+#[derive(Clone, Copy)]
+pub(crate) struct Enough {
+    /// A residual from which one more step leaves next to nothing ...
+    pub(crate) near: u32,
+    /// ... unless the slope's rounding counts,
+    pub(crate) slope: u32,
+    /// and the residual to be content with in a flat place, where a step by it is long:
+    pub(crate) flat: u32,
+    /// in bits of `x`.
+    pub(crate) long: u32,
+}
 
 /// `a x`, where `x` counts 2⁻³².
 #[inline(always)]
@@ -223,16 +235,25 @@ impl Local {
 
     #[inline(never)]
     const fn step_of(slope: i32, bend: i32, twist: i32, missing: f32) -> f32 {
-        let (slope, bend) = (slope as f32, bend as f32);
+        let noisy = slope < SLOPE && twist > 0;
+        let (mut slope, bend, twist) = (slope as f32, bend as f32, twist as f32);
+        if noisy {
+            // Of such a slope most is rounding; that of a perfect cube is not.
+            slope = bend * bend / (3.0 * twist);
+        }
         let newton = slope * slope;
         let curve = bend * missing;
         if curve.abs() > 0.2 * newton {
-            let ratio = 3.0 * slope * twist as f32 / (bend * bend);
+            let ratio = 3.0 * slope * twist / (bend * bend);
             if ratio > 0.7 && ratio < 1.8 {
                 let from_flat = slope / (bend * (2.0 - ratio));
                 let order = (2.0 - ratio) / (4.0 - ratio);
                 let share = 1.0 + missing / (slope * from_flat * order);
-                let root = power(share.abs(), order);
+                let size = share.abs();
+                let mut root = power(size, order);
+                if ratio < 1.2 {
+                    root -= (root - size / (root * root)) * order;
+                }
                 let root = if share < 0.0 { -root } else { root };
                 return from_flat * (root - 1.0) * WORD;
             }
@@ -260,7 +281,7 @@ pub(crate) const fn solve<const N: usize>(
     series: &Series<N>,
     target: Wide,
     seed: Seed,
-    enough: u32,
+    enough: Enough,
 ) -> Root {
     let Seed { mut x, mut shift } = seed;
     let (mut low, mut high) = (0, TOP);
@@ -286,15 +307,15 @@ pub(crate) const fn solve<const N: usize>(
                         } else {
                             high = x;
                         }
-                        x = if next > low && next < high { next } else { low + (high - low) / 2 };
-                        if x > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
+                        if next > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
                             // The target may be more than this scale holds: two octaves up.
                             let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
                             shift -= up;
                             low >>= up;
-                            x >>= up;
+                            x = (x >> up) + (step >> up);
                             continue 'scale;
                         }
+                        x = if next > low && next < high { next } else { low + (high - low) / 2 };
                         continue 'at;
                     }
                     // The slope there, where it changes little.
@@ -309,14 +330,18 @@ pub(crate) const fn solve<const N: usize>(
             let whole = step as i32;
             let size = whole ^ whole >> 31;
             // With a slope whose noise does not count, and in a straight place.
-            if size < x >> LAST
-                && size as i64 <= goal >> 31
-                && local.slope > 0
-                && times_high(local.bend, whole).abs() <= local.slope >> STRAIGHT
+            let bent = times_high(local.bend, whole).abs();
+            let twisted = times_high(times_high(local.twist, whole), whole).abs();
+            if missing.unsigned_abs() <= (goal as u64) >> enough.near
+                && size as i64 <= goal >> enough.slope
+                && local.slope > SLOPE
+                && bent <= local.slope >> 9
+                && twisted <= local.slope >> 16
             {
                 return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
             }
-            if missing.unsigned_abs() <= (goal as u64) >> enough {
+            let flat = size >= x >> enough.long;
+            if missing == 0 || (flat && missing.unsigned_abs() <= (goal as u64) >> enough.flat) {
                 return Root { x, shift, rest: 0.0, evaluations };
             }
             if missing > 0 {
@@ -348,6 +373,12 @@ pub(crate) const fn solve<const N: usize>(
 impl Root {
     /// `p = 0`.
     pub(crate) const START: Self = Self { x: 0, shift: 0, rest: 0.0, evaluations: 0 };
+
+    /// `p`
+    pub(crate) const fn place(&self) -> f64 {
+        let unit = f64::from_bits(((1023 - 32 - self.shift) as u64) << 52);
+        (self.x as f64 + self.rest as f64) * unit
+    }
 
     /// The series' value here, in units of a power of two, and its exponent.
     #[inline(always)]

@@ -366,7 +366,7 @@ fn scaled_times_give_scaled_answers() {
             }
             for k in 0..500 {
                 let t = a.open_start() + (a.close_end() - a.open_start()) * k as f32 / 500.0;
-                assert_eq!(a.cdf(t), b.cdf(power * t));
+                assert_eq!(a.cdf(t), b.cdf(power * t), "{} {power} {t}", one.name);
                 assert_eq!(a.opening(t), b.opening(power * t));
             }
         }
