@@ -232,7 +232,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
     #[inline(always)]
-    fn exact(&self, side: usize, mass: Wide, guess: i32) -> Place {
+    fn exact(&self, side: usize, mass: Wide, guess: impl FnOnce() -> i32) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, guess),
@@ -369,7 +369,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     fn solved(&self, u: f32) -> f32 {
         let (side, a) = Self::count(u);
         if a > 0.0 {
-            self.exact(side, self.share(a), self.guess(side, a.to_bits())).time()
+            self.exact(side, self.share(a), || self.guess(side, a.to_bits())).time()
         } else {
             self.start(side)
         }
@@ -380,7 +380,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
         if a > 0.0 && self.in_octave(side, a.to_bits(), 0).is_none() {
-            self.exact(side, self.share(a), self.guess(side, a.to_bits())).evaluations
+            self.exact(side, self.share(a), || self.guess(side, a.to_bits())).evaluations
         } else {
             0
         }
@@ -425,7 +425,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn direct(&self, u: u64, plateau: [u32; 2]) -> Option<i64> {
         let word = (u >> 32) as u32;
         if word >= plateau[0] && word < plateau[1] {
@@ -433,14 +433,19 @@ impl<const CELLS: usize> Profile<CELLS> {
         }
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
-        let zeros = a.leading_zeros();
-        let offset = (a << (zeros & 63) << 1 >> 32) as u32;
+        let (high, low) = ((a >> 32) as u32, a as u32);
+        let zeros = high.leading_zeros();
+        if high == 0 {
+            return None;
+        }
+        // The significand after its top bit.
+        let offset = high << (zeros & 31) << 1 | low >> (31u32.wrapping_sub(zeros) & 31);
         self.in_octave(side, (126 - zeros) << 23 | offset >> 9, (offset ^ 1 << 31) as i32)
     }
 
     /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side.
     pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
-        let place = self.exact(side, a.times(Wide::from_f64(self.area)), 0);
+        let place = self.exact(side, a.times(Wide::from_f64(self.area)), || 0);
         let base = Wide::between(self.open_start(), place.time);
         if place.back { base.minus(place.elapsed()) } else { base.plus(place.elapsed()) }
     }

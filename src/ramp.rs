@@ -150,9 +150,10 @@ impl Segment {
     /// The place where `mass` has been collected, counted from end `from`, which may be about `guess`, in
     /// units of 2⁻²², from there.
     #[inline(always)]
-    pub(crate) fn at_mass(&self, from: usize, mass: Wide, guess: i32) -> Place {
+    pub(crate) fn at_mass(&self, from: usize, mass: Wide, guess: impl FnOnce() -> i32) -> Place {
         let (near, mass) = self.nearer(from, mass);
         let end = self.end(near);
+        let guess = guess();
         let guess = if near == from { guess } else { (1 << 22) - guess };
         // Less than 2⁻¹⁰ is not a guess to rely on.
         let seed = if guess > 1 << 12 && guess < 1 << 22 {

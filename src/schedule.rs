@@ -43,33 +43,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         n: u32,
         tick_hz: u32,
     ) -> Result<impl ExactSizeIterator<Item = u32>, ScheduleError> {
-        if tick_hz == 0 {
-            return Err(ScheduleError::TickRateZero);
-        }
-        let rate = Wide::new(tick_hz as u64, 0);
-        let ticks = Wide::between(self.open_start(), self.close_end()).times(rate);
-        if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
-            return Err(ScheduleError::TickRateTooHigh);
-        }
-        let profile = &self.profile;
-        let direct = Direct::new(profile, rate, ticks);
-        let plateau = profile.plateau_in_words();
-        // 1 / 2n in units of 2⁻⁶⁴; a 64-bit division is dear on a small processor, so only this one is made.
-        let share = if n == 0 { 0 } else { (1 << 63) / n as u64 };
-        Ok((0..n).map(move |i| {
-            // (2i + 1) / 2n
-            let odd = 2 * i as u64 + 1;
-            if let Some(direct) = &direct
-                && let Some(time) = profile.direct(odd.wrapping_mul(share), plateau)
-            {
-                return direct.tick(time);
-            }
-            let (side, near) = if odd <= n as u64 { (0, odd) } else { (1, 2 * n as u64 - odd) };
-            let a = half_reciprocal(n).times(Wide::new(near, 0));
-            let delay = profile.delay(side, a).times(rate);
-            // In halves of a tick, so that the last bit rounds.
-            ((delay.in_units(-1) + 1) >> 1) as u32
-        }))
+        let ticks = Ticks::new(&self.profile, n, tick_hz)?;
+        Ok((0..n).map(move |i| ticks.at(i)))
     }
 
     /// A checked schedule: the ticks of [`trigger_ticks`](Self::trigger_ticks), no two closer than
@@ -89,7 +64,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if n as usize > N {
             return Err(ScheduleError::CapacityExceeded);
         }
-        for tick in self.trigger_ticks(n, tick_hz)? {
+        let ticks = Ticks::new(&self.profile, n, tick_hz)?;
+        for i in 0..n {
+            let tick = ticks.at(i);
             if schedule.last().is_some_and(|last| tick - last < min_gap) {
                 return Err(ScheduleError::GapTooSmall { most: self.most(n, tick_hz, min_gap)? });
             }
@@ -100,6 +77,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// The most triggers, below `n`, whose ticks keep `min_gap`.
     #[cfg(feature = "heapless-v0_9")]
+    #[cold]
+    #[inline(never)]
     fn most(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
         // Exact times at least a whole number of ticks apart stay so when rounded. Triggers come some
         // 2^-30 tick from exact, so where A / min_gap is a whole number the last may have to go.
@@ -121,14 +100,64 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 }
 
+/// What places the triggers of one frame.
+struct Ticks<'a, const CELLS: usize> {
+    profile: &'a Profile<CELLS>,
+    n: u32,
+    rate: Wide,
+    /// `1 / 2n` in units of 2⁻⁶⁴.
+    share: u64,
+    plateau: [u32; 2],
+    direct: Option<Direct>,
+}
+
+impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
+    fn new(profile: &'a Profile<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
+        if tick_hz == 0 {
+            return Err(ScheduleError::TickRateZero);
+        }
+        let rate = Wide::new(tick_hz as u64, 0);
+        let ticks = Wide::between(profile.open_start(), profile.close_end()).times(rate);
+        if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
+            return Err(ScheduleError::TickRateTooHigh);
+        }
+        // A 64-bit division is dear on a small processor, so only this one is made.
+        let share = if n == 0 { 0 } else { (1 << 63) / n as u64 };
+        let (plateau, direct) = (profile.plateau_in_words(), Direct::new(profile, rate, ticks));
+        Ok(Self { profile, n, rate, share, plateau, direct })
+    }
+
+    /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
+    #[inline(always)]
+    fn at(&self, i: u32) -> u32 {
+        let odd = 2 * i as u64 + 1;
+        if let Some(direct) = &self.direct
+            && let Some(time) = self.profile.direct(odd.wrapping_mul(self.share), self.plateau)
+        {
+            return direct.tick(time);
+        }
+        self.exact(odd)
+    }
+
+    /// The same by the exact way; out of line, so that the direct one saves no registers for it.
+    #[cold]
+    #[inline(never)]
+    fn exact(&self, odd: u64) -> u32 {
+        let n = self.n;
+        let (side, near) = if odd <= n as u64 { (0, odd) } else { (1, 2 * n as u64 - odd) };
+        let a = half_reciprocal(n).times(Wide::new(near, 0));
+        let delay = self.profile.delay(side, a).times(self.rate);
+        // In halves of a tick, so that the last bit rounds.
+        ((delay.in_units(-1) + 1) >> 1) as u32
+    }
+}
+
 /// From times in the profile's unit to ticks, in fixed point.
 struct Direct {
     start: i64,
-    /// What brings a time after the start down to 31 bits, the factor that makes it ticks, and what then
-    /// brings these down.
+    /// What brings a time after the start down to 31 bits, and the ticks in a unit of these, which count 2⁻⁶⁴.
     down: u32,
-    factor: u32,
-    shift: u32,
+    factor: u64,
 }
 
 impl Direct {
@@ -140,18 +169,21 @@ impl Direct {
         let start = profile.start_in_units(0);
         let length = (profile.start_in_units(1) - start) as u64;
         let down = 33u32.saturating_sub(length.leading_zeros());
-        let factor = rate.times(Wide::new(1, profile.unit() + down as i32));
-        let shift = -(factor.e + 32);
-        let factor = (factor.m >> 32) as u32;
-        (0 < shift && shift < 64).then_some(Self { start, down, factor, shift: shift as u32 })
+        let factor = rate.times(Wide::new(1, profile.unit() + down as i32)).in_units(-64) as u64;
+        (factor >> 32 != 0).then_some(Self { start, down, factor })
     }
 
-    #[inline]
+    #[inline(always)]
     fn tick(&self, time: i64) -> u32 {
-        let delay =
-            if time > self.start { (time - self.start) as u64 >> (self.down & 63) } else { 0 };
-        let ticks = delay as u32 as u64 * self.factor as u64;
-        ((ticks + (1 << ((self.shift - 1) & 63))) >> (self.shift & 63)) as u32
+        if time <= self.start {
+            return 0;
+        }
+        // `down` is below 32; where it is 0, so is the upper word.
+        let delay = (time - self.start) as u64;
+        let high = ((delay >> 32) as u32) << (self.down.wrapping_neg() & 31);
+        let delay = (high | delay as u32 >> (self.down & 31)) as u64;
+        let low = (delay * (self.factor as u32 as u64)) >> 32;
+        ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }
 }
 

@@ -1,7 +1,7 @@
 //! The first guess of a search: a k-th root.
 //!
 //! Near its end a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
-//! `(target / c_k)^(1/k)` over the positive coefficients. Which one is least, the logarithms tell that
+//! `|target / c_k|^(1/k)` over the coefficients. Which one is least, the logarithms tell that
 //! floating-point numbers carry in their exponents; its root is then taken by the same logarithms,
 //! corrected to 1 %, or by `libm` or `micromath` where these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
@@ -35,28 +35,28 @@ struct Leading {
     divisor: i32,
 }
 
+/// 2³⁰ over `k`.
+const RECIPROCALS: [i32; 8] =
+    [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
+
 /// `x / k` for `k` up to 6, near enough, without a division that could fail.
 const fn divided(x: i32, k: i32) -> i32 {
-    const RECIPROCALS: [i32; 8] =
-        [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
     times_high(x, RECIPROCALS[(k & 7) as usize]) << 2
 }
 
+#[inline(always)]
 const fn leading(c: &[Coefficient], log: i32) -> Leading {
     let mut best = Leading { k: 1, target: log, divisor: 0 };
     let mut least = i32::MAX;
-    let mut i = 0;
-    while i < c.len() {
-        if c[i].is_positive() {
-            let divisor = c[i].rough_log();
-            let k = i as i32 + 1;
-            let root = divided(log - divisor, k);
-            if root < least {
-                least = root;
-                best = Leading { k, target: log, divisor };
-            }
+    let mut k = 0;
+    while k < c.len() {
+        let divisor = c[k].rough_log();
+        k += 1;
+        let root = divided(log - divisor, k as i32);
+        if root < least {
+            least = root;
+            best = Leading { k: k as i32, target: log, divisor };
         }
-        i += 1;
     }
     best
 }

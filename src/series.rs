@@ -41,13 +41,11 @@ impl Coefficient {
         self.0 as i32 & Self::EXPONENT
     }
 
-    /// The base-2 logarithm, linear between powers of two, in units of 2⁻²⁰; of a positive coefficient.
+    /// The base-2 logarithm of the magnitude, linear between powers of two, in units of 2⁻²⁰.
+    #[inline(always)]
     pub(crate) const fn rough_log(self) -> i32 {
-        ((self.0 >> 42) as i32) + ((self.exponent() - (Self::BIAS - 62) - 1) << 20)
-    }
-
-    pub(crate) const fn is_positive(self) -> bool {
-        self.0 > 0
+        let high = (self.0 >> 32) as i32;
+        ((high ^ high >> 31) >> 10) + ((self.exponent() - (Self::BIAS - 62) - 1) << 20)
     }
 
     /// Shifted down by `down`.
@@ -142,7 +140,7 @@ pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
 }
 
 /// The exponent of the greatest `c_k 2^(-k shift)`.
-#[inline(always)]
+#[inline(never)]
 const fn top(series: &[Coefficient], shift: i32) -> i32 {
     // Zeros count as 2⁻⁵⁷⁴, which in the range of curves is below any other.
     let mut top = i32::MIN;
@@ -222,43 +220,44 @@ impl<const N: usize> Rough<N> {
 const WORD: f32 = 4294967296.0;
 
 impl Local {
-    /// The step of `x` that makes up for `missing`, in the unit of the value.
-    ///
-    /// Mostly Halley's, `r / (S' + S''/2 · r/S')`, with one division and at most twice Newton's. Where that is
-    /// long and `S` is near a flat place, as `c (x - q)^k + d`, which three derivatives tell, it is a root.
-    ///
-    /// Out of line, so that the search keeps no float.
+    /// The step of `x` that makes up for `missing`, in the unit of the value: Halley's,
+    /// `r / (S' + S''/2 · r/S')`, with one division, or, where that is long or lost, [`far`](Self::far).
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
-        Self::step_of(self.slope, self.bend, self.twist, missing)
+        let (slope, bend) = (self.slope as f32, self.bend as f32);
+        let newton = slope * slope;
+        let curve = bend * missing;
+        if self.slope < SLOPE || curve.abs() > 0.2 * newton {
+            return Self::far(self.slope, self.bend, self.twist, missing);
+        }
+        missing * WORD * slope / (newton + curve)
     }
 
+    /// Near a flat place `S` is as `c (x - q)^k + d`, which three derivatives tell: a root then. Elsewhere
+    /// Halley's step again, but at most twice Newton's.
     #[inline(never)]
-    const fn step_of(slope: i32, bend: i32, twist: i32, missing: f32) -> f32 {
+    const fn far(slope: i32, bend: i32, twist: i32, missing: f32) -> f32 {
         let noisy = slope < SLOPE && twist > 0;
         let (mut slope, bend, twist) = (slope as f32, bend as f32, twist as f32);
         if noisy {
             // Of such a slope most is rounding; that of a perfect cube is not.
             slope = bend * bend / (3.0 * twist);
         }
-        let newton = slope * slope;
-        let curve = bend * missing;
-        if curve.abs() > 0.2 * newton {
-            let ratio = 3.0 * slope * twist / (bend * bend);
-            if ratio > 0.7 && ratio < 1.8 {
-                let from_flat = slope / (bend * (2.0 - ratio));
-                let order = (2.0 - ratio) / (4.0 - ratio);
-                let share = 1.0 + missing / (slope * from_flat * order);
-                let size = share.abs();
-                let mut root = power(size, order);
-                if ratio < 1.2 {
-                    root -= (root - size / (root * root)) * order;
-                }
-                let root = if share < 0.0 { -root } else { root };
-                return from_flat * (root - 1.0) * WORD;
+        let ratio = 3.0 * slope * twist / (bend * bend);
+        if ratio > 0.7 && ratio < 1.8 {
+            let from_flat = slope / (bend * (2.0 - ratio));
+            let order = (2.0 - ratio) / (4.0 - ratio);
+            let share = 1.0 + missing / (slope * from_flat * order);
+            let size = share.abs();
+            let mut root = power(size, order);
+            if ratio < 1.2 {
+                root -= (root - size / (root * root)) * order;
             }
+            let root = if share < 0.0 { -root } else { root };
+            return from_flat * (root - 1.0) * WORD;
         }
-        let halley = newton + curve;
+        let newton = slope * slope;
+        let halley = newton + bend * missing;
         missing * WORD * slope / if halley > 0.5 * newton { halley } else { 0.5 * newton }
     }
 }

@@ -126,38 +126,52 @@ impl Wide {
     pub(crate) const fn to_f32(self) -> f32 {
         // The exponent as `f32` counts it, less one, for the significand's top bit adds to it.
         let exponent = self.e + 63 + 126;
-        let (exponent, down) = if exponent < 0 { (0, -exponent as u32) } else { (exponent as u32, 0) };
-        if down > 31 {
+        if exponent < 0 {
+            return self.to_subnormal();
+        }
+        f32::from_bits(((exponent as u32) << 23) + nearest((self.m >> 33) as u32 | (self.m << 31 != 0) as u32))
+    }
+
+    #[cold]
+    #[inline(never)]
+    const fn to_subnormal(self) -> f32 {
+        let down = (-(self.e + 63 + 126)) as u32;
+        if down > 30 {
             return 0.0;
         }
-        let low = self.m as u32 != 0;
-        let m = (self.m >> 32) as u32;
-        let lost = low | (m & ((2 << down) - 1) != 0);
-        let m = m >> down >> 1 | lost as u32;
-        // To nearest, and to even from the middle.
-        let m = (m + 0x3F + (m >> 7 & 1)) >> 7;
-        f32::from_bits((exponent << 23) + m)
+        let m = self.m >> down;
+        let lost = m << down != self.m || m << 31 != 0;
+        f32::from_bits(nearest((m >> 33) as u32 | lost as u32))
     }
+}
+
+/// `m / 2⁷` to nearest, and to even from the middle.
+#[inline(always)]
+const fn nearest(m: u32) -> u32 {
+    (m + 0x3F + (m >> 7 & 1)) >> 7
 }
 
 /// `base + way 2^unit`, rounded once, for a finite `base` and a `way` of at most 61 bits.
 #[inline(always)]
 pub(crate) const fn sum(base: f32, way: i64, unit: i32) -> f32 {
-    // The base in whole units of its own, 24 bits.
+    // The base in whole units of its own, 24 bits, with 37 below them.
     let exponent = (base.to_bits() >> 23 & 0xFF) as i32;
     let fraction = (base.to_bits() & 0x7F_FFFF) as i32;
-    let size = if exponent == 0 { fraction } else { fraction | 1 << 23 };
-    let size = if base < 0.0 { -size } else { size } as i64;
-    let own = if exponent == 0 { -149 } else { exponent - 150 };
-    // Where the base is so large that its units would overflow, the way gives up its lowest bits.
-    let e = if own - 37 > unit { own - 37 } else { unit };
-    let size = if own >= e { size << (own - e) } else { shifted(size, e - own) };
-    let sum = size + shifted(way, e - unit);
+    let (size, own) =
+        if exponent == 0 { (fraction, -149 - 37) } else { (fraction | 1 << 23, exponent - 150 - 37) };
+    let size = (if base < 0.0 { -size } else { size } as i64) << 37;
+    // The finer of the two gives up what the other can't hold.
+    let (sum, e) = if own > unit {
+        (size + shifted(way, own - unit), own)
+    } else {
+        (shifted(size, unit - own) + way, unit)
+    };
     let near = Wide::new(sum.unsigned_abs(), e).to_f32();
     if sum < 0 { -near } else { near }
 }
 
 /// `x / 2^down`, rounded down.
+#[inline(always)]
 const fn shifted(x: i64, down: i32) -> i64 {
     x >> if down < 63 { down } else { 63 }
 }

@@ -5,7 +5,7 @@
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
 //! cargo run --release -- --answers # the same answers on the host, on a Cortex-M4F and in soft float?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic
-//! cargo run --release -- --quick [SEED [CELLS]] # the tuner's loop: inverse_cdf, with a listing
+//! cargo run --release -- --quick [SEED [CELLS [FUNCTION]]] # the tuner's loop: one function, with a listing
 //! ```
 //!
 //! It needs the targets thumbv7em-none-eabihf and thumbv6m-none-eabi, qemu-system-arm, and llvm-objdump.
@@ -30,9 +30,10 @@ fn main() -> ExitCode {
         ["--short"] => budget::run(),
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
-        ["--quick"] => quick::run("libm", "8"),
-        ["--quick", seed] => quick::run(seed, "8"),
-        ["--quick", seed, cells] => quick::run(seed, cells),
+        ["--quick"] => quick::run("none", "8", "inverse_cdf"),
+        ["--quick", seed] => quick::run(seed, "8", "inverse_cdf"),
+        ["--quick", seed, cells] => quick::run(seed, cells, "inverse_cdf"),
+        ["--quick", seed, cells, function] => quick::run(seed, cells, function),
         _ => Err("usage: see src/main.rs".into()),
     };
     match result {

@@ -1,4 +1,4 @@
-//! The tuner's loop: `inverse_cdf` with one seed and one number of cells, in seconds.
+//! The tuner's loop: one function with one seed and one number of cells, in seconds.
 
 use ::firmware::{CURVES, Curve, Function, Inputs, ROWS};
 
@@ -6,18 +6,22 @@ use crate::disassembly::Disassembly;
 use crate::firmware::{M4F, build};
 use crate::trace::{Key, Selection, trace};
 
-pub fn run(seed: &str, cells: &str) -> Result<(), String> {
+pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
+    let called = Function::ALL
+        .into_iter()
+        .find(|f| f.symbol().strip_prefix("measured_") == Some(function))
+        .ok_or_else(|| format!("{function}: no such function"))?;
     let seed = if seed == "none" { "" } else { seed };
     let cells: usize = cells.parse().map_err(|_| format!("{cells}: not a number of cells"))?;
     let elf = build(M4F, "cost", seed)?;
     let code = Disassembly::of(&elf)?;
     let mut selection =
-        Selection { cells: vec![cells], functions: vec![Function::InverseCdf], hard: false };
+        Selection { cells: vec![cells], functions: vec![called], hard: false };
     for (row, (name, data)) in ROWS.iter().enumerate() {
         let inputs = Inputs::Row(row);
-        let key = Key { function: Function::InverseCdf, cells, inputs, curve: Curve::index(data) };
+        let key = Key { function: called, cells, inputs, curve: Curve::index(data) };
         if row == 0 {
-            selection.hard = true;
+            selection.hard = called == Function::InverseCdf;
         }
         let trace = trace(M4F, &elf, &code, &selection, Some(key))?;
         selection.hard = false;
@@ -30,9 +34,9 @@ pub fn run(seed: &str, cells: &str) -> Result<(), String> {
             cycles[cycles.len() / 2],
             cycles[cycles.len() - 1]
         );
-        let function = trace.instance[&(Function::InverseCdf, cells)];
-        let listing = elf.with_file_name(format!("inverse_cdf-{}.s", name.replace(' ', "-")));
-        std::fs::write(&listing, code.annotated(function, &trace.profile, calls.len() as u32))
+        let instance = trace.instance[&(called, cells)];
+        let listing = elf.with_file_name(format!("{function}-{}.s", name.replace(' ', "-")));
+        std::fs::write(&listing, code.annotated(instance, &trace.profile, calls.len() as u32))
             .unwrap();
         println!("  listing: {}", listing.display());
         if row == 0 {
@@ -49,10 +53,10 @@ pub fn run(seed: &str, cells: &str) -> Result<(), String> {
             );
             println!(
                 "code {} B, stack {} B:",
-                code.code_bytes(function),
-                code.stack_bytes(function)
+                code.code_bytes(instance),
+                code.stack_bytes(instance)
             );
-            for start in code.reach(function) {
+            for start in code.reach(instance) {
                 let f = &code.functions[&start];
                 println!("  {:5} B  {:#}", f.size, rustc_demangle::demangle(&f.symbol));
             }
