@@ -61,8 +61,8 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
-/// 2²², the unit of a guess: what is left of 32 bits for coefficients above 1.
-pub(crate) const GUESS: f64 = 4194304.0;
+/// 2¹⁸, the unit of a guess: what is left of 32 bits for the coefficients where time is nearly a root of `u`.
+const GUESS: f64 = 262144.0;
 
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, from: 0, length: 0, c: [0; DEGREE] };

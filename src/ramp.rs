@@ -7,9 +7,9 @@ use crate::wide::{Wide, sum};
 
 /// For the mass, in a flat place, an eighth of the least distance between neighbouring `u`, so that these
 /// keep their order.
-const MASS_ENOUGH: Enough = Enough { near: 14, slope: 31, flat: 27, long: 31 };
+const MASS_ENOUGH: Enough = Enough { near: 10, slope: 31, flat: 27, long: 31 };
 /// For the time all there is, since what it is for may be steep there.
-const TIME_ENOUGH: Enough = Enough { near: 27, slope: 44, flat: 60, long: 18 };
+const TIME_ENOUGH: Enough = Enough { near: 23, slope: 44, flat: 60, long: 18 };
 
 /// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,15 +148,15 @@ impl Segment {
     }
 
     /// The place where `mass` has been collected, counted from end `from`, which may be about `guess`, in
-    /// units of 2⁻²², from there.
+    /// units of 2⁻¹⁸, from there.
     #[inline(always)]
     pub(crate) fn at_mass(&self, from: usize, mass: Wide, guess: impl FnOnce() -> i32) -> Place {
         let (near, mass) = self.nearer(from, mass);
         let end = self.end(near);
         let guess = guess();
-        let guess = if near == from { guess } else { (1 << 22) - guess };
-        // Less than 2⁻¹⁰ is not a guess to rely on.
-        let seed = if guess > 1 << 12 && guess < 1 << 22 {
+        let guess = if near == from { guess } else { (1 << 18) - guess };
+        // Less than 2⁻⁸ is not a guess to rely on.
+        let seed = if guess > 1 << 10 && guess < 1 << 18 {
             seed_from(guess)
         } else {
             seed(&end.mass, mass)

@@ -46,19 +46,21 @@ const fn divided(x: i32, k: i32) -> i32 {
 
 #[inline(always)]
 const fn leading(c: &[Coefficient], log: i32) -> Leading {
-    let mut best = Leading { k: 1, target: log, divisor: 0 };
+    // The least root, with its `k` for the lowest bits.
     let mut least = i32::MAX;
-    let mut k = 0;
-    while k < c.len() {
-        let divisor = c[k].rough_log();
-        k += 1;
-        let root = divided(log - divisor, k as i32);
+    let mut i = 0;
+    while i < c.len() {
+        let k = i as i32 + 1;
+        let root = divided(log - c[i].rough_log(), k) & !7 | k;
         if root < least {
             least = root;
-            best = Leading { k: k as i32, target: log, divisor };
         }
+        i += 1;
     }
-    best
+    let k = least & 7;
+    let i = (k - 1) as usize;
+    let divisor = if i < c.len() { c[i].rough_log() } else { 0 };
+    Leading { k, target: log, divisor }
 }
 
 /// The seed `2^exponent (1 + fraction / ONE)`, at most 1, in the scale where it lies in [1/8, 1/4) or, from
@@ -85,11 +87,11 @@ const fn root_by_bits(c: &[Coefficient], log: i32) -> Seed {
     seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
 }
 
-/// A guess that stands in the curve, in units of 2⁻²².
+/// A guess that stands in the curve, in units of 2⁻¹⁸.
 pub(crate) const fn seed_from(guess: i32) -> Seed {
-    let shift = guess.leading_zeros() as i32 - 12;
+    let shift = guess.leading_zeros() as i32 - 16;
     let shift = if shift < -1 { -1 } else { shift };
-    Seed { x: guess << ((shift + 10) & 31), shift }
+    Seed { x: guess << ((shift + 14) & 31), shift }
 }
 
 /// The guess by the root that the features choose.
