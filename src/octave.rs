@@ -225,7 +225,12 @@ impl Part {
     }
 
     /// The exact time from the side's start at an offset, or the exact place on the ramp.
-    const fn exact<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32, place: bool) -> f64 {
+    const fn exact<const CELLS: usize>(
+        &self,
+        profile: &Profile<CELLS>,
+        x: i32,
+        place: bool,
+    ) -> f64 {
         let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
         let a = Wide { m, e: -(self.index as i32 + 2 + 63) };
         if place { profile.fraction(self.side, a) } else { profile.elapsed(self.side, a) }

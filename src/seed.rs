@@ -36,8 +36,7 @@ struct Leading {
 }
 
 /// 2³⁰ over `k`.
-const RECIPROCALS: [i32; 8] =
-    [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
+const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
 /// `x / k` for `k` up to 6, near enough, without a division that could fail.
 const fn divided(x: i32, k: i32) -> i32 {

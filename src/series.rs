@@ -9,8 +9,9 @@
 //! `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. So `S` keeps some 40
 //! bits of its own, however small it is, and neighbouring `f32` targets, 2⁻²⁴ apart, stay apart.
 //!
-//! **Why two widths.** The upper 32 bits of all that keep 15 or more of `S`, at a third of the cycles:
-//! the search runs on them until they have no more to say, and the 64 bits finish it.
+//! **Why two widths.** The upper 32 bits of all that keep 15 or more of `S`, at a sixth of the cycles. The
+//! search runs on them, with the derivatives, until they have no more to say; the 64 bits then finish it, mostly
+//! in one evaluation.
 
 use crate::wide::Wide;
 
@@ -113,17 +114,25 @@ const CLOSE: u32 = 8;
 const SLOPE: i32 = 256;
 
 /// How exact a search has to be, in bits of the target.
+///
+/// One step of Halley's leaves `(S''/2 · step/S')² + S'''/6 · step²/S'` of a residual, up to a factor of 2. Where
+/// both are below 2⁻¹⁸, a residual below `2^-near` is thus the last one. The rounding of the slope leaves
+/// [`NOISE`] times the step, which `slope` bounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Enough {
-    /// A residual from which one more step leaves next to nothing ...
     pub(crate) near: u32,
-    /// ... unless the slope's rounding counts,
     pub(crate) slope: u32,
-    /// and the residual to be content with in a flat place, where a step by it is long:
+    /// In a flat place, where steps are longer than `x 2^-long`, the residual itself has to be below `2^-flat`.
     pub(crate) flat: u32,
-    /// in bits of `x`.
     pub(crate) long: u32,
 }
+
+/// Below these shares of `S'`, in bits, the terms of Halley's remainder are small enough.
+const BENT: u32 = 9;
+const TWISTED: u32 = 18;
+/// Below this share the slope at the end of a step is known well enough from its start: to 2⁻¹⁴, for which a
+/// residual has to be smaller by `KNOWN - 3` bits.
+const KNOWN: u32 = 7;
 
 /// `a x`, where `x` counts 2⁻³².
 #[inline(always)]
@@ -280,12 +289,16 @@ const fn power(x: f32, y: f32) -> f32 {
     f32::from_bits((ONE + ((x.to_bits() as i32 - ONE) as f32 * y - MEAN * (1.0 - y)) as i32) as u32)
 }
 
-/// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`:
-/// Newton's method with Halley's correction inside a bracket, and bisection where a step leaves it or where,
-/// after [`NEWTON`] steps, the bracket is wider than bisection alone would have left it.
+/// By how many octaves the scale grows where the target may be more than it holds; 0 where it can't.
+const fn growth(shift: i32, x: i32, high: i32) -> i32 {
+    if x > TOP - TOP / 8 && high == TOP { clamped(shift - LEAST_SHIFT, 2) } else { 0 }
+}
+
+/// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`: Halley's
+/// method inside a bracket, and bisection where a step leaves it or where, after [`NEWTON`] steps, the bracket is
+/// wider than bisection alone would have left it.
 ///
-/// It stops where a step is next to nothing, or in a flat
-/// place where the residual is below `2^-enough` of the target, or with the bracket down to neighbours.
+/// It stops where one more step is [`Enough`], or with the bracket down to neighbours.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: &Series<N>,
@@ -311,15 +324,15 @@ pub(crate) const fn solve<const N: usize>(
                     let next = x.saturating_add(step);
                     exact = (step ^ step >> 31) < x >> CLOSE;
                     let change = times_high(local.bend, step);
-                    if !exact || change.abs() > local.slope >> 7 || next <= low || next >= high {
+                    if !exact || change.abs() > local.slope >> KNOWN || next <= low || next >= high
+                    {
                         if missing > 0 {
                             low = x;
                         } else {
                             high = x;
                         }
-                        if next > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
-                            // The target may be more than this scale holds: two octaves up.
-                            let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
+                        let up = growth(shift, next, high);
+                        if up > 0 {
                             shift -= up;
                             low >>= up;
                             x = (x >> up) + (step >> up);
@@ -331,7 +344,7 @@ pub(crate) const fn solve<const N: usize>(
                     // The slope there, where it changes little.
                     local.slope += 2 * change;
                     x = next;
-                    near += 4;
+                    near += KNOWN - 3;
                 }
             }
             let missing = goal - value(series, x, top + GUARD + N as i32 * shift, shift);
@@ -346,8 +359,8 @@ pub(crate) const fn solve<const N: usize>(
             if missing.unsigned_abs() <= (goal as u64) >> near
                 && size as i64 <= goal >> enough.slope
                 && local.slope > SLOPE
-                && bent <= local.slope >> 9
-                && twisted <= local.slope >> 18
+                && bent <= local.slope >> BENT
+                && twisted <= local.slope >> TWISTED
             {
                 return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
             }
@@ -360,18 +373,22 @@ pub(crate) const fn solve<const N: usize>(
             } else {
                 high = x;
             }
-            let mut next = x.saturating_add(whole);
+            if evaluations == MAX_EVALUATIONS {
+                return Root { x, shift, rest: 0.0, evaluations };
+            }
+            let next = x.saturating_add(whole);
             // The bracket must shrink, on average, as bisection would shrink it.
             let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
             if late || next <= low || next >= high {
-                next = low + (high - low) / 2;
-                if next == low || evaluations == MAX_EVALUATIONS {
+                if high - low <= 1 {
                     return Root { x, shift, rest: 0.0, evaluations };
                 }
+                x = low + (high - low) / 2;
+            } else {
+                x = next;
             }
-            x = next;
-            if x > TOP - TOP / 8 && high == TOP && shift > LEAST_SHIFT {
-                let up = if shift - 2 < LEAST_SHIFT { shift - LEAST_SHIFT } else { 2 };
+            let up = growth(shift, x, high);
+            if up > 0 {
                 shift -= up;
                 low >>= up;
                 x >>= up;

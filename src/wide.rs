@@ -129,7 +129,9 @@ impl Wide {
         if exponent < 0 {
             return self.to_subnormal();
         }
-        f32::from_bits(((exponent as u32) << 23) + nearest((self.m >> 33) as u32 | (self.m << 31 != 0) as u32))
+        f32::from_bits(
+            ((exponent as u32) << 23) + nearest((self.m >> 33) as u32 | (self.m << 31 != 0) as u32),
+        )
     }
 
     #[cold]
@@ -157,8 +159,11 @@ pub(crate) const fn sum(base: f32, way: i64, unit: i32) -> f32 {
     // The base in whole units of its own, 24 bits, with 37 below them.
     let exponent = (base.to_bits() >> 23 & 0xFF) as i32;
     let fraction = (base.to_bits() & 0x7F_FFFF) as i32;
-    let (size, own) =
-        if exponent == 0 { (fraction, -149 - 37) } else { (fraction | 1 << 23, exponent - 150 - 37) };
+    let (size, own) = if exponent == 0 {
+        (fraction, -149 - 37)
+    } else {
+        (fraction | 1 << 23, exponent - 150 - 37)
+    };
     let size = (if base < 0.0 { -size } else { size } as i64) << 37;
     // The finer of the two gives up what the other can't hold.
     let (sum, e) = if own > unit {
