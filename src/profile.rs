@@ -338,7 +338,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         let bits = a.to_bits();
         match self.in_octave(side, bits, (bits << 9 ^ 1 << 31) as i32) {
             Some(time) => self.rounded(time),
-            None => self.solved(u),
+            None => self.solved(side, a),
         }
     }
 
@@ -366,8 +366,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     /// Out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn solved(&self, u: f32) -> f32 {
-        let (side, a) = Self::count(u);
+    fn solved(&self, side: usize, a: f32) -> f32 {
         if a > 0.0 {
             self.exact(side, self.share(a), || self.guess(side, a.to_bits())).time()
         } else {

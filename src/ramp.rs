@@ -7,9 +7,9 @@ use crate::wide::{Wide, sum};
 
 /// For the mass, in a flat place, an eighth of the least distance between neighbouring `u`, so that these
 /// keep their order.
-const MASS_ENOUGH: Enough = Enough { near: 10, slope: 31, flat: 27, long: 31 };
+const MASS_ENOUGH: Enough = Enough { near: 10, slope: 31, flat: 27, middle: false };
 /// For the time all there is, since what it is for may be steep there.
-const TIME_ENOUGH: Enough = Enough { near: 23, slope: 44, flat: 60, long: 18 };
+const TIME_ENOUGH: Enough = Enough { near: 23, slope: 44, flat: 60, middle: true };
 
 /// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,7 @@ impl End {
         }
         let root = solve(&self.mass, mass, seed, MASS_ENOUGH);
         let (elapsed, unit) = root.value(&self.elapsed);
-        let elapsed = if elapsed < 0 { 0 } else { elapsed };
+        let elapsed = if elapsed < 0 { 0 } else { elapsed as u64 };
         Place { time, back, elapsed, unit, evaluations: root.evaluations }
     }
 }
@@ -88,7 +88,7 @@ pub(crate) struct Place {
     pub(crate) time: f32,
     pub(crate) back: bool,
     /// In units of `2^unit`.
-    elapsed: i64,
+    elapsed: u64,
     unit: i32,
     /// Evaluations of the mass that it took to find.
     pub(crate) evaluations: u32,
@@ -99,18 +99,17 @@ impl Place {
     pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
         let Wide { m, e } = elapsed;
         // Two bits of room.
-        Self { time, back, elapsed: (m >> 2) as i64, unit: e + 2, evaluations: 0 }
+        Self { time, back, elapsed: m >> 2, unit: e + 2, evaluations: 0 }
     }
 
     pub(crate) const fn elapsed(self) -> Wide {
-        Wide::new(self.elapsed as u64, self.unit)
+        Wide::new(self.elapsed, self.unit)
     }
 
     /// The time, rounded once.
     #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
-        let elapsed = if self.back { -self.elapsed } else { self.elapsed };
-        sum(self.time, elapsed, self.unit)
+        sum(self.time, self.elapsed, self.unit, self.back)
     }
 }
 

@@ -122,9 +122,10 @@ const SLOPE: i32 = 256;
 pub(crate) struct Enough {
     pub(crate) near: u32,
     pub(crate) slope: u32,
-    /// In a flat place, where steps are longer than `x 2^-long`, the residual itself has to be below `2^-flat`.
+    /// In a flat place the residual itself has to be below `2^-flat`.
     pub(crate) flat: u32,
-    pub(crate) long: u32,
+    /// Whether it is then the middle of that place that is asked for.
+    pub(crate) middle: bool,
 }
 
 /// Below these shares of `S'`, in bits, the terms of Halley's remainder are small enough.
@@ -165,12 +166,6 @@ const fn top(series: &[Coefficient], shift: i32) -> i32 {
     top
 }
 
-/// The same out of line, which spares the search registers.
-#[inline(never)]
-const fn top_alone(series: &[Coefficient], shift: i32) -> i32 {
-    top(series, shift)
-}
-
 /// `S` at `x` by Horner's rule, in units of `2^(top + GUARD - BIAS)`, where `down` is `top + GUARD`
 /// and `shift` for each coefficient.
 #[inline(never)]
@@ -187,7 +182,10 @@ const fn value(series: &[Coefficient], x: i32, down: i32, shift: i32) -> i64 {
 }
 
 /// The upper 32 bits of a series near `2^-shift`.
-struct Rough<const N: usize>([i32; N]);
+struct Rough<const N: usize> {
+    c: [i32; N],
+    top: i32,
+}
 
 /// A value with the derivatives the search uses: `S'`, `S''/2` and `S'''/6`.
 struct Local {
@@ -198,23 +196,33 @@ struct Local {
 }
 
 impl<const N: usize> Rough<N> {
-    #[inline(always)]
-    const fn new(series: &Series<N>, shift: i32, top: i32) -> Self {
-        let mut c = [0; N];
-        let mut down = top + GUARD;
-        let mut k = 0;
+    /// Out of line, which spares the search its registers.
+    #[inline(never)]
+    const fn new(series: &Series<N>, shift: i32) -> Self {
+        let mut down = [0; N];
+        let mut top = i32::MIN;
+        let (mut k, mut by) = (0, 0);
         while k < N {
-            down += shift;
-            c[k] = series[k].rough(down - series[k].exponent());
+            by += shift;
+            down[k] = by - series[k].exponent();
+            if -down[k] > top {
+                top = -down[k];
+            }
             k += 1;
         }
-        Self(c)
+        let mut c = [0; N];
+        k = 0;
+        while k < N {
+            c[k] = series[k].rough(top + GUARD + down[k]);
+            k += 1;
+        }
+        Self { c, top }
     }
 
     /// Horner's rule.
     #[inline(always)]
     const fn at(&self, x: i32) -> Local {
-        let mut value = self.0[N - 1];
+        let mut value = self.c[N - 1];
         let (mut slope, mut bend, mut twist) = (0i32, 0i32, 0i32);
         let mut k = N - 1;
         while k > 0 {
@@ -222,7 +230,7 @@ impl<const N: usize> Rough<N> {
             twist = times_high(twist, x).wrapping_add(bend);
             bend = times_high(bend, x).wrapping_add(slope);
             slope = times_high(slope, x).wrapping_add(value);
-            value = times_high(value, x).wrapping_add(self.0[k]);
+            value = times_high(value, x).wrapping_add(self.c[k]);
         }
         twist = times_high(twist, x).wrapping_add(bend);
         bend = times_high(bend, x).wrapping_add(slope);
@@ -247,6 +255,14 @@ impl Local {
             return Self::far(self.slope, self.bend, self.twist, missing);
         }
         missing * WORD * slope / (newton + curve)
+    }
+
+    /// The step to the flat place itself, if all between is rounding.
+    const fn to_flat(&self) -> i32 {
+        let twist = self.twist as f32;
+        let from_flat = self.bend as f32 / (3.0 * twist);
+        let size = twist * from_flat * from_flat * from_flat;
+        if self.slope < SLOPE && size.abs() < 8.0 / WORD { -(from_flat * WORD) as i32 } else { 0 }
     }
 
     /// Near a flat place `S` is as `c (x - q)^k + d`, which three derivatives tell: a root then. Elsewhere
@@ -310,8 +326,8 @@ pub(crate) const fn solve<const N: usize>(
     let (mut low, mut high) = (0, TOP);
     let (mut evaluations, mut exact) = (0, false);
     'scale: loop {
-        let top = top_alone(series, shift);
-        let rough = Rough::new(series, shift, top);
+        let rough = Rough::new(series, shift);
+        let top = rough.top;
         let goal = target.in_units(top + GUARD - Coefficient::BIAS);
         'at: loop {
             let (mut local, mut near) = (rough.at(x), enough.near);
@@ -364,9 +380,9 @@ pub(crate) const fn solve<const N: usize>(
             {
                 return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
             }
-            let flat = size >= x >> enough.long;
-            if missing == 0 || (flat && missing.unsigned_abs() <= (goal as u64) >> enough.flat) {
-                return Root { x, shift, rest: 0.0, evaluations };
+            if missing.unsigned_abs() <= (goal as u64) >> enough.flat {
+                let step = if enough.middle { local.to_flat() } else { 0 };
+                return Root { x: x + step, shift, rest: 0.0, evaluations };
             }
             if missing > 0 {
                 low = x;

@@ -3,7 +3,7 @@
 
 use ::firmware::{Curve, Function, Inputs, ROWS};
 
-use crate::firmware::{M0, M4F};
+use crate::firmware::{M0, M4F, SEEDS};
 use crate::measure::Measured;
 use crate::trace::{Key, Selection};
 
@@ -13,8 +13,8 @@ pub fn run() -> Result<(), String> {
     let hard = Selection { cells: vec![8], functions: vec![InverseCdf, Schedule], hard: true };
     let soft_float = Selection { cells: vec![8], functions: vec![InverseCdf, Newton], hard: false };
     let compact = Selection { cells: vec![0], functions: vec![InverseCdf], hard: false };
-    let m4f = Measured::new(M4F, "libm", &[hard, compact])?;
-    let m0 = Measured::new(M0, "libm", &[soft_float])?;
+    let m4f = Measured::new(M4F, SEEDS[0], &[hard, compact])?;
+    let m0 = Measured::new(M0, SEEDS[0], &[soft_float])?;
 
     let key = |function, row: usize, cells| Key {
         function,

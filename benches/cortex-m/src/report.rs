@@ -57,7 +57,7 @@ fn m4f(seed: &str) -> Result<Measured, String> {
         // One fallback serves all but CELLS = 0, which has nothing else.
         some(&[0, 8], &[InverseCdf], true),
     ];
-    if seed == "libm" {
+    if seed == SEEDS[0] {
         selections.push(some(&[8], &[Cdf, Opening, Newton, Table], true));
         // Building knows but one seed.
         selections.push(some(&CELLS, &[Construct], false));
@@ -68,7 +68,7 @@ fn m4f(seed: &str) -> Result<Measured, String> {
 fn m0(seed: &str) -> Result<Measured, String> {
     use Function::*;
     let mut functions = vec![InverseCdf, Cdf, Opening, TickStep, Schedule];
-    if seed == "libm" {
+    if seed == SEEDS[0] {
         functions.extend([Newton, Table, Construct]);
     }
     Measured::new(M0, seed, &[Selection { cells: vec![0, 8], functions, hard: false }])
@@ -129,7 +129,7 @@ fn inverse(out: &mut String, builds: &[Build]) {
         size_of::<TextbookNewton>(),
         size_of::<InverseTable<256>>(),
     );
-    let Some(build) = builds.iter().find(|build| build.0 == "libm") else { return };
+    let Some(build) = builds.iter().find(|build| build.0 == named(SEEDS[0])) else { return };
     for (index, (curve, data)) in ROWS.iter().enumerate() {
         for (method, function) in
             [("textbook Newton", Function::Newton), ("table", Function::Table)]
@@ -187,7 +187,7 @@ fn others(out: &mut String, builds: &[Build]) {
             }
         }
     }
-    let Some((_, m4f, _)) = builds.iter().find(|build| build.0 == "libm") else { return };
+    let Some((_, m4f, _)) = builds.iter().find(|build| build.0 == named(SEEDS[0])) else { return };
     let _ = writeln!(
         out,
         "\nWorst: `cdf` {}, `opening` {} cycles.",
@@ -235,7 +235,7 @@ fn bytes(out: &mut String, builds: &[Build]) {
 }
 
 fn construction(out: &mut String, builds: &[Build]) {
-    let Some((_, m4f, m0)) = builds.iter().find(|build| build.0 == "libm") else { return };
+    let Some((_, m4f, m0)) = builds.iter().find(|build| build.0 == named(SEEDS[0])) else { return };
     out.push_str(
         "\n## Building a curve at run time\n\n\
          A `const` curve costs nothing. Built on the microcontroller, *soft* takes, with doubles in software:\n\n\
