@@ -182,10 +182,7 @@ const fn value(series: &[Coefficient], x: i32, down: i32, shift: i32) -> i64 {
 }
 
 /// The upper 32 bits of a series near `2^-shift`.
-struct Rough<const N: usize> {
-    c: [i32; N],
-    top: i32,
-}
+struct Rough<const N: usize>([i32; N]);
 
 /// A value with the derivatives the search uses: `S'`, `S''/2` and `S'''/6`.
 struct Local {
@@ -196,9 +193,10 @@ struct Local {
 }
 
 impl<const N: usize> Rough<N> {
-    /// Out of line, which spares the search its registers.
+    /// Takes the coefficients near `2^-shift` and tells the exponent of the greatest. Out of line, which spares the
+    /// search its registers.
     #[inline(never)]
-    const fn new(series: &Series<N>, shift: i32) -> Self {
+    const fn scale(&mut self, series: &Series<N>, shift: i32) -> i32 {
         let mut down = [0; N];
         let mut top = i32::MIN;
         let (mut k, mut by) = (0, 0);
@@ -210,19 +208,18 @@ impl<const N: usize> Rough<N> {
             }
             k += 1;
         }
-        let mut c = [0; N];
         k = 0;
         while k < N {
-            c[k] = series[k].rough(top + GUARD + down[k]);
+            self.0[k] = series[k].rough(top + GUARD + down[k]);
             k += 1;
         }
-        Self { c, top }
+        top
     }
 
     /// Horner's rule.
     #[inline(always)]
     const fn at(&self, x: i32) -> Local {
-        let mut value = self.c[N - 1];
+        let mut value = self.0[N - 1];
         let (mut slope, mut bend, mut twist) = (0i32, 0i32, 0i32);
         let mut k = N - 1;
         while k > 0 {
@@ -230,7 +227,7 @@ impl<const N: usize> Rough<N> {
             twist = times_high(twist, x).wrapping_add(bend);
             bend = times_high(bend, x).wrapping_add(slope);
             slope = times_high(slope, x).wrapping_add(value);
-            value = times_high(value, x).wrapping_add(self.c[k]);
+            value = times_high(value, x).wrapping_add(self.0[k]);
         }
         twist = times_high(twist, x).wrapping_add(bend);
         bend = times_high(bend, x).wrapping_add(slope);
@@ -325,9 +322,9 @@ pub(crate) const fn solve<const N: usize>(
     let Seed { mut x, mut shift } = seed;
     let (mut low, mut high) = (0, TOP);
     let (mut evaluations, mut exact) = (0, false);
+    let mut rough = Rough([0; N]);
     'scale: loop {
-        let rough = Rough::new(series, shift);
-        let top = rough.top;
+        let top = rough.scale(series, shift);
         let goal = target.in_units(top + GUARD - Coefficient::BIAS);
         'at: loop {
             let (mut local, mut near) = (rough.at(x), enough.near);

@@ -15,8 +15,7 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let cells: usize = cells.parse().map_err(|_| format!("{cells}: not a number of cells"))?;
     let elf = build(M4F, "cost", seed)?;
     let code = Disassembly::of(&elf)?;
-    let mut selection =
-        Selection { cells: vec![cells], functions: vec![called], hard: false };
+    let mut selection = Selection { cells: vec![cells], functions: vec![called], hard: false };
     for (row, (name, data)) in ROWS.iter().enumerate() {
         let inputs = Inputs::Row(row);
         let key = Key { function: called, cells, inputs, curve: Curve::index(data) };
