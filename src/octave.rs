@@ -10,6 +10,9 @@ use crate::wide::Wide;
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the profile's unit, `x` in
 /// [-1/2, 1/2) across the octave.
+///
+/// Where no polynomial is good enough, `factor` and `length` are 0, and `P(x)` with the upper half of `middle`
+/// guesses how far into the ramp the exact way has to go; the lower half is the number of `f32` that it knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     middle: i64,
@@ -93,13 +96,13 @@ impl Octave {
     #[inline(always)]
     pub(crate) const fn guess(&self, a: u32) -> i32 {
         if self.factor == 0 && a.wrapping_sub(self.from) < self.middle as u32 {
-            return (self.middle >> 32) as i32 + self.rest((a << 9 ^ 1 << 31) as i32);
+            return ((self.middle >> 32) as i32).wrapping_add(self.rest((a << 9 ^ 1 << 31) as i32));
         }
         0
     }
 
     /// The polynomial for the octave `a` in [2^-(index + 2), 2^-(index + 1)) from one side, or
-    /// [`NONE`](Self::NONE) where no polynomial keeps the promised error: the exact inverse then serves.
+    /// a guess for the exact inverse where no polynomial keeps the promised error.
     pub(crate) const fn fit<const CELLS: usize>(
         profile: &Profile<CELLS>,
         side: usize,
@@ -136,37 +139,10 @@ impl Octave {
             middle: (from + to) / (2.0 * low) - 1.5,
             half: (to - from) / (2.0 * low),
         };
-        let guess = part.guess(profile, start, length);
-        let c = part.interpolate(profile, false);
-
-        // The largest value that Horner's rule meets fills 31 bits.
-        let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
-        while k > 0 {
-            bound = (if c[k] < 0.0 { -c[k] } else { c[k] }) + bound / 2.0;
-            most = if bound > most { bound } else { most };
-            k -= 1;
+        match part.direct(profile, start, length) {
+            Some(octave) => octave,
+            None => part.guess(profile, start, length),
         }
-        if !(most > 0.0 && most < f64::MAX) {
-            return guess;
-        }
-        let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
-        let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
-        if exponent - profile.unit() > 30 {
-            return guess;
-        }
-        let scale = power_of_two(exponent);
-        let factor = 1 << (exponent - profile.unit());
-        let mut octave = Self { middle: 0, factor, from: start, length, c: [0; DEGREE] };
-        let mut k = 0;
-        while k < DEGREE {
-            octave.c[k] = round(c[k + 1] / scale);
-            k += 1;
-        }
-        // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
-        let middle = (c[0] / power_of_two(profile.unit())) as i64 + factor as i64 / 2;
-        octave.middle = profile.start_in_units(side) + if side == 0 { middle } else { -middle };
-        octave.factor = if side == 0 { factor } else { -factor };
-        if octave.keeps_promise(profile, &part, c[0], scale) { octave } else { guess }
     }
 
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
@@ -234,6 +210,46 @@ impl Part {
         let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
         let a = Wide { m, e: -(self.index as i32 + 2 + 63) };
         if place { profile.fraction(self.side, a) } else { profile.elapsed(self.side, a) }
+    }
+
+    /// The octave that gives the time, if it keeps the promise.
+    const fn direct<const CELLS: usize>(
+        &self,
+        profile: &Profile<CELLS>,
+        from: u32,
+        length: u32,
+    ) -> Option<Octave> {
+        let c = self.interpolate(profile, false);
+
+        // The largest value that Horner's rule meets fills 31 bits.
+        let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
+        while k > 0 {
+            bound = (if c[k] < 0.0 { -c[k] } else { c[k] }) + bound / 2.0;
+            most = if bound > most { bound } else { most };
+            k -= 1;
+        }
+        if !(most > 0.0 && most < f64::MAX) {
+            return None;
+        }
+        let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
+        let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
+        if exponent - profile.unit() > 30 {
+            return None;
+        }
+        let scale = power_of_two(exponent);
+        let factor = 1 << (exponent - profile.unit());
+        let mut octave = Octave { middle: 0, factor, from, length, c: [0; DEGREE] };
+        let mut k = 0;
+        while k < DEGREE {
+            octave.c[k] = round(c[k + 1] / scale);
+            k += 1;
+        }
+        // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
+        let middle = (c[0] / power_of_two(profile.unit())) as i64 + factor as i64 / 2;
+        octave.middle =
+            profile.start_in_units(self.side) + if self.side == 0 { middle } else { -middle };
+        octave.factor = if self.side == 0 { factor } else { -factor };
+        if octave.keeps_promise(profile, self, c[0], scale) { Some(octave) } else { None }
     }
 
     /// The octave that guesses how far into the ramp a search has to go.
