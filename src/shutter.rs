@@ -144,7 +144,6 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
-    #[inline(always)]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         self.profile.inverse_cdf(u)
     }

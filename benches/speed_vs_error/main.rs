@@ -77,7 +77,7 @@ fn main() -> Result {
     }
     if !args.quick {
         measured.seeds = seeds::rows(&measured);
-        for features in ["micromath", ""] {
+        for features in ["libm", "micromath"] {
             measured.seeds.extend(seeds::others(features)?);
         }
     }

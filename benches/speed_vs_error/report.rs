@@ -77,7 +77,7 @@ fn introduction(out: &mut String, measured: &Measured) -> std::fmt::Result {
 
 Written by `cargo bench --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
 an ordinary machine, medians of interleaved repeats over 65 536 random `u`, so that no branch on `u` is ever
-predicted; on another machine trust the ratios. Seeds by `{SEED}` unless said otherwise.
+predicted; on another machine trust the ratios. Seed feature: {SEED}, unless said otherwise.
 
 Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones
 as scenes hold them), {} fractions each: half of them uniform, a quarter towards either end on a scale of
