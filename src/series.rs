@@ -111,7 +111,7 @@ const NOISE: u32 = 8;
 /// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say.
 const CLOSE: u32 = 8;
 /// A slope below this is too much of it.
-const SLOPE: i32 = 256;
+const SLOPE: i32 = 16;
 
 /// How exact a search has to be, in bits of the target.
 ///
@@ -266,16 +266,7 @@ impl Local {
     /// Halley's step again, but at most twice Newton's.
     #[inline(never)]
     const fn far(slope: i32, bend: i32, twist: i32, missing: f32) -> f32 {
-        let noisy = slope < SLOPE;
-        if noisy && twist < SLOPE << 12 {
-            // All is rounding: bisection.
-            return 0.0;
-        }
-        let (mut slope, bend, twist) = (slope as f32, bend as f32, twist as f32);
-        if noisy {
-            // Of such a slope most is rounding; that of a perfect cube is not.
-            slope = bend * bend / (3.0 * twist);
-        }
+        let (slope, bend, twist) = (slope as f32, bend as f32, twist as f32);
         let ratio = 3.0 * slope * twist / (bend * bend);
         if ratio > 0.7 && ratio < 1.8 {
             let from_flat = slope / (bend * (2.0 - ratio));

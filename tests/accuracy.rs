@@ -182,6 +182,40 @@ fn random_hard_curves() {
     println!("samples by evaluations: {histogram:?}");
 }
 
+/// Where the density all but touches 0, over eight decades of how near: the narrower the place, the nearer to its
+/// middle a step may be taken for the last one that is not.
+#[test]
+fn nearly_flat_places() {
+    let mut worst = Worst::default();
+    for k in 0..80 {
+        // f = 4 (p - 1/2)² + least, nearly.
+        let least = 10f32.powf(-0.1 * k as f32);
+        let dip = 4.0 / 3.0 * (1.0 - least);
+        for (t1, t2) in [(1.0 / 3.0, 2.0 / 3.0), (0.2, 0.7)] {
+            let curve = Curve {
+                opening: [(0.0, 1.0), (t1, 1.0 - dip), (t2, 1.0 - dip), (1.0, 1.0)],
+                closing: [(1.0, 1.0); 4],
+                is_shutter: true,
+            };
+            let exact = Exact::new(&curve);
+            // The mass up to the middle, and fractions around it on a logarithmic scale.
+            let middle = exact.cdf(if t1 < 0.3 { 0.4625 } else { 0.5 }).to_f32();
+            let mut us: Vec<f32> = (0..400)
+                .flat_map(|i| {
+                    let off = 2f32.powf(-24.0 * i as f32 / 400.0) * 0.2;
+                    [middle - off, middle + off]
+                })
+                .collect();
+            us.sort_by(f32::total_cmp);
+            judge::<0>(&exact, &us, &mut worst);
+        }
+    }
+    println!(
+        "nearly flat: backward {:.3} ulp(u), {} evaluations at most, {} samples",
+        worst.backward, worst.evaluations, worst.samples
+    );
+}
+
 /// An octave that a flat place keeps from having a polynomial guesses where the search starts.
 #[test]
 fn octaves_without_a_polynomial_guess_well() {
