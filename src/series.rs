@@ -113,27 +113,28 @@ const CLOSE: u32 = 8;
 /// A slope below this is too much of it.
 const SLOPE: i32 = 16;
 
-/// How exact a search has to be, in bits of the target.
+/// How exact a search has to be, relative to the target.
 ///
 /// One step of Halley's leaves `(S''/2 · step/S')² + S'''/6 · step²/S'` of a residual, up to a factor of 2. Where
-/// both are below 2⁻¹⁸, a residual below `2^-near` is thus the last one. The rounding of the slope leaves
+/// both are below 2⁻¹⁸, a residual below `near` is thus the last one. The rounding of the slope leaves
 /// [`NOISE`] times the step, which `slope` bounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Enough {
-    pub(crate) near: u32,
-    pub(crate) slope: u32,
-    /// In a flat place the residual itself has to be below `2^-flat`.
-    pub(crate) flat: u32,
+    pub(crate) near: f32,
+    pub(crate) slope: f32,
+    /// In a flat place the residual itself has to be below this.
+    pub(crate) flat: f32,
     /// Whether it is then the middle of that place that is asked for.
     pub(crate) middle: bool,
 }
 
-/// Below these shares of `S'`, in bits, the terms of Halley's remainder are small enough.
-const BENT: u32 = 9;
-const TWISTED: u32 = 18;
-/// Below this share the slope at the end of a step is known well enough from its start: to 2⁻¹⁴, for which a
-/// residual has to be smaller by `KNOWN - 3` bits.
+/// Below these shares of `S'` the terms of Halley's remainder are small enough.
+const BENT: f32 = 1.0 / 512.0;
+const TWISTED: f32 = BENT * BENT;
+/// Below this share, in bits, the slope at the end of a step is known well enough from its start: to 2⁻¹⁴, for
+/// which a residual has to be smaller by [`LESS`].
 const KNOWN: u32 = 7;
+const LESS: f32 = 1.0 / 16.0;
 
 /// `a x`, where `x` counts 2⁻³².
 #[inline(always)]
@@ -239,6 +240,12 @@ impl<const N: usize> Rough<N> {
 
 /// 2³², the unit of `x`.
 const WORD: f32 = 4294967296.0;
+
+/// In units of 2³², to 24 bits.
+#[inline(always)]
+const fn in_words(x: i64) -> f32 {
+    (x >> 32) as i32 as f32 + x as u32 as f32 * (1.0 / WORD)
+}
 
 impl Local {
     /// The step of `x` that makes up for `missing`, in the unit of the value: Halley's,
@@ -348,27 +355,26 @@ pub(crate) const fn solve<const N: usize>(
                     // The slope there, where it changes little.
                     local.slope += 2 * change;
                     x = next;
-                    near += KNOWN - 3;
+                    near *= LESS;
                 }
             }
             let missing = goal - value(series, x, top + GUARD + N as i32 * shift, shift);
-            let rest = (missing >> 32) as i32 as f32 + missing as u32 as f32 * (1.0 / WORD);
+            let (rest, whole_goal) = (in_words(missing), (goal >> 32) as i32 as f32);
             let step = local.step(rest);
+            // With a slope whose noise does not count, and in a straight place.
+            let slope = local.slope as f32 * WORD;
+            let (bend, twist) = (local.bend as f32 * step, local.twist as f32 * step * step);
             // A cast saturates; a NaN gives 0.
             let whole = step as i32;
-            let size = whole ^ whole >> 31;
-            // With a slope whose noise does not count, and in a straight place.
-            let bent = times_high(local.bend, whole).abs();
-            let twisted = times_high(times_high(local.twist, whole), whole).abs();
-            if missing.unsigned_abs() <= (goal as u64) >> near
-                && size as i64 <= goal >> enough.slope
+            if rest.abs() <= near * whole_goal
+                && step.abs() <= enough.slope * whole_goal
                 && local.slope > SLOPE
-                && bent <= local.slope >> BENT
-                && twisted <= local.slope >> TWISTED
+                && bend.abs() <= BENT * slope
+                && twist.abs() <= TWISTED * WORD * slope
             {
                 return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
             }
-            if missing.unsigned_abs() <= (goal as u64) >> enough.flat {
+            if rest.abs() <= enough.flat * whole_goal {
                 let step = if enough.middle { local.to_flat() } else { 0 };
                 return Root { x: x + step, shift, rest: 0.0, evaluations };
             }
