@@ -7,9 +7,11 @@ use crate::wide::{Wide, sum};
 
 /// For the mass, in a flat place, an eighth of the least distance between neighbouring `u`, so that these
 /// keep their order.
-const MASS_ENOUGH: Enough = Enough { near: bits(10), slope: bits(-1), flat: bits(27), middle: false };
+const MASS_ENOUGH: Enough =
+    Enough { near: bits(10), slope: bits(-1), flat: bits(27), middle: false };
 /// For the time all there is, since what it is for may be steep there.
-const TIME_ENOUGH: Enough = Enough { near: bits(23), slope: bits(12), flat: bits(60), middle: true };
+const TIME_ENOUGH: Enough =
+    Enough { near: bits(23), slope: bits(12), flat: bits(60), middle: true };
 
 /// 2^-n
 const fn bits(n: i32) -> f32 {

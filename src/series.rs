@@ -117,7 +117,7 @@ const SLOPE: i32 = 16;
 ///
 /// One step of Halley's leaves `(S''/2 · step/S')² + S'''/6 · step²/S'` of a residual, up to a factor of 2. Where
 /// both are below 2⁻¹⁸, a residual below `near` is thus the last one. The rounding of the slope leaves
-/// [`NOISE`] times the step, which `slope` bounds.
+/// [`NOISE`] times the step, so `slope` bounds the step, in units of `x`, by the target's upper 32 bits.
 #[derive(Clone, Copy)]
 pub(crate) struct Enough {
     pub(crate) near: f32,
@@ -241,10 +241,10 @@ impl<const N: usize> Rough<N> {
 /// 2³², the unit of `x`.
 const WORD: f32 = 4294967296.0;
 
-/// In units of 2³², to 24 bits.
+/// In units of 2³², to 24 bits; the lower word is signed, or a small negative number would be lost in the sum.
 #[inline(always)]
 const fn in_words(x: i64) -> f32 {
-    (x >> 32) as i32 as f32 + x as u32 as f32 * (1.0 / WORD)
+    ((x + (1 << 31)) >> 32) as i32 as f32 + x as i32 as f32 * (1.0 / WORD)
 }
 
 impl Local {
@@ -366,17 +366,20 @@ pub(crate) const fn solve<const N: usize>(
             let (bend, twist) = (local.bend as f32 * step, local.twist as f32 * step * step);
             // A cast saturates; a NaN gives 0.
             let whole = step as i32;
+            let next = x.saturating_add(whole);
             if rest.abs() <= near * whole_goal
                 && step.abs() <= enough.slope * whole_goal
                 && local.slope > SLOPE
                 && bend.abs() <= BENT * slope
                 && twist.abs() <= TWISTED * WORD * slope
+                // What lies beyond the scale is looked for in a larger one.
+                && next < TOP
             {
-                return Root { x: x + whole, shift, rest: step - whole as f32, evaluations };
+                return Root { x: next, shift, rest: step - whole as f32, evaluations };
             }
             if rest.abs() <= enough.flat * whole_goal {
                 let step = if enough.middle { local.to_flat() } else { 0 };
-                return Root { x: x + step, shift, rest: 0.0, evaluations };
+                return Root { x: x.saturating_add(step), shift, rest: 0.0, evaluations };
             }
             if missing > 0 {
                 low = x;
@@ -386,7 +389,6 @@ pub(crate) const fn solve<const N: usize>(
             if evaluations == MAX_EVALUATIONS {
                 return Root { x, shift, rest: 0.0, evaluations };
             }
-            let next = x.saturating_add(whole);
             // The bracket must shrink, on average, as bisection would shrink it.
             let late = evaluations >= NEWTON && high - low > TOP >> (evaluations + 1 - NEWTON);
             if late || next <= low || next >= high {
