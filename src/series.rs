@@ -359,7 +359,7 @@ pub(crate) const fn solve<const N: usize>(
                 }
             }
             let missing = goal - value(series, x, top + GUARD + N as i32 * shift, shift);
-            let (rest, whole_goal) = (in_words(missing), (goal >> 32) as i32 as f32);
+            let (rest, all) = (in_words(missing), in_words(goal));
             let step = local.step(rest);
             // With a slope whose noise does not count, and in a straight place.
             let slope = local.slope as f32 * WORD;
@@ -367,8 +367,8 @@ pub(crate) const fn solve<const N: usize>(
             // A cast saturates; a NaN gives 0.
             let whole = step as i32;
             let next = x.saturating_add(whole);
-            if rest.abs() <= near * whole_goal
-                && step.abs() <= enough.slope * whole_goal
+            if rest.abs() <= near * all
+                && step.abs() <= enough.slope * all
                 && local.slope > SLOPE
                 && bend.abs() <= BENT * slope
                 && twist.abs() <= TWISTED * WORD * slope
@@ -377,7 +377,7 @@ pub(crate) const fn solve<const N: usize>(
             {
                 return Root { x: next, shift, rest: step - whole as f32, evaluations };
             }
-            if rest.abs() <= enough.flat * whole_goal {
+            if rest.abs() <= enough.flat * all {
                 let step = if enough.middle { local.to_flat() } else { 0 };
                 return Root { x: x.saturating_add(step), shift, rest: 0.0, evaluations };
             }
