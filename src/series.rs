@@ -110,8 +110,10 @@ const GUARD: i32 = 3;
 const NOISE: u32 = 8;
 /// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say.
 const CLOSE: u32 = 8;
-/// A slope below this is too much of it.
+/// A slope below this is too much of it for a last step,
 const SLOPE: i32 = 16;
+/// and below this for any.
+const LOST: i32 = 2;
 
 /// How exact a search has to be, relative to the target.
 ///
@@ -211,7 +213,8 @@ impl<const N: usize> Rough<N> {
         }
         k = 0;
         while k < N {
-            self.0[k] = series[k].rough(top + GUARD + down[k]);
+            // One more makes up for what is rounded down here and in the product it is added to.
+            self.0[k] = series[k].rough(top + GUARD + down[k]) + 1;
             k += 1;
         }
         top
@@ -255,7 +258,7 @@ impl Local {
         let (slope, bend) = (self.slope as f32, self.bend as f32);
         let newton = slope * slope;
         let curve = bend * missing;
-        if self.slope < SLOPE || curve.abs() > 0.2 * newton {
+        if self.slope < LOST || curve.abs() > 0.2 * newton {
             return Self::far(self.slope, self.bend, self.twist, missing);
         }
         missing * WORD * slope / (newton + curve)
