@@ -175,11 +175,12 @@ impl Direct {
 
     #[inline(always)]
     fn tick(&self, time: i64) -> u32 {
-        if time <= self.start {
+        let delay = time.wrapping_sub(self.start);
+        if delay < 0 {
             return 0;
         }
         // `down` is below 32; where it is 0, so is the upper word.
-        let delay = (time - self.start) as u64;
+        let delay = delay as u64;
         let high = ((delay >> 32) as u32) << (self.down.wrapping_neg() & 31);
         let delay = (high | delay as u32 >> (self.down & 31)) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
