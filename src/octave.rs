@@ -77,7 +77,7 @@ impl Octave {
         self.middle.wrapping_add(self.factor as i64 * self.rest(x) as i64)
     }
 
-    /// `P(x)`, written out, for firmware is built for size, and that would keep it a loop.
+    /// `P(x)`, written out, because firmware is often built for size, which would keep it a loop.
     #[inline(always)]
     const fn rest(&self, x: i32) -> i32 {
         let [c1, c2, c3, c4, c5, c6, c7, c8] = self.c;

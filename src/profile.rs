@@ -126,7 +126,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         if !((area as f32).is_normal() && (normalization as f32).is_normal()) {
             return Err(CurveError::AreaOutOfRange);
         }
-        // An octave beyond would hold subnormal numbers.
+        // Beyond, less than 2⁻⁶⁴ of all `u` would be left to serve.
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;

@@ -9,11 +9,11 @@ use crate::wide::{Wide, sum};
 /// keep their order.
 const MASS_ENOUGH: Enough =
     Enough { near: bits(10), slope: bits(-1), flat: bits(27), middle: false };
-/// For the time all there is, since what it is for may be steep there.
+/// For the time all the bits there are, since openness and mass may be steep where time is flat.
 const TIME_ENOUGH: Enough =
     Enough { near: bits(23), slope: bits(12), flat: bits(60), middle: true };
 
-/// 2^-n
+/// `2^-n`
 const fn bits(n: i32) -> f32 {
     f32::from_bits(((127 - n) as u32) << 23)
 }

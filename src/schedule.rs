@@ -33,7 +33,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// with `wrapping_add`.
     ///
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
-    /// one tick off, for intervals of any length up to 2³¹ ticks: from 2²⁴ on, the direct polynomials are
+    /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: from 2²⁴ on, the direct polynomials are
     /// left aside for the exact solver, which places to a thousandth of a tick.
     ///
     /// # Errors

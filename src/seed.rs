@@ -1,15 +1,15 @@
 //! The first guess of a search: a k-th root.
 //!
 //! Near its end a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
-//! `|target / c_k|^(1/k)` over the coefficients. Which one is least, the logarithms tell that
-//! floating-point numbers carry in their exponents; its root is then taken by the same logarithms,
-//! corrected to 1 %, or by `libm` or `micromath` where these features are on. The search behind it
+//! `|target / c_k|^(1/k)` over the coefficients. The logarithms that floating-point numbers carry in their
+//! exponents tell which one is least; its root is then taken by the same logarithms, corrected to 1 %, or,
+//! where it is a second or fourth one, by `libm` or `micromath` if these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
 
 use crate::series::{Coefficient, Seed, times_high};
 use crate::wide::Wide;
 
-/// Logarithms here have 20 fraction bits, as many as the upper half of a `f64` has of significand.
+/// Logarithms here have 20 fraction bits, as many as the upper half of an `f64` has of significand.
 const ONE: i32 = 1 << 20;
 
 /// The integer and the fraction of a base-2 logarithm that is linear between powers of two: the

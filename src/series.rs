@@ -7,15 +7,16 @@
 //! `c_k 2^(-k shift)` in units of a common power of two, so that the greatest fills 60 bits. A
 //! non-negative polynomial's increasing integral bounds its own terms (Markov): `|c_k p^k|` exceeds
 //! `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. So `S` keeps some 40
-//! bits of its own, however small it is, and neighbouring `f32` targets, 2⁻²⁴ apart, stay apart.
+//! bits of its own, and 30 where `p` is an eighth of `2^-shift`, however small it is, and neighbouring `f32`
+//! targets, 2⁻²⁴ apart, stay apart.
 //!
-//! **Why two widths.** The upper 32 bits of all that keep 15 or more of `S`, at a sixth of the cycles. The
+//! **Why two widths.** The upper 32 bits alone mostly keep 15 or more bits of `S`, at a sixth of the cycles. The
 //! search runs on them, with the derivatives, until they have no more to say; the 64 bits then finish it, mostly
-//! in one evaluation.
+//! in one evaluation. Steps are taken in `f32`: a step needs no more bits than it adds.
 
 use crate::wide::Wide;
 
-/// A coefficient: in the upper 54 bits the significand of a `f64`, with its sign, and in the lower 10
+/// A coefficient: in the upper 54 bits the significand of an `f64`, with its sign, and in the lower 10
 /// the exponent, so that one shift aligns it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coefficient(i64);
