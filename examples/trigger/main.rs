@@ -6,8 +6,9 @@
 //! ```
 //!
 //! It exits with 0 only if every pulse of every frame came once, in order, never early, at most
-//! `LATEST` ticks late and with the minimum gap kept. `TRIGGER_FAULT=lost` (or `twice`, `early`,
-//! `late`) when it is built shows that the check sees such a fault.
+//! `LATEST` ticks late and with the minimum gap kept, and if the counter wrapped within a frame.
+//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nowrap`) when it is built shows that
+//! the check sees such a fault.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 // Registers are written, as they must be, in `board` alone; the entry and the handler take unsafe attributes.
 #![cfg_attr(target_os = "none", allow(unsafe_code))]
