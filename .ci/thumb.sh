@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a command with what the firmware needs: a compiler that has the thumb targets, QEMU, a disassembler
-# and the log decoder.
+# Runs a command with what the firmware needs: a compiler that has the thumb targets, its clippy, QEMU, a
+# disassembler and the log decoder.
 #
 #   .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger
 #
@@ -11,11 +11,20 @@ set -euo pipefail
 
 targets=(thumbv7em-none-eabihf thumbv6m-none-eabi)
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/shutter-curve-thumb
-host=$(rustc -vV | sed -n 's/^host: //p')
 bin=$cache/bin
+# Debian's compiler lies apart: it is used only where the machine's own lacks the targets.
+compiler=$cache/compiler
 
 say() { echo "thumb: $*" >&2; }
 fail() { say "$*"; exit 1; }
+
+for tool in rustc cargo; do
+    command -v "$tool" >/dev/null || fail "missing $tool: https://rustup.rs"
+done
+host=$(rustc -vV | sed -n 's/^host: //p')
+
+# known PACKAGE: whether Debian's lists here have it.
+known() { apt-cache show "$1" >/dev/null 2>&1; }
 
 has_apt() { command -v apt-get >/dev/null && command -v dpkg >/dev/null; }
 
@@ -30,9 +39,7 @@ unpack() {
     local work
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir -p "$work/debs/partial" "$work/root"
-    if [ -z "$(apt-cache policy "$1" 2>/dev/null | sed -n 's/^ *Candidate: *//p' | grep -v none)" ]; then
-        apt-get update >&2 || fail "apt-get update failed; it is needed to find $1"
-    fi
+    known "$1" || apt-get update >&2 || fail "apt-get update failed; missing $hint"
     if [ "$name" != "${name%+}" ]; then
         apt-get install --yes --download-only --no-install-recommends -o Debug::NoLocking=true \
             -o Dir::Cache::archives="$work/debs" "$@" >"$work/log" 2>&1
@@ -40,47 +47,53 @@ unpack() {
         (cd "$work/debs" && apt-get download "$@") >"$work/log" 2>&1
     fi || { cat "$work/log" >&2; fail "cannot download Debian's $*; missing $hint"; }
     local deb
-    for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root"; done
+    for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root" || fail "cannot unpack $deb; missing $hint"; done
     mv "$work/root" "$folder"
     rm -r "$work"
 }
 
-# depends PACKAGE PATTERN: the package that PACKAGE depends on whose name has the PATTERN.
+# depends PACKAGE PATTERN HINT: the package that PACKAGE depends on whose name has the PATTERN.
 depends() {
-    apt-cache depends "$1" | sed -n "s/^ *Depends: \($2\)\$/\1/p" | grep . ||
-        fail "Debian's $1 depends on no $2 here; missing it, or run apt-get update"
+    apt-cache depends "$1" 2>/dev/null | sed -n "s/^ *Depends: \($2\)\$/\1/p" | grep . ||
+        fail "Debian's $1 is not here, or depends on no $2; missing $3"
 }
 
-# wrap NAME LIBRARIES PROGRAM [ARGUMENT...]: the unpacked PROGRAM as the command NAME.
+# wrap COMMAND LIBRARIES PROGRAM [ARGUMENT...]: the unpacked PROGRAM as COMMAND.
 wrap() {
-    local name=$1 libraries=$2; shift 2
-    [ -x "$1" ] || fail "the unpacked packages hold no $1"
-    mkdir -p "$bin"
+    local command=$1 libraries=$2; shift 2
+    [ -x "$1" ] || fail "the package of ${command##*/} holds no $1; remove $cache to unpack it again"
+    mkdir -p "${command%/*}"
     {
         echo '#!/bin/sh'
         echo "LD_LIBRARY_PATH='$libraries' exec$(printf " '%s'" "$@") \"\$@\""
-    } >"$bin/$name"
-    chmod +x "$bin/$name"
+    } >"$command"
+    chmod +x "$command"
 }
 
-# Debian's rustc, with a core library compiled for each target and put where rustup would put it.
+# Debian's rustc and clippy, with a core library compiled for each target and put where rustup would put it.
 set_up_rustc() {
-    [ -e "$cache/rustc.ready" ] && return
     local hint="the targets: rustup target add ${targets[*]} (or Debian's rustc-web and rust-web-src)"
-    has_apt || fail "missing $hint"
-    local std llvm
-    if ! apt-cache show rustc-web >/dev/null 2>&1; then apt-get update >&2 || fail "apt-get update failed; missing $hint"; fi
-    std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*')
-    llvm=$(depends "$std" 'libllvm[0-9]*')
-    rm -rf "$cache/rustc"
-    unpack rustc "$hint" rustc-web libstd-rust-web-dev "$std" "$llvm" rust-web-src
-    local root=$cache/rustc/usr
-    wrap rustc "$root/lib/$(uname -m)-linux-gnu" "$root/bin/rustc"
-    local lld
-    lld=$(rustc --print sysroot)/lib/rustlib/$host/bin/rust-lld
-    [ -x "$lld" ] || fail "no rust-lld in rustup's toolchain, nor the targets: rustup target add ${targets[*]}"
-    mkdir -p "$root/lib/rustlib/$host/bin"
-    ln -sf "$lld" "$root/lib/rustlib/$host/bin/rust-lld"
+    local root=$compiler/usr
+    if [ ! -e "$compiler.ready" ]; then
+        has_apt || fail "missing $hint"
+        local std llvm
+        known rustc-web || apt-get update >&2 || fail "apt-get update failed; missing $hint"
+        std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*' "$hint")
+        llvm=$(depends "$std" 'libllvm[0-9]*' "$hint")
+        rm -rf "$compiler"
+        unpack compiler "$hint" rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
+        wrap "$compiler/bin/rustc" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/rustc"
+        wrap "$compiler/bin/cargo-clippy" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/cargo-clippy"
+    fi
+    # The linker is rustup's, and rustup may have removed the toolchain that it was in.
+    local linker=$root/lib/rustlib/$host/bin/rust-lld lld
+    if [ ! -x "$linker" ]; then
+        lld=$(rustc --print sysroot)/lib/rustlib/$host/bin/rust-lld
+        [ -x "$lld" ] || fail "no rust-lld at $lld (rustup's toolchains have one); missing $hint"
+        mkdir -p "${linker%/*}"
+        ln -sfn "$lld" "$linker"
+    fi
+    [ -e "$compiler.ready" ] && return
 
     say "compiling core for ${targets[*]} ..."
     local work target
@@ -89,28 +102,33 @@ set_up_rustc() {
     echo '#![no_std]' >"$work/src/lib.rs"
     printf '[package]\nname="empty"\nedition="2024"\n[profile.release]\ncodegen-units=1\n[workspace]\n' >"$work/Cargo.toml"
     for target in "${targets[@]}"; do
-        (cd "$work" && RUSTC=$bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
+        (cd "$work" && RUSTC=$compiler/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
             cargo build --quiet --release -Zbuild-std=core --target "$target") >&2 ||
             fail "cannot compile core for $target with Debian's rustc-web"
         mkdir -p "$root/lib/rustlib/$target/lib"
         cp "$work/target/$target/release/deps/"lib{core,compiler_builtins}-*.r{lib,meta} "$root/lib/rustlib/$target/lib"
     done
     rm -r "$work"
-    touch "$cache/rustc.ready"
+    touch "$compiler.ready"
 }
 
 mkdir -p "$cache"
+# Two at once would unpack into the same folders.
+exec 9>"$cache/lock"
+if command -v flock >/dev/null; then flock 9; fi
+path=$bin
 for target in "${targets[@]}"; do
     if [ ! -d "$(rustc --print target-libdir --target "$target")" ]; then
         set_up_rustc
-        export RUSTC=$bin/rustc
+        export RUSTC=$compiler/bin/rustc
+        path=$compiler/bin:$bin
         break
     fi
 done
 
 if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
     unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" qemu-system-arm
-    wrap qemu-system-arm "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
+    wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
 
@@ -121,8 +139,8 @@ if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     else
         unpack llvm+ "llvm-objdump: rustup component add llvm-tools, or Debian's package llvm" llvm
         # The unversioned package's command is a link to the versioned one's.
-        objdump=$(ls "$cache"/llvm/usr/lib/llvm-*/bin/llvm-objdump)
-        wrap llvm-objdump "$cache/llvm/usr/lib/$(uname -m)-linux-gnu" "$objdump"
+        objdump=("$cache"/llvm/usr/lib/llvm-*/bin/llvm-objdump)
+        wrap "$bin/llvm-objdump" "$cache/llvm/usr/lib/$(uname -m)-linux-gnu" "${objdump[0]}"
     fi
 fi
 
@@ -132,6 +150,7 @@ if ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
         fail "missing defmt-print: cargo install --locked defmt-print"
 fi
 
-export PATH=$bin:$PATH
+exec 9>&-
+export PATH=$path:$PATH
 [ $# -gt 0 ] && exec "$@"
 say "ready"
