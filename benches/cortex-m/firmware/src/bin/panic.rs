@@ -15,7 +15,8 @@ fn main() -> ! {
     let ramp = CubicBezier::new(black_box([(0.0, 0.0); 4]));
     if let Ok(curve) = ShutterCurve::new(ramp, ramp) {
         let (u, mut t) = (black_box([0.5; 5]), [0.0; 5]);
-        curve.inverse_cdf_slice(&u[..black_box(4)], &mut t);
+        // An index would be a panic of its own.
+        curve.inverse_cdf_slice(u.get(..black_box(4)).unwrap_or(&[]), &mut t);
         black_box(t);
     }
     loop {}
