@@ -1,43 +1,96 @@
-//! The curves of `tests/data/curves.csv` and the inputs of `tests/data/inverse_cdf.csv` as Rust; and the
-//! folder of the board's `memory.x`, which is the crate's.
+//! The curves of `tests/data/curves.csv` with the inputs of `tests/data/inverse_cdf.csv`, and those of
+//! `tests/cases/found.rs`, as Rust, each with the inputs that a search finds hardest; and the folder of the
+//! board's `memory.x`, which is the crate's.
 
-use std::{env, fmt::Write, fs, path::PathBuf};
+use std::{array, cmp::Reverse, env, fmt::Write, fs, path::PathBuf};
+
+use shutter_curve::{CubicBezier, ShutterCurve};
+
+#[path = "../../../tests/cases/found.rs"]
+mod found;
+
+type Ramp = [(f32, f32); 4];
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../..");
     println!("cargo:rustc-link-search={}", root.display());
-    let read = |name: &str| {
-        let path = root.join("tests/data").join(name);
+    let watched = |name: &str| {
+        let path = root.join(name);
         println!("cargo:rerun-if-changed={}", path.display());
+        path
+    };
+    let read = |name: &str| {
+        let path = watched(name);
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
+    watched("memory.x");
+    watched("tests/cases/found.rs");
 
-    // Eight lines a curve: its name, its kind, the ramp, the point's number, t and f.
-    let points = read("curves.csv");
-    let inputs = read("inverse_cdf.csv");
+    // Eight lines a curve, four a ramp: its name, its kind, the ramp, the point's number, t and f.
+    let points = read("tests/data/curves.csv");
+    let inputs = read("tests/data/inverse_cdf.csv");
     let points: Vec<Vec<&str>> =
         points.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let inputs: Vec<Vec<&str>> = inputs.lines().map(|line| line.split(',').collect()).collect();
     let mut out = String::from("pub const CURVES: &[Curve] = &[\n");
     for rows in points.chunks(8) {
         let name = rows[0][0];
-        let ramp = |ramp: &str| -> String {
-            let rows = rows.iter().filter(|row| row[2] == ramp && row[0] == name);
-            rows.map(|row| format!("({}f32, {}f32), ", row[4], row[5])).collect()
-        };
-        let u: String = inputs
-            .lines()
-            .map(|line| line.split(',').collect::<Vec<_>>())
-            .filter(|row| row[0] == name)
-            .map(|row| format!("{}f32, ", row[1]))
-            .collect();
-        let (opening, closing) = (ramp("opening"), ramp("closing"));
-        writeln!(
-            out,
-            "Curve {{ name: {name:?}, opening: [{opening}], closing: [{closing}], hard: &[{u}] }},"
-        )
-        .unwrap();
+        let point = |i: usize| (rows[i][4].parse().unwrap(), rows[i][5].parse().unwrap());
+        let (opening, closing) = (array::from_fn(point), array::from_fn(|i| point(4 + i)));
+        let inputs = inputs.iter().filter(|row| row[0] == name);
+        let inputs = inputs.map(|row| row[1].parse().unwrap()).collect();
+        write_curve(&mut out, name, opening, closing, inputs);
+    }
+    for (name, opening, closing) in found::FOUND {
+        write_curve(&mut out, name, *opening, *closing, Vec::new());
     }
     out.push_str("];\n");
     let path = PathBuf::from(env::var("OUT_DIR").unwrap()).join("curves.rs");
     fs::write(path, out).unwrap();
+}
+
+fn write_curve(out: &mut String, name: &str, opening: Ramp, closing: Ramp, mut hard: Vec<f32>) {
+    let searches = [hardest::<0>, hardest::<4>, hardest::<8>, hardest::<16>];
+    hard.extend(searches.iter().flat_map(|hardest| hardest(opening, closing)));
+    hard.sort_by(f32::total_cmp);
+    hard.dedup();
+    let curve = format!("opening: {opening:?}, closing: {closing:?}, hard: &{hard:?}");
+    writeln!(out, "Curve {{ name: {name:?}, {curve} }},").unwrap();
+}
+
+/// The `u` for which the mass is evaluated most often: the first few of 20 000, and of their neighbours.
+fn hardest<const CELLS: usize>(opening: Ramp, closing: Ramp) -> Vec<f32> {
+    const KEPT: usize = 8;
+    let [opening, closing] = [opening, closing].map(CubicBezier::new);
+    let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
+    let first = |mut us: Vec<f32>| {
+        us.sort_by_cached_key(|u| Reverse(curve.evaluations(*u)));
+        us.truncate(KEPT);
+        us
+    };
+    let spread = first((0..20_000).map(spread).collect());
+    let mut near = spread.clone();
+    for _ in 0..4 {
+        let steps = |u: f32| (0..20).flat_map(move |k| [1 << k, -1 << k].map(|d| (u, d)));
+        let neighbours = near.iter().copied().flat_map(steps);
+        let neighbours =
+            neighbours.map(|(u, d)| f32::from_bits(u.to_bits().saturating_add_signed(d)));
+        near = first(near.iter().copied().chain(neighbours.filter(|u| *u <= 1.0)).collect());
+    }
+    [spread, near].concat()
+}
+
+/// The `i`-th of inputs that are in turn uniform, uniform in their bits down to 0, and logarithmic down to 2⁻²⁴
+/// from either end; by multiples of the golden ratio.
+fn spread(i: u32) -> f32 {
+    let x = f64::from(i.wrapping_mul(0x9E37_79B9)) / 4294967296.0;
+    let bits =
+        |from: u32| f32::from_bits((f64::from(from) + f64::from(1f32.to_bits() - from) * x) as u32);
+    let least = (1.0 / (1 << 24) as f32).to_bits();
+    match i % 4 {
+        0 => x as f32,
+        1 => bits(0),
+        2 => bits(least),
+        _ => 1.0 - bits(least),
+    }
 }

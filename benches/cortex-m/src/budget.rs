@@ -1,15 +1,16 @@
 //! The budgets that CI asserts; counts repeat exactly. Where a target is not reached yet, what is reached may
 //! at least not get worse.
 
-use ::firmware::{Curve, Function, Inputs, ROWS};
+use ::firmware::{Curve, Function, Inputs, ROWS, TRIGGERS};
 
-use crate::firmware::{M0, M4F, SEEDS};
+use crate::firmware::{M0, M4F, SEEDS, made_with};
 use crate::measure::Measured;
 use crate::trace::{Key, Selection};
 
 /// For CELLS = 8 unless it says otherwise, with the default seed.
 pub fn run() -> Result<(), String> {
     use Function::{InverseCdf, Newton, Schedule};
+    println!("{}", made_with()?);
     let hard = Selection { cells: vec![8], functions: vec![InverseCdf, Schedule], hard: true };
     let soft_float = Selection { cells: vec![8], functions: vec![InverseCdf, Newton], hard: false };
     let compact = Selection { cells: vec![0], functions: vec![InverseCdf], hard: false };
@@ -27,9 +28,8 @@ pub fn run() -> Result<(), String> {
     let soft_mean = |function, cells, row| {
         m0.instructions(&key(function, row, cells)).map(|i| i.mean).ok_or(none)
     };
-    let (worst, curve) = m4f.worst(InverseCdf, 8).ok_or(none)?;
+    let (worst, curve) = m4f.worst(InverseCdf, Inputs::Hard, 8).ok_or(none)?;
     let (painted, said) = m4f.stack(InverseCdf, 8).ok_or(none)?;
-    let plan = m4f.cycles(&key(Schedule, 0, 8)).ok_or(none)?.mean;
 
     let (mut broken, mut missed) = (0, 0);
     let mut check = |what: &str, value: f64, target: f64, reached: Option<f64>| {
@@ -49,9 +49,16 @@ pub fn run() -> Result<(), String> {
         &format!("cycles of inverse_cdf, worst ({curve})"),
         f64::from(worst),
         1200.0,
-        Some(2080.0),
+        Some(11300.0),
     );
-    check("cycles of planning 64 triggers on soft", plan, 1.2 * 64.0 * mean(0)?, None);
+    for (row, (name, _)) in ROWS.iter().enumerate() {
+        check(
+            &format!("cycles of planning {TRIGGERS} triggers on {name}"),
+            m4f.cycles(&key(Schedule, row, 8)).ok_or(none)?.mean,
+            1.2 * f64::from(TRIGGERS) * mean(row)?,
+            (row == 1).then_some(9950.0),
+        );
+    }
     check("bytes of a curve", f64::from(m4f.curve_bytes[&8]), 1400.0, None);
     check("bytes of a curve, CELLS = 0", f64::from(m4f.curve_bytes[&0]), 480.0, None);
     check(
@@ -63,6 +70,7 @@ pub fn run() -> Result<(), String> {
     check("bytes of stack of inverse_cdf, painted", f64::from(painted), 160.0, Some(296.0));
     check("bytes of stack of inverse_cdf, by the compiler", f64::from(said), 160.0, Some(328.0));
     check("bytes of .data and .bss", m4f.code.statics as f64, 0.0, None);
+    // On box all of Newton's answers are on the plateau, without a step: there is nothing to be a quarter of.
     for (row, (name, _)) in ROWS.iter().enumerate().take(2) {
         let ratio = soft_mean(InverseCdf, 8, row)? / soft_mean(Newton, 0, row)?;
         check(

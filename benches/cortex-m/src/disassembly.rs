@@ -1,10 +1,13 @@
 //! A firmware's functions, from its ELF file, and its instructions, as `llvm-objdump` shows them.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+
+use crate::firmware::{OBJDUMP, missing};
 
 pub struct Instruction {
     pub address: u32,
@@ -51,9 +54,8 @@ impl Disassembly {
         let size = |name| file.section_by_name(name).map_or(0, |section| section.size());
         let statics = size(".data") + size(".bss");
 
-        let output =
-            Command::new("llvm-objdump").args(["-d", "--no-leading-headers"]).arg(elf).output();
-        let output = output.map_err(|error| format!("llvm-objdump: {error}"))?;
+        let output = Command::new(OBJDUMP).args(["-d", "--no-leading-headers"]).arg(elf).output();
+        let output = output.map_err(|error| missing(OsStr::new(OBJDUMP), &error))?;
         if !output.status.success() {
             return Err(String::from_utf8_lossy(&output.stderr).into_owned());
         }

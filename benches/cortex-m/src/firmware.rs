@@ -1,5 +1,7 @@
 //! Builds the firmware and runs it in QEMU.
 
+use std::ffi::OsStr;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
@@ -15,6 +17,12 @@ pub const M4F: Core =
     Core { name: "Cortex-M4F", target: "thumbv7em-none-eabihf", board: "mps2-an386" };
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
 pub const M0: Core = Core { name: "Cortex-M0+", target: "thumbv6m-none-eabi", board: "mps2-an385" };
+
+pub const QEMU: &str = "qemu-system-arm";
+pub const OBJDUMP: &str = "llvm-objdump";
+
+/// The firmware's, as the compiler takes it.
+const OPT_LEVEL: &str = "3";
 
 /// The crate's seeds, each a feature or none.
 pub const SEEDS: [&str; 3] = ["", "libm", "micromath"];
@@ -48,12 +56,39 @@ pub fn cargo(core: Core, program: &str, seed: &str) -> Command {
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag
     // that is not stable.
     cargo.env("RUSTFLAGS", "-C link-arg=-Tlink.x -Z emit-stack-sizes").env("RUSTC_BOOTSTRAP", "1");
+    cargo.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", OPT_LEVEL);
     cargo
+}
+
+/// What the figures depend on: the compiler and QEMU, as they name themselves, and the optimisation.
+pub fn made_with() -> Result<String, String> {
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let version = |program: &OsStr| {
+        let output = Command::new(program).arg("--version").output();
+        let text = output.map_err(|error| missing(program, &error))?.stdout;
+        Ok::<_, String>(String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned())
+    };
+    let (rustc, qemu) = (version(&rustc)?, version(OsStr::new(QEMU))?);
+    Ok(format!("{rustc}, opt-level {OPT_LEVEL}; {qemu}"))
+}
+
+/// Why a program does not start, and what to do.
+pub fn missing(program: &OsStr, error: &std::io::Error) -> String {
+    let name = program.display();
+    if error.kind() != ErrorKind::NotFound {
+        return format!("{name}: {error}");
+    }
+    let install = match program.to_str() {
+        Some(QEMU) => "install QEMU (Debian: qemu-system-arm)",
+        Some(OBJDUMP) => "install LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
+        _ => "install Rust",
+    };
+    format!("{name} not found: {install}, or run this by .ci/thumb.sh")
 }
 
 /// Starts a program in QEMU, its output piped; `options` are QEMU's.
 pub fn start(core: Core, elf: &Path, options: &[String]) -> Result<Child, String> {
-    Command::new("qemu-system-arm")
+    Command::new(QEMU)
         .args(["-M", core.board, "-nographic", "-monitor", "none", "-serial", "null"])
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(elf)
@@ -62,7 +97,7 @@ pub fn start(core: Core, elf: &Path, options: &[String]) -> Result<Child, String
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(|error| format!("qemu-system-arm: {error}"))
+        .map_err(|error| missing(OsStr::new(QEMU), &error))
 }
 
 /// What a program writes.

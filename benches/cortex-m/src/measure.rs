@@ -69,10 +69,15 @@ impl Measured {
         Spread::new(self.calls(key).iter().map(|call| call.instructions).collect())
     }
 
-    /// The most cycles of a call over the hard curves and inputs, and the curve.
-    pub fn worst(&self, function: Function, cells: usize) -> Option<(u32, &'static str)> {
+    /// The most cycles of a call over the hard curves and these inputs, and the curve.
+    pub fn worst(
+        &self,
+        function: Function,
+        inputs: Inputs,
+        cells: usize,
+    ) -> Option<(u32, &'static str)> {
         let hard = self.calls.iter().filter(|(key, _)| {
-            key.inputs == Inputs::Hard && key.function == function && key.cells == cells
+            key.inputs == inputs && key.function == function && key.cells == cells
         });
         hard.flat_map(|(key, calls)| calls.iter().map(|call| (call.cycles, CURVES[key.curve].name)))
             .max()

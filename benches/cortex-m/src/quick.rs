@@ -1,18 +1,29 @@
 //! The tuner's loop: one function with one seed and one number of cells, in seconds.
 
-use ::firmware::{CURVES, Curve, Function, Inputs, ROWS};
+use std::cmp::Reverse;
+
+use ::firmware::{CELLS, CURVES, Curve, Function, Inputs, ROWS, series};
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{M4F, build};
-use crate::trace::{Key, Selection, trace};
+use crate::firmware::{M4F, SEEDS, build};
+use crate::trace::{Call, Key, Selection, trace};
 
 pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
-    let called = Function::ALL
+    let name = |f: Function| f.symbol().trim_start_matches("measured_");
+    // The baselines have rows and hard inputs of their own.
+    let functions: Vec<Function> = Function::ALL
         .into_iter()
-        .find(|f| f.symbol().strip_prefix("measured_") == Some(function))
-        .ok_or_else(|| format!("{function}: no such function"))?;
+        .filter(|f| series().any(|(s, i)| (s, i) == (*f, Inputs::Row(1))))
+        .collect();
+    let names: Vec<&str> = functions.iter().map(|f| name(*f)).collect();
+    let called = functions.iter().copied().find(|f| name(*f) == function);
+    let called = called.ok_or_else(|| format!("{function}: one of {}", names.join(", ")))?;
     let seed = if seed == "none" { "" } else { seed };
-    let cells: usize = cells.parse().map_err(|_| format!("{cells}: not a number of cells"))?;
+    if !SEEDS.contains(&seed) {
+        return Err(format!("{seed}: one of none, {}", SEEDS[1..].join(", ")));
+    }
+    let cells = CELLS.into_iter().find(|c| c.to_string() == cells);
+    let cells = cells.ok_or_else(|| format!("CELLS is one of {CELLS:?}"))?;
     let elf = build(M4F, "cost", seed)?;
     let code = Disassembly::of(&elf)?;
     let mut selection = Selection { cells: vec![cells], functions: vec![called], hard: false };
@@ -20,7 +31,7 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
         let inputs = Inputs::Row(row);
         let key = Key { function: called, cells, inputs, curve: Curve::index(data) };
         if row == 0 {
-            selection.hard = called == Function::InverseCdf;
+            selection.hard = called != Function::Construct;
         }
         let trace = trace(M4F, &elf, &code, &selection, Some(key))?;
         selection.hard = false;
@@ -39,17 +50,14 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
             .unwrap();
         println!("  listing: {}", listing.display());
         if row == 0 {
-            let hard = trace.calls.iter().filter(|(key, _)| key.inputs == Inputs::Hard);
-            let mut worst: Vec<(u32, &str)> = hard
-                .map(|(key, calls)| {
-                    (calls.iter().map(|c| c.cycles).max().unwrap_or(0), CURVES[key.curve].name)
-                })
-                .collect();
-            worst.sort_unstable();
-            println!(
-                "worst over hard curves and inputs: {:?}",
-                worst.iter().rev().take(80).collect::<Vec<_>>()
-            );
+            for inputs in [Inputs::Hard, Inputs::Solved] {
+                let hard = trace.calls.iter().filter(|(key, _)| key.inputs == inputs);
+                let most = |calls: &[Call]| calls.iter().map(|c| c.cycles).max().unwrap_or(0);
+                let mut worst: Vec<(u32, &str)> =
+                    hard.map(|(key, calls)| (most(calls), CURVES[key.curve].name)).collect();
+                worst.sort_unstable_by_key(|curve| Reverse(*curve));
+                println!("worst, {inputs:?}: {worst:?}");
+            }
             println!(
                 "code {} B, stack {} B:",
                 code.code_bytes(instance),

@@ -7,7 +7,8 @@ pub mod answers;
 #[path = "../../../baseline/mod.rs"]
 pub mod baseline;
 
-/// A curve of the reference data, with the inputs that the reference has for it.
+/// A curve of the reference data or found by search, with the inputs that the reference has for it and those
+/// that a search finds hardest.
 pub struct Curve {
     pub name: &'static str,
     pub opening: baseline::Ramp,
@@ -38,13 +39,22 @@ impl Curve {
         (CubicBezier::new(self.opening), CubicBezier::new(self.closing))
     }
 
-    /// The hard inputs: those of the reference, the ends of the sections with six neighbours on either
-    /// side, every power of two from either end, and fractions that are uniform on a logarithmic scale.
+    /// The ramps on a scale of time.
+    pub fn scaled(&self, scale: Option<u32>) -> (CubicBezier, CubicBezier) {
+        let length = self.closing[3].0 - self.opening[0].0;
+        let factor =
+            scale.map_or(1.0, |k| f32::from_bits((254 + k - (length.to_bits() >> 23)) << 23));
+        let ramp = |ramp: baseline::Ramp| CubicBezier::new(ramp.map(|(t, f)| (t * factor, f)));
+        (ramp(self.opening), ramp(self.closing))
+    }
+
+    /// The hard inputs: those of the reference and of the search, the ends of the sections with six neighbours
+    /// on either side, every power of two from either end, and fractions that are uniform on a logarithmic scale.
     pub fn hard_u(&self, ends: [f32; 2]) -> impl Iterator<Item = f32> {
         let near_ends = ends.into_iter().flat_map(|end| {
             (0..=12u32).map(move |i| f32::from_bits((end.to_bits() + i).saturating_sub(6)).min(1.0))
         });
-        let powers = (0..149)
+        let powers = (0..150)
             .map(|k| if k < 23 { 1 << (22 - k) } else { (150 - k) << 23 })
             .map(f32::from_bits);
         let mirrored = (1..25).map(|k| 1.0 - 1.0 / (1 << k) as f32);
@@ -55,6 +65,15 @@ impl Curve {
         });
         self.hard.iter().copied().chain(near_ends).chain(powers).chain(mirrored).chain(spread)
     }
+}
+
+/// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or
+/// on the hard curves one of [`TRIGGERS`], and for each hard input the one that starts nearest to it.
+pub fn frames(inputs: Inputs, hard: impl Iterator<Item = f32>) -> impl Iterator<Item = (u32, u32)> {
+    let row = matches!(inputs, Inputs::Row(_));
+    let whole = if row { UNIFORM } else { TRIGGERS };
+    let hard = hard.filter(move |u| !row && *u > 1.0 / u32::MAX as f32 && *u < 0.5);
+    [(whole, whole)].into_iter().chain(hard.map(|u| ((0.5 / u) as u32, 1)))
 }
 
 const SPREAD: u32 = 128;
@@ -129,6 +148,8 @@ pub enum Inputs {
     Row(usize),
     /// The hard inputs of every curve.
     Hard,
+    /// The same with intervals of so many ticks that every trigger is solved.
+    Solved,
 }
 
 impl Inputs {
@@ -139,12 +160,25 @@ impl Inputs {
                 let curve = Curve::index(ROWS[row].1);
                 curve..curve + 1
             }
-            Self::Hard => 0..CURVES.len(),
+            Self::Hard | Self::Solved => 0..CURVES.len(),
+        }
+    }
+
+    /// The scale of time for triggers, of [`SCALES`].
+    pub const fn scale(self) -> usize {
+        match self {
+            Self::Row(_) => 0,
+            Self::Hard => 1,
+            Self::Solved => 2,
         }
     }
 }
 
-/// The triggers of a planned frame, and the timer's rate for an interval of one second.
+/// The scales of time on which curves are built: as they are, and with intervals of 2ᵏ seconds up to twice that,
+/// for the rate of the timer is the same for all.
+pub const SCALES: [Option<u32>; 3] = [None, Some(0), Some(6)];
+
+/// The triggers of a planned frame, and the timer's rate, for the rows' interval of one second.
 pub const TRIGGERS: u32 = 64;
 pub const TICK_HZ: u32 = 1_000_000;
 
@@ -155,7 +189,8 @@ pub fn series() -> impl Iterator<Item = (Function, Inputs)> {
     let rows =
         calls.into_iter().flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))));
     let rows = rows.chain([(Construct, Inputs::Row(0))]);
-    rows.chain([InverseCdf, Cdf, Opening].into_iter().map(|call| (call, Inputs::Hard)))
+    let hard = calls.into_iter().map(|call| (call, Inputs::Hard));
+    rows.chain(hard).chain([TickStep, Schedule].into_iter().map(|call| (call, Inputs::Solved)))
 }
 
 /// The series of the baselines, after all others.
@@ -177,5 +212,5 @@ pub const SELECTION: u32 = REGION - 8;
 pub const HARD: u32 = 1 << 31;
 
 pub fn selected(selection: u32, function: Function, inputs: Inputs) -> bool {
-    selection & function.bit() != 0 && (inputs != Inputs::Hard || selection & HARD != 0)
+    selection & function.bit() != 0 && (matches!(inputs, Inputs::Row(_)) || selection & HARD != 0)
 }

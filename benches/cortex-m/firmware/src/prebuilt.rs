@@ -1,10 +1,10 @@
-//! Every curve of the data for every number of cells, in a region of RAM.
+//! Every curve for every number of cells and on every scale of time, in a region of RAM.
 //!
 //! Building them takes a thousand times the instructions of what is measured, too many to trace. So the
 //! firmware runs twice: where the region is empty it builds the curves and writes the region to stdout;
 //! QEMU's loader puts it in place for the second run.
 
-use firmware::{CELLS, CURVES};
+use firmware::{CELLS, CURVES, SCALES};
 use semihosting::io::{Write, stdout};
 use shutter_curve::ShutterCurve;
 
@@ -24,13 +24,13 @@ const fn offset(cells: usize) -> usize {
     ];
     let mut i = 0;
     while i < CELLS.len() && CELLS[i] < cells {
-        offset += sizes[i] * COUNT;
+        offset += sizes[i] * COUNT * SCALES.len();
         i += 1;
     }
     offset
 }
 
-fn at<const C: usize>() -> *mut [ShutterCurve<C>; COUNT] {
+fn at<const C: usize>() -> *mut [[ShutterCurve<C>; COUNT]; SCALES.len()] {
     (REGION + offset(C)) as *mut _
 }
 
@@ -45,17 +45,17 @@ pub fn selection() -> u32 {
     unsafe { (firmware::SELECTION as *const u32).read_volatile() }
 }
 
-/// The curves in place; `loaded` must have been true.
-pub fn prebuilt<const C: usize>() -> &'static [ShutterCurve<C>; COUNT] {
+/// The curves in place, on a scale of [`SCALES`]; `loaded` must have been true.
+pub fn prebuilt<const C: usize>(scale: usize) -> &'static [ShutterCurve<C>; COUNT] {
     // SAFETY: written by `build` of this very program; never changed afterwards.
-    unsafe { &*at::<C>() }
+    unsafe { &(&*at::<C>())[scale] }
 }
 
 /// Builds all curves and writes the region to stdout.
 pub fn build() {
     fn fill<const C: usize>() {
-        for (i, curve) in CURVES.iter().enumerate() {
-            let (opening, closing) = curve.ramps();
+        let curves = SCALES.iter().flat_map(|scale| CURVES.iter().map(|c| c.scaled(*scale)));
+        for (i, (opening, closing)) in curves.enumerate() {
             let built = ShutterCurve::<C>::with_cells(opening, closing).unwrap();
             // SAFETY: inside the region, which has no readers yet.
             unsafe { at::<C>().cast::<ShutterCurve<C>>().add(i).write(built) }

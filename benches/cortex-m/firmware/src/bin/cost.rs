@@ -7,7 +7,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use firmware::baseline::{InverseTable, TextbookNewton};
 use firmware::{
-    CELLS, CURVES, Function, Inputs, TICK_HZ, UNIFORM, baselines, selected, series, uniform,
+    CELLS, CURVES, Function, Inputs, TICK_HZ, UNIFORM, baselines, frames, selected, series, uniform,
 };
 use semihosting::process::ExitCode;
 
@@ -25,15 +25,17 @@ fn series_begins() {
     cortex_m::asm::nop();
 }
 
+/// The hard inputs of a curve.
+fn hard_u(index: usize) -> impl Iterator<Item = f32> {
+    let curve = &prebuilt::<0>(0)[index];
+    CURVES[index].hard_u([curve.cdf(curve.open_end()), curve.cdf(curve.close_start())])
+}
+
 /// The inputs of a series on one curve.
 fn each_input(inputs: Inputs, index: usize, mut call: impl FnMut(f32)) {
     match inputs {
         Inputs::Row(_) => (0..UNIFORM).for_each(|i| call(uniform(i))),
-        Inputs::Hard => {
-            let curve = &prebuilt::<0>()[index];
-            let ends = [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())];
-            CURVES[index].hard_u(ends).for_each(call);
-        }
+        Inputs::Hard | Inputs::Solved => hard_u(index).for_each(call),
     }
 }
 
@@ -46,7 +48,11 @@ fn run<const C: usize>() {
     for (function, inputs) in series().filter(|(f, i)| selected(selection, *f, *i)) {
         for index in inputs.curves() {
             series_begins();
-            let curve = black_box(&prebuilt::<C>()[index]);
+            let scale = match function {
+                Function::TickStep | Function::Schedule => inputs.scale(),
+                _ => 0,
+            };
+            let curve = black_box(&prebuilt::<C>(scale)[index]);
             let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
             match function {
                 Function::InverseCdf => each_input(inputs, index, |u| {
@@ -59,14 +65,18 @@ fn run<const C: usize>() {
                     black_box(measured_opening(curve, black_box(start + length * u)));
                 }),
                 Function::TickStep => {
-                    let mut ticks =
-                        curve.trigger_ticks(black_box(UNIFORM), black_box(TICK_HZ)).unwrap();
-                    for _ in 0..UNIFORM {
-                        black_box(measured_tick_step(&mut ticks));
+                    for (n, steps) in frames(inputs, hard_u(index)) {
+                        let mut ticks =
+                            curve.trigger_ticks(black_box(n), black_box(TICK_HZ)).unwrap();
+                        for _ in 0..steps {
+                            black_box(measured_tick_step(&mut ticks));
+                        }
                     }
                 }
                 Function::Schedule => {
-                    let _ = black_box(measured_schedule(curve, black_box(1)));
+                    // On hard curves triggers may share a tick.
+                    let gap = u32::from(matches!(inputs, Inputs::Row(_)));
+                    let _ = black_box(measured_schedule(curve, black_box(gap)));
                 }
                 Function::Construct => {
                     let (opening, closing) = black_box(&CURVES[index]).ramps();
@@ -95,7 +105,7 @@ fn main() -> ! {
             series_begins();
             let curve = &CURVES[index];
             let newton = TextbookNewton::new(curve.opening, curve.closing);
-            let table = InverseTable::new(|u| prebuilt::<8>()[index].inverse_cdf(u));
+            let table = InverseTable::new(|u| prebuilt::<8>(0)[index].inverse_cdf(u));
             each_input(inputs, index, |u| {
                 if function == Function::Newton {
                     black_box(measured_newton(black_box(&newton), black_box(u)));

@@ -6,7 +6,7 @@ use core::arch::asm;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use firmware::{CELLS, CURVES, Function, TICK_HZ, uniform};
+use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, frames, uniform};
 use semihosting::{print, println, process::ExitCode};
 use shutter_curve::ShutterCurve;
 
@@ -20,9 +20,10 @@ const PAINT: u32 = 0xA5A5_5A5A;
 /// More than any call takes.
 const DEPTH: usize = 16 << 10;
 
-/// The bytes of stack that `call` takes: paints below the stack pointer, calls, and looks how much is left.
+/// The bytes of stack that `call` takes on the inputs: paints below the stack pointer, calls, and looks how much
+/// is left.
 #[inline(never)]
-fn depth(call: impl FnOnce()) -> u32 {
+fn depth<T>(inputs: impl Iterator<Item = T>, mut call: impl FnMut(T)) -> u32 {
     let top: usize;
     // SAFETY: reads a register.
     unsafe { asm!("mov {}, sp", out(reg) top) };
@@ -31,7 +32,9 @@ fn depth(call: impl FnOnce()) -> u32 {
         // SAFETY: below the stack pointer is free RAM, and no interrupt is enabled.
         unsafe { (word as *mut u32).write_volatile(PAINT) };
     }
-    call();
+    for input in inputs {
+        call(input);
+    }
     // SAFETY: as above.
     let untouched =
         words.take_while(|word| unsafe { (*word as *const u32).read_volatile() } == PAINT);
@@ -46,42 +49,45 @@ fn run<const C: usize>() {
         *deepest = depth.max(*deepest);
     };
     for data in CURVES {
-        let (opening, closing) = data.ramps();
+        let ramps = [data.ramps()];
         let mut built = None;
-        note(Function::Construct, depth(|| built = measured_construct::<C>(opening, closing).ok()));
+        note(
+            Function::Construct,
+            depth(ramps.into_iter(), |(opening, closing)| {
+                built = measured_construct::<C>(opening, closing).ok();
+            }),
+        );
         let curve = black_box(built.as_ref().unwrap());
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-        let spread = (0..8).map(uniform);
-        for u in data.hard.iter().copied().chain(spread) {
-            note(
-                Function::InverseCdf,
-                depth(|| {
-                    black_box(measured_inverse_cdf(curve, u));
-                }),
-            );
-            let t = start + length * u;
-            note(
-                Function::Cdf,
-                depth(|| {
-                    black_box(measured_cdf(curve, t));
-                }),
-            );
-            note(
-                Function::Opening,
-                depth(|| {
-                    black_box(measured_opening(curve, t));
-                }),
-            );
-        }
-        if let Ok(mut ticks) = curve.trigger_ticks(64, TICK_HZ) {
-            note(
-                Function::TickStep,
-                depth(|| {
+        let ends = [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())];
+        let u = || data.hard_u(ends).chain((0..UNIFORM).map(uniform));
+        let t = || u().map(|u| start + length * u);
+        let inverse = |u| {
+            black_box(measured_inverse_cdf(curve, u));
+        };
+        note(Function::InverseCdf, depth(u(), inverse));
+        let cdf = |t| {
+            black_box(measured_cdf(curve, t));
+        };
+        note(Function::Cdf, depth(t(), cdf));
+        let opening = |t| {
+            black_box(measured_opening(curve, t));
+        };
+        note(Function::Opening, depth(t(), opening));
+        for inputs in [Inputs::Row(0), Inputs::Hard, Inputs::Solved] {
+            let (opening, closing) = data.scaled(SCALES[inputs.scale()]);
+            let curve = black_box(ShutterCurve::<C>::with_cells(opening, closing).unwrap());
+            for (n, steps) in frames(inputs, data.hard_u(ends)) {
+                let mut ticks = curve.trigger_ticks(n, TICK_HZ).unwrap();
+                let step = |_| {
                     black_box(measured_tick_step(&mut ticks));
-                }),
-            );
+                };
+                note(Function::TickStep, depth(0..steps, step));
+            }
+            // A gap that all frames keep, and one that some do not.
+            let plan = |gap| drop(black_box(measured_schedule(&curve, gap)));
+            note(Function::Schedule, depth([0, 1].into_iter(), plan));
         }
-        note(Function::Schedule, depth(|| drop(black_box(measured_schedule(curve, black_box(1))))));
     }
     for function in Function::ALL {
         print!("{} ", deepest[function as usize]);
