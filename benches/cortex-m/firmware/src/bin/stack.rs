@@ -74,7 +74,7 @@ fn run<const C: usize>() {
             black_box(measured_opening(curve, t));
         };
         note(Function::Opening, depth(t(), opening));
-        for inputs in [Inputs::Row(0), Inputs::Hard, Inputs::Solved] {
+        for inputs in [Inputs::Hard, Inputs::Solved] {
             let (opening, closing) = data.scaled(SCALES[inputs.scale()]);
             let curve = black_box(ShutterCurve::<C>::with_cells(opening, closing).unwrap());
             for (n, steps) in frames(inputs, data.hard_u(ends)) {
