@@ -61,11 +61,15 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
     black_box(curve.max_triggers(x));
     let times = curve.trigger_times(n);
     black_box(times.len());
-    times.for_each(|t| drop(black_box(t)));
+    for t in times {
+        black_box(t);
+    }
     match curve.trigger_ticks(n, black_box(1_000)) {
         Ok(ticks) => {
             black_box(ticks.len());
-            ticks.for_each(|tick| drop(black_box(tick)));
+            for tick in ticks {
+                black_box(tick);
+            }
         }
         Err(error) => schedule_error(error),
     }

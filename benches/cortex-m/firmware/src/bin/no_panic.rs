@@ -8,5 +8,7 @@ mod link;
 #[cortex_m_rt::entry]
 fn main() -> ! {
     link::everything();
-    loop {}
+    loop {
+        core::hint::spin_loop();
+    }
 }
