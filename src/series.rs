@@ -111,10 +111,8 @@ const GUARD: i32 = 3;
 const NOISE: u32 = 8;
 /// After a step by less than 2⁻⁸ of `x` the upper 32 bits have little more to say.
 const CLOSE: u32 = 8;
-/// A slope below this is too much of it for a last step,
+/// A slope below this is too much of it for a last step.
 const SLOPE: i32 = 16;
-/// and below this for any.
-const LOST: i32 = 2;
 
 /// How exact a search has to be, relative to the target.
 ///
@@ -259,7 +257,7 @@ impl Local {
         let (slope, bend) = (self.slope as f32, self.bend as f32);
         let newton = slope * slope;
         let curve = bend * missing;
-        if self.slope < LOST || curve.abs() > 0.2 * newton {
+        if self.slope <= 0 || curve.abs() > 0.2 * newton {
             return Self::far(self.slope, self.bend, self.twist, missing);
         }
         missing * WORD * slope / (newton + curve)
