@@ -112,7 +112,7 @@ pub enum ScheduleError {
     CapacityExceeded,
     /// Two triggers would come closer than the minimum gap.
     GapTooSmall {
-        /// The most triggers, at least 1, that keep the gap on this curve at this rate.
+        /// So many triggers, at least 1, keep the gap on this curve at this rate, and one more does not.
         most: u32,
     },
 }

@@ -17,8 +17,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         (0..n).map(move |i| self.inverse_cdf((i as f32 + 0.5) / n as f32))
     }
 
-    /// The most triggers whose exact times keep `min_gap`: `max(1, floor(A / min_gap))`, since the
-    /// openness is at most 1. `u32::MAX` where nothing is required, that is a gap of 0, below, or NaN.
+    /// So many triggers are sure to keep `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since
+    /// the openness is at most 1; a curve that never fully opens may take more. `u32::MAX` where nothing is
+    /// required, that is a gap of 0, below, or NaN.
     pub const fn max_triggers(&self, min_gap: f32) -> u32 {
         if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
@@ -33,8 +34,10 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// with `wrapping_add`.
     ///
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
-    /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: from 2²⁴ on, the direct polynomials are
-    /// left aside for the exact solver, which places to a thousandth of a tick.
+    /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: above 2²⁴, the direct polynomials are
+    /// left aside for the exact solver, which places to a hundredth of a tick. Only where the openness dips to next to
+    /// nothing between the ends, below 1/100 or, towards 2³¹ ticks, 1/8, it is not the time that is kept so but the
+    /// fraction of the exposure, to half an ulp of `f32`.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
@@ -51,7 +54,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// `min_gap` ticks.
     ///
     /// # Errors
-    /// More triggers than `N`; a gap not kept, with the most triggers that would keep it; and those of
+    /// More triggers than `N`; a gap not kept, with how many triggers would keep it; and those of
     /// [`trigger_ticks`](Self::trigger_ticks).
     #[cfg(feature = "heapless-v0_9")]
     pub fn schedule<const N: usize>(
@@ -75,28 +78,23 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         Ok(schedule)
     }
 
-    /// The most triggers, below `n`, whose ticks keep `min_gap`.
+    /// So many triggers keep `min_gap`, and one more does not, where `n` do not: by bisection, in log2(n) schedules.
     #[cfg(feature = "heapless-v0_9")]
     #[cold]
     #[inline(never)]
     fn most(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
-        // Exact times at least a whole number of ticks apart stay so when rounded. Triggers come some
-        // 2^-30 tick from exact, so where A / min_gap is a whole number the last may have to go.
-        let fit = (self.profile.area * tick_hz as f64 / min_gap as f64) as u32;
-        let mut most = if fit < n { fit } else { n - 1 };
-        while most > 1 {
+        let (mut keep, mut fail) = (1, n);
+        while fail - keep > 1 {
+            let middle = keep + (fail - keep) / 2;
             let mut last = None;
-            let keeps = self.trigger_ticks(most, tick_hz)?.all(|tick| {
+            let keeps = self.trigger_ticks(middle, tick_hz)?.all(|tick| {
                 let gap = last.map_or(u32::MAX, |last| tick - last);
                 last = Some(tick);
                 gap >= min_gap
             });
-            if keeps {
-                return Ok(most);
-            }
-            most -= 1;
+            *(if keeps { &mut keep } else { &mut fail }) = middle;
         }
-        Ok(1)
+        Ok(keep)
     }
 }
 

@@ -1,5 +1,10 @@
 //! Triggers: evenly spread exposure, ticks, and the checked schedule.
 
+mod cases;
+mod oracle;
+
+use cases::shutter;
+use oracle::{Curve, Dd, Exact, Points};
 use shutter_curve::{CubicBezier, ShutterCurve, valid};
 
 const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
@@ -43,54 +48,53 @@ fn times_are_the_inverse_at_the_middle_of_each_share() {
     }
 }
 
-/// Ramps from 1/4 to 1 whose control points `f32` holds exactly: f = 1/4 + 2t up to 3/8, and mirrored.
-fn pedestal() -> ShutterCurve {
-    let opening = CubicBezier::line((0.0, 0.25), (0.375, 1.0));
-    let closing = CubicBezier::line((0.625, 1.0), (1.0, 0.25));
-    ShutterCurve::new(opening, closing).unwrap()
-}
-
-/// Its inverse in doubles, by the square root.
-fn pedestal_inverse(u: f64) -> f64 {
-    const RAMP: f64 = 0.234375;
-    const AREA: f64 = 2.0 * RAMP + 0.25;
-    let ramp = |mass: f64| 2.0 * mass / (0.25 + (0.0625 + 4.0 * mass).sqrt());
-    let mass = u * AREA;
-    if mass < RAMP {
-        ramp(mass)
-    } else if mass < RAMP + 0.25 {
-        0.375 + mass - RAMP
-    } else {
-        1.0 - ramp(AREA - mass)
-    }
-}
-
 /// The worst distance of the ticks from the exact times, in ticks.
-fn worst(curve: &ShutterCurve, n: u32, hz: u32) -> f64 {
-    let ticks = curve.trigger_ticks(n, hz).unwrap();
-    let exact = (0..n).map(|i| pedestal_inverse((i as f64 + 0.5) / n as f64) * hz as f64);
-    ticks.zip(exact).map(|(tick, exact)| (tick as f64 - exact).abs()).fold(0.0, f64::max)
+fn worst(curve: &Curve, n: u32, hz: u32) -> f64 {
+    let (exact, start) = (Exact::new(curve), Dd::from(curve.open_start()));
+    let ticks: Vec<u32> = shutter::<8>(curve).trigger_ticks(n, hz).unwrap().collect();
+    assert!(ticks.is_sorted());
+    let share = Dd::ONE / Dd::from(2.0 * n as f64);
+    let error = |(i, tick): (usize, &u32)| {
+        let time = exact.inverse_cdf_dd(share * (2 * i + 1) as f64);
+        ((time - start) * hz as f64 - Dd::from(*tick as f64)).hi.abs()
+    };
+    ticks.iter().enumerate().map(error).fold(0.0, f64::max)
 }
 
+/// Every interval is 1 long, so the rate is its length in ticks.
 #[test]
 fn ticks_are_correct_to_the_tick() {
-    let curve = pedestal();
-    for (hz, most) in [
-        (1_000, 0.501),
-        (1_000_000, 0.51),
-        ((1 << 24) - 1, 0.75),
-        (1 << 24, 0.75),
-        ((1 << 24) + 1, 0.501),
-        (168_000_000, 0.501),
-        (1 << 31, 0.51),
+    let (low, high) = (CubicBezier::line((0.0, 0.25), (0.375, 1.0)), (0.625, 1.0));
+    let pedestal = Curve::shutter(low.points(), CubicBezier::line(high, (1.0, 0.25)).points());
+    let order4 = [(0.0, 0.0), (0.125, 0.0), (0.25, 0.0), (0.375, 1.0)];
+    let mirrored = [(0.625, 1.0), (0.75, 0.0), (0.875, 0.0), (1.0, 0.0)];
+    let soft = [(0.0, 0.0), (0.125, 0.0), (0.25, 1.0), (0.5, 1.0)];
+    let across = [(0.0, 1.0), (0.125, 1.0), (0.375, 0.0), (0.5, 0.0)];
+    let moved = |points: Points, by: f32| points.map(|(t, f)| (t + by, f));
+    for (name, curve) in [
+        ("pedestal", pedestal),
+        ("ends of order p^4", Curve::shutter(order4, mirrored)),
+        ("across time 0", Curve::shutter(moved(soft, -0.625), moved(across, -0.125))),
+        ("far from time 0", Curve::shutter(moved(soft, 1024.0), moved(across, 1024.5))),
+        ("far before time 0", Curve::shutter(moved(soft, -1024.0), moved(across, -1023.5))),
     ] {
-        for n in [1, 2, 3, 17, 1000, 65_535] {
-            let error = worst(&curve, n, hz);
-            println!("{n} triggers at {hz} Hz: {error:.4} ticks");
-            assert!(error <= most, "{n} triggers at {hz} Hz: {error} ticks");
+        // An error of the direct way's shows that it is the one taken.
+        for (hz, least, most) in [
+            (1_000, 0.0, 0.501),
+            (1_000_000, 0.0, 0.51),
+            ((1 << 24) - 1, 0.501, 0.75),
+            (1 << 24, 0.501, 0.75),
+            ((1 << 24) + 1, 0.0, 0.501),
+            (168_000_000, 0.0, 0.501),
+            (1 << 31, 0.0, 0.51),
+        ] {
+            for n in [1, 2, 3, 17, 1000, 65_535] {
+                let error = worst(&curve, n, hz);
+                println!("{name}: {n} triggers at {hz} Hz: {error:.4} ticks");
+                assert!(error <= most, "{name}: {n} triggers at {hz} Hz: {error} ticks");
+                assert!(n < 65_535 || error >= least, "{name} at {hz} Hz: only {error} ticks");
+            }
         }
-        let ticks: Vec<u32> = curve.trigger_ticks(65_535, hz).unwrap().collect();
-        assert!(ticks.is_sorted());
     }
 }
 
@@ -115,7 +119,7 @@ fn many_triggers() {
 #[cfg(feature = "heapless-v0_9")]
 mod checked {
     use super::SOFT;
-    use shutter_curve::{ScheduleError, ShutterCurve};
+    use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve};
 
     #[test]
     fn a_schedule_is_the_ticks() {
@@ -134,20 +138,35 @@ mod checked {
         assert_eq!(error(4, u32::MAX, 0), Some(ScheduleError::TickRateTooHigh));
     }
 
+    /// A shutter that never opens more than half.
+    fn half_open() -> ShutterCurve {
+        let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::line((t, 0.5), (t + 1.0, 0.5)));
+        ShutterCurve::new(opening, closing).unwrap()
+    }
+
     #[test]
     fn the_most_that_keep_the_gap() {
-        for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap()] {
+        for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
             for (hz, gap) in
                 [(1000, 47), (1000, 50), (1_000_000, 33_333), (100, 7), (10, 9), (7, 100)]
             {
-                let Err(ScheduleError::GapTooSmall { most }) = curve.schedule::<64>(64, hz, gap)
-                else {
-                    panic!("64 triggers keep {gap} at {hz} Hz");
+                let most = |n| match curve.schedule::<64>(n, hz, gap) {
+                    Err(ScheduleError::GapTooSmall { most }) => Some(most),
+                    _ => None,
                 };
-                assert!(curve.schedule::<64>(most, hz, gap).is_ok());
-                assert!(most <= (curve.exposure() * hz as f32 / gap as f32) as u32 || most == 1);
-                assert!(most + 1 >= (curve.exposure() * hz as f32 / gap as f32) as u32);
+                let found = most(64).expect("64 are too many");
+                assert!((1..64).contains(&found) && most(found).is_none());
+                assert!(most(found + 1).is_some_and(|most| most <= found));
+                assert!(found + 1 >= (curve.exposure() * hz as f32 / gap as f32) as u32);
             }
+        }
+    }
+
+    #[test]
+    fn the_most_on_a_shutter_that_never_fully_opens() {
+        for n in 21..=64 {
+            let most = Err(ScheduleError::GapTooSmall { most: 20 });
+            assert_eq!(half_open().schedule::<64>(n, 500, 50), most, "{n}");
         }
     }
 }
