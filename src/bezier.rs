@@ -84,7 +84,9 @@ impl CubicBezier {
     pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
         let t = self.times();
         let slope = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
-        // Grazing is for the inside: before its start or after its end there is no ramp.
+        // Grazing is for the inside: before its start or after its end there is no ramp. Only where rounding puts the
+        // first control time before the start, t' is -GRAZE there at worst, and time, with the second one a third in,
+        // runs as -GRAZE p + p², which dips by GRAZE²/4.
         let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
         let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
         let leaves = first < -slack || last > t[3] - t[0] + slack;

@@ -119,10 +119,42 @@ fn grazing_by_rounding_is_accepted_and_solved() {
     let bump = [(0.0, 0.0), (0.1, 4.0 / 3.0), (0.2, 4.0 / 3.0), (0.3, 0.0)];
     assert!(single(bump).is_ok());
     assert!(shutter(bump, CLOSING).is_ok());
+    // One bit more passes 1 by 2^-23, which `f32` can tell.
+    let above = bump.map(|(t, f)| (t, if f > 0.0 { f.next_up() } else { f }));
+    let curve = shutter(above, CLOSING).unwrap();
+    assert!((0..=10_000).all(|i| curve.opening(0.1 + i as f32 * 1e-5) <= 1.0));
     // t' with a double root at 1/2, grazing it by the rounding of the control times.
     for t in [0.3f32, 0.3f32.next_up(), 0.3f32.next_down()] {
         assert!(shutter([(0.0, 0.0), (t, 0.1), (0.0, 0.9), (0.3, 1.0)], CLOSING).is_ok());
     }
+}
+
+/// The bound is held from both sides.
+#[test]
+fn grazing_ends_at_2_to_the_minus_22() {
+    const GRAZE: f32 = 1.0 / (1 << 22) as f32;
+    // f = 3/4 (1/3 + f1) at p = 1/2, and 1 at most.
+    let dip = |by: f32| {
+        let f = (-1.0 / 3.0 - by as f64 * 4.0 / 3.0) as f32;
+        [(0.0, 1.0), (0.1, f), (0.2, f), (0.3, 1.0)]
+    };
+    assert!(shutter(dip(0.75 * GRAZE), CLOSING).is_ok());
+    let below = CurveError::NegativeOpenness;
+    assert_eq!(shutter(dip(1.25 * GRAZE), CLOSING), Err(below(Ramp::Opening)));
+    assert_eq!(single(dip(1.25 * GRAZE)), Err(below(Ramp::Single)));
+    assert_eq!(single(dip(2.0 * GRAZE)), Err(below(Ramp::Single)));
+    // The same upside down.
+    let bump = |by: f32| dip(by).map(|(t, f)| (t, 1.0 - f));
+    assert!(shutter(bump(0.75 * GRAZE), CLOSING).is_ok());
+    let error = Err(CurveError::OpennessAboveOne(Ramp::Opening));
+    assert_eq!(shutter(bump(1.5 * GRAZE), CLOSING), error);
+    assert_eq!(shutter(bump(2.0 * GRAZE), CLOSING), error);
+    // t' = 3/4 t2 at p = 1/2, nearly.
+    let turn = |by: f32| [(0.0, 0.0), (1.0, 0.3), (-by * 4.0 / 3.0, 0.6), (1.0, 1.0)];
+    let back = CurveError::TimeTurnsBack(Ramp::Single);
+    assert!(single(turn(0.75 * GRAZE)).is_ok());
+    assert_eq!(single(turn(1.25 * GRAZE)), Err(back));
+    assert_eq!(single(turn(2.0 * GRAZE)), Err(back));
 }
 
 #[test]
