@@ -2,8 +2,10 @@
 //!
 //! `cargo test --test accuracy -- --nocapture` prints the figures.
 
+mod cases;
 mod oracle;
 
+use cases::shutter;
 use oracle::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
 use oracle::{Curve, Exact};
 use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
@@ -12,14 +14,11 @@ use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
 const FORWARD: f64 = 0.8;
 const FORWARD_MEAN: f64 = 0.25;
 const BACKWARD: f64 = 1.0;
+/// Of an octave's polynomial, so that neighbours can't change places.
+const DIRECT: f64 = 0.4;
 const VALUE: f64 = 2.0;
 const SCALAR: f64 = 1.0;
 const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
-
-fn shutter<const CELLS: usize>(curve: &Curve) -> ShutterCurve<CELLS> {
-    ShutterCurve::with_cells(CubicBezier::new(curve.opening), CubicBezier::new(curve.closing))
-        .unwrap_or_else(|error| panic!("{error}: {curve:?}"))
-}
 
 /// The worst of what was seen.
 #[derive(Default)]
@@ -46,15 +45,11 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
     for (u, t) in us.iter().zip(ts) {
         assert_eq!(t, curve.inverse_cdf(*u), "the slice differs at {u:e} of {:?}", exact.curve());
         assert!((curve.open_start()..=curve.close_end()).contains(&t));
-        assert!(
-            t >= last || exact.grazes(),
-            "back to {t} from {last} at {u:e} of {:?}",
-            exact.curve()
-        );
+        assert!(t >= last, "back to {t} from {last} at {u:e} of {:?}", exact.curve());
         last = t;
-        let errors = exact.judge(*u, t);
+        let (errors, evaluations) = (exact.judge(*u, t), curve.evaluations(*u));
         assert!(
-            errors.backward <= BACKWARD,
+            errors.backward <= if evaluations == 0 { DIRECT } else { BACKWARD },
             "CELLS = {CELLS}: {} ulp(u) at {u:e}, {t:e} for {:e}, of {:?}",
             errors.backward,
             errors.exact.hi,
@@ -64,7 +59,7 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
         worst.forward = worst.forward.max(errors.forward);
         worst.sum += errors.forward;
         worst.backward = worst.backward.max(errors.backward);
-        worst.evaluations = worst.evaluations.max(curve.evaluations(*u));
+        worst.evaluations = worst.evaluations.max(evaluations);
     }
     assert!(worst.evaluations <= MAX_EVALUATIONS);
     assert_eq!(
@@ -260,11 +255,7 @@ fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 4]) {
     let mut last = 0.0;
     for t in ts {
         let cdf = curve.cdf(t);
-        assert!(
-            cdf >= last || exact.grazes(),
-            "cdf back to {cdf} from {last} at {t:e} of {:?}",
-            exact.curve()
-        );
+        assert!(cdf >= last, "cdf back to {cdf} from {last} at {t:e} of {:?}", exact.curve());
         last = cdf;
         let (opening, pdf) = (curve.opening(t), curve.pdf(t));
         let errors = [
@@ -323,7 +314,7 @@ fn single_curves() {
         us.sort_by(f32::total_cmp);
         for u in us.into_iter().step_by(17) {
             let t = pdf.inverse_cdf(u);
-            assert!(t >= last || exact.grazes(), "back to {t} from {last} at {u:e} of {curve:?}");
+            assert!(t >= last, "back to {t} from {last} at {u:e} of {curve:?}");
             last = t;
             backward = backward.max(exact.judge(u, t).backward);
             assert!(backward <= BACKWARD, "{u:e} {t:e} {curve:?}");
@@ -343,9 +334,6 @@ fn never_a_step_back() {
     let mut pairs = 0u64;
     let mut sweep = |curve: &Curve, length: u32| {
         let exact = Exact::new(curve);
-        if exact.grazes() {
-            return;
-        }
         let (direct, compact) = (shutter::<8>(curve), shutter::<0>(curve));
         let mut rng = Rng::new(9, length as u64);
         let mut starts = vec![0, 1.0f32.to_bits() - length, 0.5f32.to_bits() - length / 2];
@@ -375,7 +363,7 @@ fn never_a_step_back() {
     assert!(pairs > 5_000_000);
 }
 
-/// Every `f32` in [0, 1], on one curve: minutes.
+/// Every `f32` in [0, 1], on three curves: minutes.
 #[test]
 #[ignore = "takes minutes"]
 fn never_a_step_back_anywhere() {

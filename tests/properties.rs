@@ -5,7 +5,7 @@ mod oracle;
 use oracle::{Curve, Exact};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
+use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
 
 type Points = [(f32, f32); 4];
 
@@ -59,12 +59,12 @@ proptest! {
         for u in us {
             let t = curve.inverse_cdf(u);
             prop_assert!(t >= curve.open_start() && t <= curve.close_end(), "{} at {:e}", t, u);
-            prop_assert!(curve.evaluations(u) <= MAX_EVALUATIONS);
-            if !u.is_nan() && !exact.grazes() {
+            if !u.is_nan() {
                 prop_assert!(t >= last, "back to {} from {} at {:e}", t, last, u);
                 last = t;
+                // Where f starts a trace below 0, so does the mass, and the least u have no time of their own.
                 let error = exact.judge(u, t);
-                prop_assert!(error.backward <= 1.0, "{:?} at {:e}", error, u);
+                prop_assert!(exact.grazes() || error.backward <= 1.0, "{:?} at {:e}", error, u);
             }
         }
         let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
@@ -72,6 +72,7 @@ proptest! {
             for t in [part, (start + (end - start) * part as f64) as f32] {
                 let (cdf, f, pdf) = (curve.cdf(t), curve.opening(t), curve.pdf(t));
                 prop_assert!((0.0..=1.0).contains(&cdf) && (0.0..=1.0).contains(&f) && pdf >= 0.0);
+                // Where f grazes 0, an answer of some 1e-41 is off by as many of its ulp.
                 if t >= curve.open_start() && t <= curve.close_end() && !exact.grazes() {
                     prop_assert!(exact.cdf_ulp(cdf, t, 2f64.powi(-24)) <= 2.0, "cdf({:e}) = {:e}", t, cdf);
                     prop_assert!(exact.openness_ulp(f, t, 0.0) <= 2.0, "opening({:e}) = {:e}", t, f);
