@@ -384,9 +384,6 @@ impl Exact {
         Self { curve: *curve, opening, closing, plateau, area }
     }
 
-    pub fn dips(&self) -> bool {
-        !self.opening.turns.is_empty() || !self.closing.turns.is_empty()
-    }
     pub fn curve(&self) -> &Curve {
         &self.curve
     }
