@@ -2,30 +2,18 @@
 
 #[allow(dead_code)]
 mod baseline;
+mod curves;
 #[allow(dead_code)]
 #[path = "baseline/peers.rs"]
 mod peers;
 
 use std::hint::black_box;
 
-use baseline::{InverseTable, Ramp, TextbookNewton};
+use baseline::{InverseTable, TextbookNewton};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use curves::CURVES;
 use peers::{Parts, animation};
 use shutter_curve::{CubicBezier, ShutterCurve};
-
-/// A third of the mass in ramps; all of it in ramps.
-const CURVES: [(&str, Ramp, Ramp); 2] = [
-    (
-        "soft",
-        [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)],
-        [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
-    ),
-    (
-        "all ramp",
-        [(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)],
-        [(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)],
-    ),
-];
 
 /// So many that no branch predictor learns their order from one round to the next.
 const COUNT: usize = 1 << 16;

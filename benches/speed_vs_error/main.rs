@@ -11,6 +11,8 @@ mod baseline;
 #[path = "../../tests/cases/mod.rs"]
 mod cases;
 mod cost;
+#[path = "../curves.rs"]
+mod curves;
 mod every_f32;
 mod methods;
 #[path = "../../tests/oracle/mod.rs"]
@@ -30,6 +32,7 @@ mod timing;
 
 use accuracy::Amount;
 use clap::Parser;
+use curves::CURVES;
 use indicatif::{ProgressBar, ProgressStyle};
 use methods::METHODS;
 use rendering::{PULSES, Picture, Pulses};
@@ -103,8 +106,8 @@ fn measure(quick: bool) -> Result<Measured> {
     bar.finish();
 
     let repeats = if quick { 5 } else { 101 };
-    let bar = progress("time", (timing::CURVES.len() * repeats) as u64);
-    let all = 0..timing::CURVES.len();
+    let bar = progress("time", (CURVES.len() * repeats) as u64);
+    let all = 0..CURVES.len();
     let times =
         all.clone().map(|i| timing::inverses(&timing::curve(i), repeats, || bar.inc(1))).collect();
     let forwards = all.map(|i| timing::forwards(&timing::curve(i), repeats)).collect();
@@ -150,7 +153,6 @@ fn draw(measured: &Measured, curves: u64, folder: &str) {
     pictures::frontier(&path("frontier"), &panels, &measured.figures);
     pictures::over_u(&path("error-over-u"));
     pictures::histogram(&path("histogram"), &measured.figures);
-    pictures::model(&path("model"));
     pictures::rendering(&path("rendering"), &measured.rendering);
     let bar = progress("worst cases", 2 * curves);
     pictures::worst_cases(&path("worst-cases"), curves, || bar.inc(1));

@@ -9,9 +9,7 @@ use crate::methods::{DEFAULT, METHODS, TABLE, TEXTBOOK};
 use crate::oracle::curves::{random_hard, random_typical};
 use crate::oracle::{Curve, Exact, Points};
 use crate::rendering::{PIXELS, PULSES, Picture, Pulses};
-use crate::style::{
-    Axis, BLUE, Chart, GREEN, GREY, INK, ORANGE, SCALE, chart, legend, picture, text,
-};
+use crate::style::{Axis, BLUE, Chart, GREY, INK, ORANGE, SCALE, chart, legend, picture, text};
 use crate::timing;
 
 /// Error against time: the greatest (full) and the mean error (ring) of each method, over what a sample
@@ -41,7 +39,7 @@ pub fn frontier(path: &str, panels: &[(&'static str, Vec<(usize, f64)>)], figure
             // Where two points come close, their names keep apart.
             let (dx, dy, h) = match METHODS[method].name {
                 "`CELLS = 16`" => (-18, 0, HPos::Right),
-                "`CELLS = 4`" => (0, -26, HPos::Center),
+                "`CELLS = 4`" | "`CELLS = 8`" => (0, -26, HPos::Center),
                 "table of 256" => (18, -10, HPos::Left),
                 "table of 1024" => (18, 14, HPos::Left),
                 _ => (18, 0, HPos::Left),
@@ -127,10 +125,11 @@ pub fn histogram(path: &str, figures: &[Figures]) {
         }
         bins
     };
+    let (ours, compact) = (bins(&figures[DEFAULT].signed), bins(&figures[0].signed));
+    let most = ours.iter().chain(&compact).fold(1.0, |most: f64, height| most.max(*height));
     let x = Axis::plain("t - exact, in ulp(t)", -0.8..0.8);
-    let y = Axis::plain("density", 0.0..1.4);
+    let y = Axis::plain("density", 0.0..1.05 * most);
     let mut chart = chart(&root, "", &x, &y);
-    let ours = bins(&figures[DEFAULT].signed);
     let edge = |i: usize| i as f64 * width - 0.8;
     let bars = ours.iter().enumerate().map(|(i, height)| {
         Rectangle::new([(edge(i), 0.0), (edge(i + 1), *height)], BLUE.mix(0.55).filled())
@@ -139,54 +138,12 @@ pub fn histogram(path: &str, figures: &[Figures]) {
     series
         .label("CELLS = 8")
         .legend(|(x, y)| Rectangle::new([(x, y - 10), (x + 36, y + 10)], BLUE.mix(0.55).filled()));
-    let compact = bins(&figures[0].signed);
     let steps = compact.iter().enumerate();
     let steps = steps.flat_map(|(i, height)| [(edge(i), *height), (edge(i + 1), *height)]);
     line(&mut chart, "CELLS = 0", INK, 2, steps);
     let ideal = [(-0.5, 0.0), (-0.5, 1.0), (0.5, 1.0), (0.5, 0.0)];
     line(&mut chart, "rounding alone, errors even", ORANGE, 2, ideal);
     legend(&mut chart, SeriesLabelPosition::UpperRight);
-    root.present().expect("the picture is written");
-}
-
-/// The model, for the README: a curve's openness, its cdf, and the inverse with a few triggers.
-pub fn model(path: &str) {
-    let curve = timing::curve(0);
-    let ours = shutter::<8>(&curve);
-    let root = picture(path, (1240, 380));
-    let areas = root.split_evenly((1, 3));
-    const TRIGGERS: u32 = 12;
-    let triggers: Vec<f64> = ours.trigger_times(TRIGGERS).map(f64::from).collect();
-    let sweep = || (0..=400).map(|i| f64::from(i) / 400.0);
-    let time = || Axis::plain("time t", 0.0..1.0);
-
-    let y = Axis::plain("openness f, density K f", 0.0..1.5);
-    let mut openness = chart(&areas[0], "openness and density", &time(), &y);
-    let f: Vec<_> = sweep().map(|t| (t, f64::from(ours.opening(t as f32)))).collect();
-    openness.draw_series(AreaSeries::new(f.iter().copied(), 0.0, BLUE.mix(0.15))).expect("drawn");
-    line(&mut openness, "openness f(t)", BLUE, 2, f);
-    let density = sweep().map(|t| (t, f64::from(ours.pdf(t as f32))));
-    line(&mut openness, "pdf(t) = K f(t)", GREEN, 2, density);
-    for &t in &triggers {
-        draw(&mut openness, [PathElement::new([(t, 0.0), (t, 0.08)], ORANGE.stroke_width(4))]);
-    }
-    legend(&mut openness, SeriesLabelPosition::MiddleMiddle);
-
-    let y = Axis::plain("fraction of the exposure, u", 0.0..1.0);
-    let mut cdf = chart(&areas[1], "cdf", &time(), &y);
-    line(&mut cdf, "", BLUE, 2, sweep().map(|t| (t, f64::from(ours.cdf(t as f32)))));
-
-    let x = Axis::plain("fraction of the exposure, u", 0.0..1.0);
-    let mut inverse =
-        chart(&areas[2], "inverse cdf, and 12 triggers", &x, &Axis::plain("time t", 0.0..1.0));
-    let points = sweep().map(|u| (u, f64::from(ours.inverse_cdf(u as f32))));
-    line(&mut inverse, "", BLUE, 2, points);
-    for (i, &t) in triggers.iter().enumerate() {
-        let u = (i as f64 + 0.5) / f64::from(TRIGGERS);
-        let way = PathElement::new([(u, 0.0), (u, t), (0.0, t)], ORANGE.mix(0.35));
-        draw(&mut inverse, [way]);
-        draw(&mut inverse, [Circle::new((u, t), 6, ORANGE.filled())]);
-    }
     root.present().expect("the picture is written");
 }
 
@@ -266,7 +223,9 @@ pub fn rendering(path: &str, errors: &[(Pulses, Vec<(u32, f64)>)]) {
         let x = |pixel: usize| (20 + 660 * pixel as i32 / PIXELS as i32) * SCALE;
         let mut pixel = 0;
         for run in values.chunk_by(|a, b| grey(a) == grey(b)) {
-            let corners = [(x(pixel), top + 12 * SCALE), (x(pixel + run.len()), top + 66 * SCALE)];
+            // A bit into the next one, which covers it: between two that only adjoin, a seam would show.
+            let end = (x(pixel + run.len()) + SCALE).min(x(PIXELS));
+            let corners = [(x(pixel), top + 12 * SCALE), (end, top + 66 * SCALE)];
             let grey = grey(&run[0]);
             let style = RGBColor(grey, grey, grey).filled();
             strips.draw(&Rectangle::new(corners, style)).expect("drawn");
@@ -276,7 +235,7 @@ pub fn rendering(path: &str, errors: &[(Pulses, Vec<(u32, f64)>)]) {
     let y = Axis::decades("root-mean-square error", -5.0..0.0);
     let x = Axis {
         name: "pulses",
-        range: 6f64.log2().max(5.8)..12.2,
+        range: 5.8..12.2,
         label: |x| format!("{:.0}", 2f64.powf(x.round())),
         labels: 7,
     };

@@ -46,7 +46,7 @@ pub struct Find {
     pub aim: Aim,
     pub curves_tried: u64,
     pub worst: f64,
-    /// Control points, as `t f` pairs of the opening and the closing ramp.
+    /// Control points, as `(t, f)` pairs of the opening and the closing ramp.
     pub opening: String,
     pub closing: String,
 }
@@ -64,10 +64,6 @@ fn score(curve: &Curve) -> [f64; 5] {
         let density = exact.pdf(t).hi;
         let conditioned = ulp_f32(u.into()) <= density * ulp_f32(t.into());
         if conditioned && u > 0.0 && u < 1.0 {
-            let f = exact.judge(u, t).forward;
-            if f > 2.0 {
-                eprintln!("{u:e} {t:e} {f} {curve:?}");
-            }
             forward = forward.max(exact.judge(u, t).forward);
         }
         // What the fraction gains from t's lower neighbour to its upper one, and three ulp of the cdf, which

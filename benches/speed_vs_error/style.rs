@@ -19,7 +19,6 @@ pub const FAINT: RGBColor = RGBColor(232, 235, 239);
 pub const GREY: RGBColor = RGBColor(140, 149, 159);
 pub const BLUE: RGBColor = RGBColor(9, 105, 218);
 pub const ORANGE: RGBColor = RGBColor(225, 111, 36);
-pub const GREEN: RGBColor = RGBColor(26, 127, 55);
 
 /// Text, by its size and its place relative to the point it is put at.
 pub fn text(size: i32, h: HPos, v: VPos) -> TextStyle<'static> {
