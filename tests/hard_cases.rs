@@ -18,10 +18,10 @@ use peers::{
     CellTable, Parts, PowerRamp, animation, bracketed, eleven_entries, fixed_point, renderer,
     tolerant,
 };
-use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, Ramp, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
 
-/// For one `u` of a case here: half the cap.
-const MOST_EVALUATIONS: u32 = MAX_EVALUATIONS / 2;
+/// For one `u` of a case here.
+const MOST_EVALUATIONS: u32 = 12;
 
 /// What of the promise an inverse breaks on a curve, any curve whatsoever.
 fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
