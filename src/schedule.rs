@@ -115,13 +115,20 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
             return Err(ScheduleError::TickRateZero);
         }
         let rate = Wide::new(tick_hz as u64, 0);
-        let ticks = Wide::between(profile.open_start(), profile.close_end()).times(rate);
+        let start = profile.start_in_units(0);
+        let length = (profile.start_in_units(1) - start) as u64;
+        let ticks = Wide::new(length, profile.unit()).times(rate);
         if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
             return Err(ScheduleError::TickRateTooHigh);
         }
         // A 64-bit division is dear on a small processor, so only this one is made.
         let share = if n == 0 { 0 } else { (1 << 63) / n as u64 };
-        let (plateau, direct) = (profile.plateau_in_words(), Direct::new(profile, rate, ticks));
+        let plateau = profile.plateau_in_words();
+        let direct = if ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0)) {
+            None
+        } else {
+            Direct::new(start, length, Wide::new(1, profile.unit()).times(rate))
+        };
         Ok(Self { profile, n, rate, share, plateau, direct })
     }
 
@@ -159,15 +166,11 @@ struct Direct {
 }
 
 impl Direct {
-    /// For an interval of so many `ticks`; none where they are too many, or next to none.
-    fn new<const CELLS: usize>(profile: &Profile<CELLS>, rate: Wide, ticks: Wide) -> Option<Self> {
-        if ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0)) {
-            return None;
-        }
-        let start = profile.start_in_units(0);
-        let length = (profile.start_in_units(1) - start) as u64;
+    /// For an interval that starts at `start` and is `length` long, in units of so many `ticks`; none where these are
+    /// next to none.
+    fn new(start: i64, length: u64, ticks: Wide) -> Option<Self> {
         let down = 33u32.saturating_sub(length.leading_zeros());
-        let factor = rate.times(Wide::new(1, profile.unit() + down as i32)).in_units(-64) as u64;
+        let factor = ticks.in_units(-64 - down as i32) as u64;
         (factor >> 32 != 0).then_some(Self { start, down, factor })
     }
 
