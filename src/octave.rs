@@ -5,14 +5,10 @@
 //! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all.
 
 use crate::profile::{Profile, floor_bits};
-use crate::series::times_high;
-use crate::wide::Wide;
+use crate::wide::{Wide, times_high};
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the profile's unit, `x` in
 /// [-1/2, 1/2) across the octave.
-///
-/// Where no polynomial is good enough, `factor` and `length` are 0, and `P(x)` with the upper half of `middle`
-/// guesses how far into the ramp the exact way has to go; the lower half is the number of `f32` that it knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     middle: i64,
@@ -64,14 +60,11 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
-/// 2¹⁸, the unit of a guess: what is left of 32 bits for the coefficients where time is nearly a root of `u`.
-const GUESS: f64 = 262144.0;
-
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, from: 0, length: 0, c: [0; DEGREE] };
 
-    /// The time at `x`, in units of 2⁻³², by Horner's rule: each step is one multiply-and-add of 32
-    /// bits, and the last one of 64, on a microcontroller that has them.
+    /// The time, in the profile's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
+    /// multiply-and-add of 32 bits, and the last one of 64, on a microcontroller that has them.
     #[inline(always)]
     pub(crate) const fn time(&self, x: i32) -> i64 {
         self.middle.wrapping_add(self.factor as i64 * self.rest(x) as i64)
@@ -91,18 +84,8 @@ impl Octave {
         times_high(value, x)
     }
 
-    /// The fraction of the ramp, in units of [`GUESS`], at which a search for `a`, by its bits, may start; 0 if
-    /// nothing is known.
-    #[inline(always)]
-    pub(crate) const fn guess(&self, a: u32) -> i32 {
-        if self.factor == 0 && a.wrapping_sub(self.from) < self.middle as u32 {
-            return ((self.middle >> 32) as i32).wrapping_add(self.rest((a << 9 ^ 1 << 31) as i32));
-        }
-        0
-    }
-
     /// The polynomial for the octave `a` in [2^-(index + 2), 2^-(index + 1)) from one side, or
-    /// a guess for the exact inverse where no polynomial keeps the promised error.
+    /// [`NONE`](Self::NONE) where none keeps the promised error.
     pub(crate) const fn fit<const CELLS: usize>(
         profile: &Profile<CELLS>,
         side: usize,
@@ -139,10 +122,7 @@ impl Octave {
             middle: (from + to) / (2.0 * low) - 1.5,
             half: (to - from) / (2.0 * low),
         };
-        match part.direct(profile, start, length) {
-            Some(octave) => octave,
-            None => part.guess(profile, start, length),
-        }
+        part.direct(profile, start, length)
     }
 
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
@@ -157,7 +137,7 @@ impl Octave {
         let mut i = 0;
         while i < PEAKS.len() {
             let x = part.offset(PEAKS[i]);
-            let exact = part.exact(profile, x, false);
+            let exact = part.exact(profile, x);
             let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
             let error = if error < 0.0 { -error } else { error };
             // What one ulp of u is in time: the octave is 2²³ ulp long.
@@ -200,26 +180,21 @@ impl Part {
         ((self.middle + self.half * point) * WORD) as i32
     }
 
-    /// The exact time from the side's start at an offset, or the exact place on the ramp.
-    const fn exact<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        x: i32,
-        place: bool,
-    ) -> f64 {
+    /// The exact time from the side's start at an offset.
+    const fn exact<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32) -> f64 {
         let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
         let a = Wide { m, e: -(self.index as i32 + 2 + 63) };
-        if place { profile.fraction(self.side, a) } else { profile.elapsed(self.side, a) }
+        profile.elapsed(self.side, a)
     }
 
-    /// The octave that gives the time, if it keeps the promise.
+    /// The octave that gives the time, where it keeps the promise.
     const fn direct<const CELLS: usize>(
         &self,
         profile: &Profile<CELLS>,
         from: u32,
         length: u32,
-    ) -> Option<Octave> {
-        let c = self.interpolate(profile, false);
+    ) -> Octave {
+        let c = self.interpolate(profile);
 
         // The largest value that Horner's rule meets fills 31 bits.
         let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
@@ -229,12 +204,12 @@ impl Part {
             k -= 1;
         }
         if !(most > 0.0 && most < f64::MAX) {
-            return None;
+            return Octave::NONE;
         }
         let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
         let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
         if exponent - profile.unit() > 30 {
-            return None;
+            return Octave::NONE;
         }
         let scale = power_of_two(exponent);
         let factor = 1 << (exponent - profile.unit());
@@ -249,48 +224,18 @@ impl Part {
         octave.middle =
             profile.start_in_units(self.side) + if self.side == 0 { middle } else { -middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        if octave.keeps_promise(profile, self, c[0], scale) { Some(octave) } else { None }
+        if octave.keeps_promise(profile, self, c[0], scale) { octave } else { Octave::NONE }
     }
 
-    /// The octave that guesses how far into the ramp a search has to go.
-    const fn guess<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        from: u32,
-        length: u32,
-    ) -> Octave {
-        let c = self.interpolate(profile, true);
-        let mut octave = Octave { from, ..Octave::NONE };
-        let mut k = 0;
-        while k <= DEGREE {
-            let c = c[k] * GUESS;
-            if !(c < 2147483648.0 && c > -2147483648.0) {
-                return Octave::NONE;
-            }
-            if k > 0 {
-                octave.c[k - 1] = round(c);
-            } else {
-                octave.middle = (round(c) as i64) << 32 | length as i64;
-            }
-            k += 1;
-        }
-        octave
-    }
-
-    /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes, or through the
-    /// places on the ramp.
-    const fn interpolate<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        places: bool,
-    ) -> [f64; DEGREE + 1] {
+    /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.
+    const fn interpolate<const CELLS: usize>(&self, profile: &Profile<CELLS>) -> [f64; DEGREE + 1] {
         // Newton's divided differences ...
         let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         let mut i = 0;
         while i <= DEGREE {
             let offset = self.offset(NODES[i]);
             x[i] = offset as f64 / WORD;
-            d[i] = self.exact(profile, offset, places);
+            d[i] = self.exact(profile, offset);
             i += 1;
         }
         let mut order = 1;

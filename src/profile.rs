@@ -7,7 +7,8 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::octave::Octave;
-use crate::ramp::{OnRamp, Place, Segment};
+use crate::ramp::{FOR_DELAY, FOR_FRACTION, OnRamp, Place, Segment, Units, whole_mass};
+use crate::series::Enough;
 use crate::wide::Wide;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +20,10 @@ pub(crate) struct Profile<const CELLS: usize> {
     plateau_mass: f64,
     /// The significand of `K = 1/A`, its top bit set.
     reciprocal: u32,
-    /// A power of two in which the curve's times count at most 2⁶¹.
-    unit: f32,
+    /// The exponent of the unit in which the curve's times count at most 2⁶¹.
+    unit: i16,
+    /// The exponent of the unit of the ramps' openness.
+    openness: i16,
     /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
@@ -49,7 +52,7 @@ struct Line {
 impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(profile: &Profile<CELLS>) -> Self {
-        let unit = profile.unit as f64;
+        let unit = profile.unit_of_time() as f64;
         let [from, to] = profile.plateau;
         Self {
             base: profile.base as f64 * unit,
@@ -116,9 +119,8 @@ impl<const CELLS: usize> Profile<CELLS> {
         if let Err(error) = closing.check_ramp(Ramp::Closing, most) {
             return Err(error);
         }
-        let ramps = [Segment::new(opening), Segment::new(closing)];
         let plateau_mass = s[0] - t[3];
-        let area = (ramps[0].mass + ramps[1].mass) + plateau_mass;
+        let area = (whole_mass(opening) + whole_mass(closing)) + plateau_mass;
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
@@ -130,9 +132,15 @@ impl<const CELLS: usize> Profile<CELLS> {
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
-        let (from, to) = (t[0].abs(), s[3].abs());
-        let exponent = ((if from > to { from } else { to }).to_bits() >> 52) as i32 - 1023 - 60;
-        let unit = f32::from_bits(((exponent + 127) as u32) << 23);
+        let (f, g) = (opening.opennesses(), closing.opennesses());
+        let greatest = exponent(&[f[0], f[1], f[2], f[3], g[0], g[1], g[2], g[3]]);
+        let units = Units {
+            time: Units::of(exponent(&[t[0], s[3]])),
+            openness: Units::of(greatest),
+            mass: Units::of(exponent(&[area])),
+        };
+        let ramps = [Segment::new(opening, units), Segment::new(closing, units)];
+        let exponent = units.time + 10;
         let (mut base, mut slope) = (0, 0);
         if plateau_mass > 0.0 {
             let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
@@ -140,8 +148,18 @@ impl<const CELLS: usize> Profile<CELLS> {
             slope = in_units(closing.points()[0].0, exponent) + last.in_units(exponent) - base;
         }
         let plateau = [0; 2];
-        let mut profile =
-            Self { ramps, area, plateau_mass, reciprocal, unit, base, slope, plateau, octaves };
+        let mut profile = Self {
+            ramps,
+            area,
+            plateau_mass,
+            reciprocal,
+            unit: exponent as i16,
+            openness: units.openness as i16,
+            base,
+            slope,
+            plateau,
+            octaves,
+        };
         let [from, to] = profile.bounds(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
         // Where the curve lies too far from time 0 for its unit, the exact way serves.
@@ -161,6 +179,13 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) const fn bounds(&self, side: usize) -> [f64; 2] {
         let first = self.ramp(side).mass;
         [first / self.area, (first + self.plateau_mass) / self.area]
+    }
+
+    /// The units of the ramps' series.
+    #[inline(always)]
+    const fn units(&self) -> Units {
+        let area = (self.area.to_bits() >> 52) as i32 - 1023;
+        Units { time: self.unit() - 10, openness: self.openness as i32, mass: Units::of(area) }
     }
 
     pub(crate) const fn open_start(&self) -> f32 {
@@ -186,7 +211,11 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The exponent of the unit of time.
     pub(crate) const fn unit(&self) -> i32 {
-        (self.unit.to_bits() >> 23) as i32 - 127
+        self.unit as i32
+    }
+
+    const fn unit_of_time(&self) -> f32 {
+        f32::from_bits(((127 + self.unit()) as u32) << 23)
     }
 
     /// The time from which this side counts, in units.
@@ -218,11 +247,11 @@ impl<const CELLS: usize> Profile<CELLS> {
             return Section::Ramp(side, mass);
         }
         let beyond = mass.minus(first);
-        let plateau = Wide::from_f64(self.plateau_mass);
-        if !beyond.exceeds(plateau) {
+        let behind = beyond.minus(Wide::from_f64(self.plateau_mass));
+        if behind.is_zero() {
             return Section::Plateau(self.on_plateau(side, beyond));
         }
-        Section::Ramp(1 - side, beyond.minus(plateau))
+        Section::Ramp(1 - side, behind)
     }
 
     const fn on_plateau(&self, side: usize, elapsed: Wide) -> Place {
@@ -230,12 +259,12 @@ impl<const CELLS: usize> Profile<CELLS> {
         Place::new(time, side == 1, elapsed)
     }
 
-    /// The place where the fraction `a` of the exposure has been collected, from a side; exact.
+    /// The place where a mass has been collected, from a side, by the solver.
     #[inline(always)]
-    fn exact(&self, side: usize, mass: Wide, guess: impl FnOnce() -> i32) -> Place {
+    fn exact(&self, side: usize, mass: Wide, enough: Enough) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, guess),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, self.units(), enough),
         }
     }
 
@@ -244,7 +273,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         let mass = a.times(Wide::from_f64(self.area));
         let place = match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass, self.units()),
         };
         let elapsed = place.elapsed().to_f64();
         let way = if side == 0 {
@@ -253,14 +282,6 @@ impl<const CELLS: usize> Profile<CELLS> {
             self.start(1) as f64 - place.time as f64
         };
         if place.back == (side == 1) { way + elapsed } else { way - elapsed }
-    }
-
-    /// How far into its ramp the fraction `a` has been collected, from the end that faces the side.
-    pub(crate) const fn fraction(&self, side: usize, a: Wide) -> f64 {
-        match self.section(side, a.times(Wide::from_f64(self.area))) {
-            Section::Plateau(_) => 1.0,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).fraction(side, mass),
-        }
     }
 
     /// What an error in time is relative to: the time itself, or, where the curve runs across time 0,
@@ -307,13 +328,6 @@ impl<const CELLS: usize> Profile<CELLS> {
         None
     }
 
-    /// How far into its ramp a search for `a`, by its bits, may start, if an octave knows it.
-    #[inline(always)]
-    fn guess(&self, side: usize, a: u32) -> i32 {
-        let index = (0.25f32.to_bits() >> 23).wrapping_sub(a >> 23) as usize;
-        if index < CELLS { self.octaves[side & 1][index].guess(a) } else { 0 }
-    }
-
     /// The time by which the fraction `u` of the exposure has been collected.
     #[inline]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
@@ -346,7 +360,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     #[inline(always)]
     fn rounded(&self, time: i64) -> f32 {
         if DOUBLES {
-            return time as f32 * self.unit;
+            return time as f32 * self.unit_of_time();
         }
         // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
         // upper word, the lower one only has to say whether it is 0.
@@ -358,7 +372,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         };
         let time = time << up;
         let high = (time >> 32) as i32 | (time as u32 != 0) as i32;
-        high as f32 * (self.unit * f32::from_bits((127 + 32 - up) << 23))
+        high as f32 * f32::from_bits(((127 + 32 - up as i32 + self.unit()) as u32) << 23)
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) by the exact way: the start or the end for what is no fraction.
@@ -368,7 +382,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     #[inline(never)]
     fn solved(&self, side: usize, a: f32) -> f32 {
         if a > 0.0 {
-            self.exact(side, self.share(a), || self.guess(side, a.to_bits())).time()
+            self.exact(side, self.share(a), FOR_FRACTION).time()
         } else {
             self.start(side)
         }
@@ -379,7 +393,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
         if a > 0.0 && self.in_octave(side, a.to_bits(), 0).is_none() {
-            self.exact(side, self.share(a), || self.guess(side, a.to_bits())).evaluations
+            self.exact(side, self.share(a), FOR_FRACTION).evaluations
         } else {
             0
         }
@@ -444,7 +458,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// How long after the curve's start the fraction `a`, in (0, 1/2], has been collected from a side.
     pub(crate) fn delay(&self, side: usize, a: Wide) -> Wide {
-        let place = self.exact(side, a.times(Wide::from_f64(self.area)), || 0);
+        let place = self.exact(side, a.times(Wide::from_f64(self.area)), FOR_DELAY);
         let base = Wide::between(self.open_start(), place.time);
         if place.back { base.minus(place.elapsed()) } else { base.plus(place.elapsed()) }
     }
@@ -458,11 +472,11 @@ impl<const CELLS: usize> Profile<CELLS> {
         if !(t >= start && t <= self.close_end()) {
             At::Outside
         } else if t < end || (t == end && !plateau && start < end) {
-            At::Opening(self.ramps[0].at_time(t))
+            At::Opening(self.ramps[0].at_time(t, self.units()))
         } else if plateau && t <= self.close_start() {
             At::Plateau
         } else {
-            At::Closing(self.ramps[1].at_time(t))
+            At::Closing(self.ramps[1].at_time(t, self.units()))
         }
     }
 
@@ -501,6 +515,16 @@ impl<const CELLS: usize> Profile<CELLS> {
         let k = Wide { m: (self.reciprocal as u64) << 32, e };
         x.times(k).to_f32()
     }
+}
+
+/// The exponent of the greatest magnitude.
+const fn exponent(x: &[f64]) -> i32 {
+    let (mut i, mut most) = (0, 0.0);
+    while i < x.len() {
+        most = if x[i].abs() > most { x[i].abs() } else { most };
+        i += 1;
+    }
+    (most.to_bits() >> 52) as i32 - 1023
 }
 
 /// A time in units of `2^e`.

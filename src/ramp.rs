@@ -1,21 +1,38 @@
 //! A ramp: one Bezier, seen from both of its ends.
 
 use crate::bezier::CubicBezier;
-use crate::seed::{seed, seed_by_bits, seed_from};
-use crate::series::{Coefficient, Enough, Root, Seed, Series, solve};
+use crate::seed::{seed, seed_by_bits};
+use crate::series::{Enough, Root, Seed, Series, series, solve};
 use crate::wide::{Wide, sum};
 
-/// For the mass, in a flat place, an eighth of the least distance between neighbouring `u`, so that these
-/// keep their order.
-const MASS_ENOUGH: Enough =
-    Enough { near: bits(10), slope: bits(-1), flat: bits(27), middle: false };
-/// For the time all the bits there are, since openness and mass may be steep where time is flat.
-const TIME_ENOUGH: Enough =
-    Enough { near: bits(23), slope: bits(12), flat: bits(60), middle: true };
+/// For an `f32` fraction of the mass; in a flat place an eighth of the least distance between neighbours, so that
+/// these keep their order.
+pub(crate) const FOR_FRACTION: Enough =
+    Enough { near: bits(10), slope: bits(-7), flat: bits(27), middle: false };
+/// For a fraction with more bits, and a time that is to be known to 2⁻³⁸.
+pub(crate) const FOR_DELAY: Enough =
+    Enough { near: bits(20), slope: bits(-17), flat: bits(38), middle: false };
+/// For a time all the bits there are, since openness and mass may be steep where time is flat.
+const FOR_TIME: Enough = Enough { near: bits(23), slope: bits(-20), flat: bits(44), middle: true };
 
 /// `2^-n`
 const fn bits(n: i32) -> f32 {
     f32::from_bits(((127 - n) as u32) << 23)
+}
+
+/// The exponents of the units in which the series of a curve count.
+#[derive(Clone, Copy)]
+pub(crate) struct Units {
+    pub(crate) time: i32,
+    pub(crate) openness: i32,
+    pub(crate) mass: i32,
+}
+
+impl Units {
+    /// The unit for quantities up to `2^exponent`: these count 2⁷⁰, and so what is 2⁻¹⁷⁰ of them keeps its bits too.
+    pub(crate) const fn of(exponent: i32) -> i32 {
+        exponent - 70
+    }
 }
 
 /// Everything about a ramp measured from one of its ends: `p` is 0 here and 1 at the other end.
@@ -35,41 +52,66 @@ pub(crate) struct End {
 
 impl End {
     /// The end at `P0` where `!last`, at `P3` where `last`.
-    const fn new(curve: &CubicBezier, last: bool) -> (Self, f64) {
+    const fn new(curve: &CubicBezier, last: bool, units: Units) -> Self {
         let points = curve.points();
         let (time, openness) = if last { points[3] } else { points[0] };
-        let b = powers(curve.times(), last);
-        let a = powers(curve.opennesses(), last);
-        // Away from the last end time runs down; what has elapsed runs up from both.
-        let sign = if last { -1.0 } else { 1.0 };
-        let b = [sign * b[0], sign * b[1], sign * b[2]];
-        let f = openness as f64;
-        // The product of f = f0 + a1 p + a2 p² + a3 p³ and t' = b1 + 2 b2 p + 3 b3 p², integrated.
-        let m = [
-            f * b[0],
-            (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
-            (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
-            (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
-            (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
-            a[2] * b[2] / 2.0,
-        ];
-        let total = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
-        let end = Self { time, openness, elapsed: cubic(b), gained: cubic(a), mass: sextic(m) };
-        (end, total)
+        Self {
+            time,
+            openness,
+            elapsed: series(elapsed(curve, last), units.time),
+            gained: series(powers(curve.opennesses(), last), units.openness),
+            mass: series(mass(curve, last), units.mass),
+        }
     }
 
-    /// The place where `mass` has been collected from here, the end with index `from`.
+    /// The place where `mass`, in its unit, has been collected from here, the end with index `from`.
     #[inline(always)]
-    const fn at_mass(&self, from: usize, mass: Wide, seed: Seed) -> Place {
+    const fn at_mass(
+        &self,
+        from: usize,
+        mass: Wide,
+        seed: Seed,
+        units: Units,
+        enough: Enough,
+    ) -> Place {
         let (time, back) = (self.time, from == 1);
-        if mass.is_zero() {
-            return Place { time, back, elapsed: 0, unit: 0, evaluations: 0 };
-        }
-        let root = solve(&self.mass, mass, seed, MASS_ENOUGH);
+        let root = solve(&self.mass, mass, seed, enough);
         let (elapsed, unit) = root.value(&self.elapsed);
         let elapsed = if elapsed < 0 { 0 } else { elapsed as u64 };
-        Place { time, back, elapsed, unit, evaluations: root.evaluations }
+        Place { time, back, elapsed, unit: unit + units.time, evaluations: root.evaluations }
     }
+}
+
+/// The time elapsed since an end, by powers of `p`.
+const fn elapsed(curve: &CubicBezier, last: bool) -> [f64; 3] {
+    let b = powers(curve.times(), last);
+    // Away from the last end time runs down; what has elapsed runs up from both.
+    if last { [-b[0], -b[1], -b[2]] } else { b }
+}
+
+/// The mass since an end, by powers of `p`: the product of `f = f0 + a1 p + a2 p² + a3 p³` and
+/// `t' = b1 + 2 b2 p + 3 b3 p²`, integrated.
+const fn mass(curve: &CubicBezier, last: bool) -> [f64; 6] {
+    let f = curve.opennesses()[if last { 3 } else { 0 }];
+    let a = powers(curve.opennesses(), last);
+    let b = elapsed(curve, last);
+    [
+        f * b[0],
+        (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
+        (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
+        (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
+        (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
+        a[2] * b[2] / 2.0,
+    ]
+}
+
+/// `∫ f dt` over a ramp, the same for a mirrored one.
+pub(crate) const fn whole_mass(curve: &CubicBezier) -> f64 {
+    let (m, n) = (mass(curve, false), mass(curve, true));
+    let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
+    let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
+    // A density that grazes 0 from below can leave a mass below 0 by rounding.
+    if first + last > 0.0 { 0.5 * (first + last) } else { 0.0 }
 }
 
 /// A cubic's coefficients of `p`, `p²` and `p³`, from its Bernstein coefficients, measured from the
@@ -77,16 +119,6 @@ impl End {
 const fn powers(v: [f64; 4], last: bool) -> [f64; 3] {
     let [v0, v1, v2, v3] = if last { [v[3], v[2], v[1], v[0]] } else { v };
     [3.0 * (v1 - v0), 3.0 * ((v2 - v1) - (v1 - v0)), (v3 - v0) - 3.0 * (v2 - v1)]
-}
-
-const fn cubic(c: [f64; 3]) -> Series<3> {
-    [Coefficient::new(c[0]), Coefficient::new(c[1]), Coefficient::new(c[2])]
-}
-
-const fn sextic(c: [f64; 6]) -> Series<6> {
-    let [c1, c2, c3, c4, c5, c6] = c;
-    let ([c1, c2, c3], [c4, c5, c6]) = (cubic([c1, c2, c3]), cubic([c4, c5, c6]));
-    [c1, c2, c3, c4, c5, c6]
 }
 
 /// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
@@ -102,6 +134,11 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// An end.
+    const fn at(time: f32) -> Self {
+        Self { time, back: false, elapsed: 0, unit: 0, evaluations: 0 }
+    }
+
     /// A place on the plateau.
     pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
         let Wide { m, e } = elapsed;
@@ -130,13 +167,9 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    pub(crate) const fn new(curve: &CubicBezier) -> Self {
-        let (first, mass) = End::new(curve, false);
-        let (last, again) = End::new(curve, true);
-        // The mean is the same from both ends, and so for a mirrored ramp. A density that grazes 0 from
-        // below can leave a mass below 0 by rounding.
-        let mass = 0.5 * (mass + again);
-        Self { ends: [first, last], mass: if mass > 0.0 { mass } else { 0.0 } }
+    pub(crate) const fn new(curve: &CubicBezier, units: Units) -> Self {
+        let ends = [End::new(curve, false, units), End::new(curve, true, units)];
+        Self { ends, mass: whole_mass(curve) }
     }
 
     /// An end by its index, which is 0 or 1.
@@ -153,44 +186,32 @@ impl Segment {
         if mass.exceeds(half) { (1 - from, all.minus(mass)) } else { (from, mass) }
     }
 
-    /// The place where `mass` has been collected, counted from end `from`, which may be about `guess`, in
-    /// units of 2⁻¹⁸, from there.
+    /// The place where `mass` has been collected, counted from end `from`.
     #[inline(always)]
-    pub(crate) fn at_mass(&self, from: usize, mass: Wide, guess: impl FnOnce() -> i32) -> Place {
-        let (near, mass) = self.nearer(from, mass);
-        let end = self.end(near);
-        let guess = guess();
-        let guess = if near == from { guess } else { (1 << 18) - guess };
-        // Less than 2⁻⁸ is not a guess to rely on.
-        let seed = if guess > 1 << 10 && guess < 1 << 18 {
-            seed_from(guess)
-        } else {
-            seed(&end.mass, mass)
-        };
-        end.at_mass(near, mass, seed)
+    pub(crate) fn at_mass(&self, from: usize, mass: Wide, units: Units, enough: Enough) -> Place {
+        let (from, mass) = self.nearer(from, mass);
+        let end = self.end(from);
+        if mass.is_zero() {
+            return Place::at(end.time);
+        }
+        let mass = mass.in_unit(units.mass);
+        end.at_mass(from, mass, seed(&end.mass, mass), units, enough)
     }
 
     /// The same, seeded as a constant can.
-    pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide) -> Place {
-        let (near, mass) = self.nearer(from, mass);
-        let end = self.end(near);
-        end.at_mass(near, mass, seed_by_bits(&end.mass, mass))
-    }
-
-    /// How far into the ramp that is, from end `from`.
-    pub(crate) const fn fraction(&self, from: usize, mass: Wide) -> f64 {
-        let (near, mass) = self.nearer(from, mass);
+    pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide, units: Units) -> Place {
+        let (from, mass) = self.nearer(from, mass);
+        let end = self.end(from);
         if mass.is_zero() {
-            return if near == from { 0.0 } else { 1.0 };
+            return Place::at(end.time);
         }
-        let series = &self.end(near).mass;
-        let p = solve(series, mass, seed_by_bits(series, mass), MASS_ENOUGH).place();
-        if near == from { p } else { 1.0 - p }
+        let mass = mass.in_unit(units.mass);
+        end.at_mass(from, mass, seed_by_bits(&end.mass, mass), units, FOR_FRACTION)
     }
 
     /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.
     #[inline]
-    pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
+    pub(crate) fn at_time(&self, t: f32, units: Units) -> OnRamp<'_> {
         let before = Wide::between(self.ends[0].time, t);
         let after = Wide::between(t, self.ends[1].time);
         let (from, elapsed) = if before.exceeds(after) { (1, after) } else { (0, before) };
@@ -198,9 +219,10 @@ impl Segment {
         let root = if elapsed.is_zero() {
             Root::START
         } else {
-            solve(&end.elapsed, elapsed, seed(&end.elapsed, elapsed), TIME_ENOUGH)
+            let elapsed = elapsed.in_unit(units.time);
+            solve(&end.elapsed, elapsed, seed(&end.elapsed, elapsed), FOR_TIME)
         };
-        OnRamp { from, end, root }
+        OnRamp { from, end, root, units }
     }
 }
 
@@ -209,6 +231,7 @@ pub(crate) struct OnRamp<'a> {
     pub(crate) from: usize,
     end: &'a End,
     root: Root,
+    units: Units,
 }
 
 impl OnRamp<'_> {
@@ -216,7 +239,8 @@ impl OnRamp<'_> {
     #[inline]
     pub(crate) fn openness(&self) -> Wide {
         let (gained, unit) = self.root.value(&self.end.gained);
-        let (gained, negative) = (Wide::new(gained.unsigned_abs(), unit), gained < 0);
+        let (gained, negative) =
+            (Wide::new(gained.unsigned_abs(), unit + self.units.openness), gained < 0);
         let end = Wide::from_f32(self.end.openness);
         // The end itself may graze 0 from below.
         match (self.end.openness < 0.0, negative) {
@@ -231,6 +255,6 @@ impl OnRamp<'_> {
     #[inline]
     pub(crate) fn mass(&self) -> Wide {
         let (mass, unit) = self.root.value(&self.end.mass);
-        if mass < 0 { Wide::ZERO } else { Wide::new(mass as u64, unit) }
+        if mass < 0 { Wide::ZERO } else { Wide::new(mass as u64, unit + self.units.mass) }
     }
 }

@@ -6,8 +6,8 @@
 //! where it is a second or fourth one, by `libm` or `micromath` if these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
 
-use crate::series::{Coefficient, Seed, times_high};
-use crate::wide::Wide;
+use crate::series::{Pair, Seed};
+use crate::wide::{Wide, times_high};
 
 /// Logarithms here have 20 fraction bits, as many as the upper half of an `f64` has of significand.
 const ONE: i32 = 1 << 20;
@@ -40,11 +40,11 @@ const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 21474836
 
 /// `x / k` for `k` up to 6, near enough, without a division that could fail.
 const fn divided(x: i32, k: i32) -> i32 {
-    times_high(x, RECIPROCALS[(k & 7) as usize]) << 2
+    times_high(x << 2, RECIPROCALS[(k & 7) as usize])
 }
 
 #[inline(always)]
-const fn leading(c: &[Coefficient], log: i32) -> Leading {
+const fn leading(c: &[Pair], log: i32) -> Leading {
     // The least root, with its `k` for the lowest bits.
     let mut least = i32::MAX;
     let mut i = 0;
@@ -62,40 +62,31 @@ const fn leading(c: &[Coefficient], log: i32) -> Leading {
     Leading { k, target: log, divisor }
 }
 
-/// The seed `2^exponent (1 + fraction / ONE)`, at most 1, in the scale where it lies in [1/8, 1/4) or, from
-/// 1/4 up, in the largest.
+/// The seed `2^exponent (1 + fraction / ONE)`, at most 1.
 const fn seed_at(exponent: i32, fraction: i32) -> Seed {
     if exponent >= 0 {
-        return Seed { x: i32::MAX - (1 << 20), shift: -1 };
+        return Seed { x: 0.125f32.next_down(), shift: -3 };
     }
-    let shift = if exponent < -2 { -exponent - 3 } else { -1 };
-    Seed { x: (ONE + fraction) << (exponent + shift + 12), shift }
+    Seed { x: f32::from_bits(0.125f32.to_bits() + (fraction << 3) as u32), shift: -3 - exponent }
 }
 
 /// The guess from logarithms alone; all that a constant can use.
 #[inline(always)]
-pub(crate) const fn seed_by_bits(c: &[Coefficient], target: Wide) -> Seed {
+pub(crate) const fn seed_by_bits(c: &[Pair], target: Wide) -> Seed {
     root_by_bits(c, rough_log(target))
 }
 
 #[inline(never)]
-const fn root_by_bits(c: &[Coefficient], log: i32) -> Seed {
+const fn root_by_bits(c: &[Pair], log: i32) -> Seed {
     let l = leading(c, log);
     let ratio = (l.target + curvature(l.target)) - (l.divisor + curvature(l.divisor));
     let root = divided(ratio, l.k);
     seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
 }
 
-/// A guess that stands in the curve, in units of 2⁻¹⁸.
-pub(crate) const fn seed_from(guess: i32) -> Seed {
-    let shift = guess.leading_zeros() as i32 - 16;
-    let shift = if shift < -1 { -1 } else { shift };
-    Seed { x: guess << ((shift + 14) & 31), shift }
-}
-
 /// The guess by the root that the features choose.
 #[inline]
-pub(crate) fn seed(c: &[Coefficient], target: Wide) -> Seed {
+pub(crate) fn seed(c: &[Pair], target: Wide) -> Seed {
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let l = leading(c, rough_log(target));

@@ -60,6 +60,11 @@ impl Wide {
         self.m as f64 * f64::from_bits(((self.e + 1023) as u64) << 52)
     }
 
+    /// The number counted in units of `2^unit`.
+    pub(crate) const fn in_unit(self, unit: i32) -> Self {
+        Self { m: self.m, e: self.e - unit }
+    }
+
     pub(crate) const fn is_zero(self) -> bool {
         self.m == 0
     }
@@ -141,9 +146,8 @@ impl Wide {
         if down > 30 {
             return 0.0;
         }
-        let m = self.m >> down;
-        let lost = m << down != self.m || m << 31 != 0;
-        f32::from_bits(nearest((m >> 33) as u32 | lost as u32))
+        let m = (self.m >> 33) as u32 | (self.m << 31 != 0) as u32;
+        f32::from_bits(nearest(m >> down | (m >> down << down != m) as u32))
     }
 }
 
@@ -183,4 +187,10 @@ pub(crate) const fn sum(base: f32, way: u64, unit: i32, back: bool) -> f32 {
 #[inline(always)]
 const fn shifted(x: u64, down: i32) -> u64 {
     x >> if down < 63 { down } else { 63 }
+}
+
+/// `a x`, in 32 bits, where `x` counts 2⁻³².
+#[inline(always)]
+pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
+    ((a as i64 * x as i64) >> 32) as i32
 }

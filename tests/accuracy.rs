@@ -211,27 +211,6 @@ fn nearly_flat_places() {
     );
 }
 
-/// An octave that a flat place keeps from having a polynomial guesses where the search starts.
-#[test]
-fn octaves_without_a_polynomial_guess_well() {
-    for name in ["f_touch0", "f_near0", "vert_tangent_mid", "t_ctl_outside"] {
-        let one = named().into_iter().find(|one| one.name == name).expect(name);
-        let (with, without) = (shutter::<8>(&one.curve), shutter::<0>(&one.curve));
-        // Beyond the last octave there is nothing to guess from.
-        let evaluations = (1..20_000u32)
-            .map(|i| i as f32 / 20_000.0)
-            .filter(|u| (0.004..0.996).contains(u))
-            .map(|u| (with.evaluations(u), without.evaluations(u)))
-            .filter(|(with, _)| *with > 0);
-        let (solved, with, without, most) = evaluations
-            .fold((0, 0, 0, 0), |(n, a, b, most), (with, without)| {
-                (n + 1, a + with, b + without, most.max(with))
-            });
-        println!("{name}: {solved} solved, {with} evaluations, {without} without, {most} at most");
-        assert!(solved > 100 && 3 * with <= 2 * without && most <= 6);
-    }
-}
-
 /// cdf, openness and pdf, and what is known of the whole curve.
 fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 4]) {
     let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
