@@ -35,9 +35,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
     /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: above 2²⁴, the direct polynomials are
-    /// left aside for the exact solver, which places to a hundredth of a tick. Only where the openness dips to next to
-    /// nothing between the ends, below 1/100 or, towards 2³¹ ticks, 1/8, it is not the time that is kept so but the
-    /// fraction of the exposure, to half an ulp of `f32`.
+    /// left aside for the solver, which places to a thousandth of a tick. Only where the openness touches 0 between the
+    /// ends, so that many times have next to the same exposure, it is this that is kept, to 2⁻³⁸.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.

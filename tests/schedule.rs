@@ -4,6 +4,7 @@ mod cases;
 mod oracle;
 
 use cases::shutter;
+use oracle::curves::random_hard;
 use oracle::{Curve, Dd, Exact, Points};
 use shutter_curve::{CubicBezier, ShutterCurve, valid};
 
@@ -70,10 +71,12 @@ fn ticks_are_correct_to_the_tick() {
     let mirrored = [(0.625, 1.0), (0.75, 0.0), (0.875, 0.0), (1.0, 0.0)];
     let soft = [(0.0, 0.0), (0.125, 0.0), (0.25, 1.0), (0.5, 1.0)];
     let across = [(0.0, 1.0), (0.125, 1.0), (0.375, 0.0), (0.5, 0.0)];
+    let dip = [(0.0, 1.0), (0.125, -0.3333), (0.25, -0.3333), (0.375, 1.0)];
     let moved = |points: Points, by: f32| points.map(|(t, f)| (t + by, f));
     for (name, curve) in [
         ("pedestal", pedestal),
         ("ends of order p^4", Curve::shutter(order4, mirrored)),
+        ("a dip to 0.00003", Curve::shutter(dip, moved(dip, 0.625))),
         ("across time 0", Curve::shutter(moved(soft, -0.625), moved(across, -0.125))),
         ("far from time 0", Curve::shutter(moved(soft, 1024.0), moved(across, 1024.5))),
         ("far before time 0", Curve::shutter(moved(soft, -1024.0), moved(across, -1023.5))),
@@ -86,7 +89,7 @@ fn ticks_are_correct_to_the_tick() {
             (1 << 24, 0.501, 0.75),
             ((1 << 24) + 1, 0.0, 0.501),
             (168_000_000, 0.0, 0.501),
-            (1 << 31, 0.0, 0.51),
+            (1 << 31, 0.0, 0.501),
         ] {
             for n in [1, 2, 3, 17, 1000, 65_535] {
                 let error = worst(&curve, n, hz);
@@ -179,4 +182,22 @@ fn a_large_curve_is_a_constant_too() {
         CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
     ));
     assert_eq!(LARGE.inverse_cdf(0.5), 0.5);
+}
+
+/// Any curve, at the most ticks there may be.
+#[test]
+fn ticks_of_random_hard_curves() {
+    let mut checked = 0;
+    for i in 0..1000 {
+        let curve = random_hard(77, i);
+        let rate = (1u64 << 31) as f64 / (curve.close_end() as f64 - curve.open_start() as f64);
+        // Rounding the rate down leaves the last tick out.
+        if !(rate > 4096.0 && rate < u32::MAX as f64) || Exact::new(&curve).grazes() {
+            continue;
+        }
+        let error = worst(&curve, 301, rate as u32);
+        assert!(error <= 0.501, "{error} ticks at {rate} Hz: {curve:?}");
+        checked += 1;
+    }
+    assert!(checked > 300, "{checked}");
 }
