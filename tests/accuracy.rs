@@ -61,7 +61,8 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
         worst.backward = worst.backward.max(errors.backward);
         worst.evaluations = worst.evaluations.max(evaluations);
     }
-    assert!(worst.evaluations <= MAX_EVALUATIONS);
+    // A search that takes longer has lost its way, though the cap would end it.
+    assert!(worst.evaluations <= 16, "{} evaluations", worst.evaluations);
     assert_eq!(
         (curve.inverse_cdf(0.0), curve.inverse_cdf(1.0)),
         (curve.open_start(), curve.close_end())
