@@ -517,9 +517,9 @@ impl<const CELLS: usize> Profile<CELLS> {
     }
 }
 
-/// The exponent of the greatest magnitude.
+/// The exponent of the greatest magnitude, or, where all are 0, of the least there is in `f32`.
 const fn exponent(x: &[f64]) -> i32 {
-    let (mut i, mut most) = (0, 0.0);
+    let (mut i, mut most) = (0, f32::from_bits(1) as f64);
     while i < x.len() {
         most = if x[i].abs() > most { x[i].abs() } else { most };
         i += 1;

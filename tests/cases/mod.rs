@@ -166,6 +166,7 @@ const KNOWN: &[Case] = &[
         instant(0.75, 1.0),
         [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
     ),
+    Case::mirrored("dark ramps", line((0.0, 0.0), (0.25, 0.0))),
     Case::mirrored("ends of order p^2", line((0.0, 0.0), (0.25, 1.0))),
     Case::mirrored("ends of order p^3", [(0.0, 0.0), (0.0833, 0.0), (0.1667, 0.6), (0.25, 1.0)]),
     Case::mirrored("ends of order p^4", [(0.0, 0.0), (0.0833, 0.0), (0.1667, 0.0), (0.25, 1.0)]),
