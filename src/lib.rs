@@ -1,4 +1,29 @@
-#![doc = include_str!("../README.md")]
+//! How a camera's shutter opens, as a probability density: an opening cubic Bezier, a fully open plateau, a closing
+//! cubic Bezier, integrated in closed form and inverted to the last bit or so, in `f32` and without allocation.
+//!
+//! [`ShutterCurve`] is the shutter: [`inverse_cdf`](ShutterCurve::inverse_cdf) gives the time by which a fraction of the
+//! exposure has been collected, [`trigger_ticks`](ShutterCurve::trigger_ticks) the ticks of a timer at which pulses get
+//! equal shares of it. [`BezierPdf`] is one [`CubicBezier`] alone. Both are built by `const fn`s, and [`valid`] turns a wrong
+//! curve in a `static` into a compile error.
+//!
+//! ```
+//! use shutter_curve::{ShutterCurve, valid};
+//!
+//! // In flash, at no cost at run time: open_start, open_end, close_start and close_end in seconds, then the inner
+//! // control points of both ramps.
+//! static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
+//!     [0.0, 0.0025, 0.0075, 0.010],
+//!     [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
+//! ));
+//! assert_eq!(SHUTTER.inverse_cdf(0.5), 0.005);
+//! let ticks: Vec<u32> = SHUTTER.trigger_ticks(4, 1_000_000)?.collect();
+//! assert!(ticks.is_sorted() && ticks.len() == 4);
+//! # Ok::<(), shutter_curve::ScheduleError>(())
+//! ```
+//!
+//! The README has the promised accuracy, the cost on a microcontroller, the features and the limits; the sources, read in
+//! the order of the modules they use, the numerics.
+
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -19,3 +44,8 @@ pub use error::{CurveError, Ramp, ScheduleError, valid};
 pub use pdf::BezierPdf;
 pub use series::MAX_EVALUATIONS;
 pub use shutter::ShutterCurve;
+
+/// The README's code, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
