@@ -7,7 +7,7 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::octave::Octave;
-use crate::ramp::{FOR_DELAY, FOR_FRACTION, OnRamp, Place, Segment, Units, whole_mass};
+use crate::ramp::{FOR_DELAY, FOR_FRACTION, OnRamp, Place, Segment, whole_mass};
 use crate::series::Enough;
 use crate::wide::Wide;
 
@@ -22,7 +22,7 @@ pub(crate) struct Profile<const CELLS: usize> {
     reciprocal: u32,
     /// The exponent of the unit in which the curve's times count at most 2⁶¹.
     unit: i16,
-    /// The exponent of the unit of the ramps' openness.
+    /// The exponent of the greatest openness.
     openness: i16,
     /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
@@ -133,14 +133,9 @@ impl<const CELLS: usize> Profile<CELLS> {
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
         let (f, g) = (opening.opennesses(), closing.opennesses());
-        let greatest = exponent(&[f[0], f[1], f[2], f[3], g[0], g[1], g[2], g[3]]);
-        let units = Units {
-            time: Units::of(exponent(&[t[0], s[3]])),
-            openness: Units::of(greatest),
-            mass: Units::of(exponent(&[area])),
-        };
-        let ramps = [Segment::new(opening, units), Segment::new(closing, units)];
-        let exponent = units.time + 10;
+        let openness = exponent(&[f[0], f[1], f[2], f[3], g[0], g[1], g[2], g[3]]);
+        let ramps = [Segment::new(opening, openness), Segment::new(closing, openness)];
+        let exponent = exponent(&[t[0], s[3]]) - 60;
         let (mut base, mut slope) = (0, 0);
         if plateau_mass > 0.0 {
             let (first, last) = (Wide::from_f64(ramps[0].mass), Wide::from_f64(ramps[1].mass));
@@ -154,7 +149,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             plateau_mass,
             reciprocal,
             unit: exponent as i16,
-            openness: units.openness as i16,
+            openness: openness as i16,
             base,
             slope,
             plateau,
@@ -179,13 +174,6 @@ impl<const CELLS: usize> Profile<CELLS> {
     pub(crate) const fn bounds(&self, side: usize) -> [f64; 2] {
         let first = self.ramp(side).mass;
         [first / self.area, (first + self.plateau_mass) / self.area]
-    }
-
-    /// The units of the ramps' series.
-    #[inline(always)]
-    const fn units(&self) -> Units {
-        let area = (self.area.to_bits() >> 52) as i32 - 1023;
-        Units { time: self.unit() - 10, openness: self.openness as i32, mass: Units::of(area) }
     }
 
     pub(crate) const fn open_start(&self) -> f32 {
@@ -264,7 +252,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     fn exact(&self, side: usize, mass: Wide, enough: Enough) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, self.units(), enough),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, enough),
         }
     }
 
@@ -273,7 +261,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         let mass = a.times(Wide::from_f64(self.area));
         let place = match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass, self.units()),
+            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
         };
         let elapsed = place.elapsed().to_f64();
         let way = if side == 0 {
@@ -472,11 +460,11 @@ impl<const CELLS: usize> Profile<CELLS> {
         if !(t >= start && t <= self.close_end()) {
             At::Outside
         } else if t < end || (t == end && !plateau && start < end) {
-            At::Opening(self.ramps[0].at_time(t, self.units()))
+            At::Opening(self.ramps[0].at_time(t, self.openness as i32))
         } else if plateau && t <= self.close_start() {
             At::Plateau
         } else {
-            At::Closing(self.ramps[1].at_time(t, self.units()))
+            At::Closing(self.ramps[1].at_time(t, self.openness as i32))
         }
     }
 

@@ -20,18 +20,21 @@ const fn bits(n: i32) -> f32 {
     f32::from_bits(((127 - n) as u32) << 23)
 }
 
-/// The exponents of the units in which the series of a curve count.
+/// The exponents of the units in which a ramp's series count: its length, its mass and the curve's greatest openness
+/// count some 2¹⁰⁰, and so what is 2⁻²⁰⁰ of them keeps its bits too.
 #[derive(Clone, Copy)]
 pub(crate) struct Units {
-    pub(crate) time: i32,
-    pub(crate) openness: i32,
-    pub(crate) mass: i32,
+    time: i32,
+    openness: i32,
+    mass: i32,
 }
 
 impl Units {
-    /// The unit for quantities up to `2^exponent`: these count 2⁷⁰, and so what is 2⁻¹⁷⁰ of them keeps its bits too.
-    pub(crate) const fn of(exponent: i32) -> i32 {
-        exponent - 70
+    #[inline(always)]
+    const fn new(length: f32, openness: i32, mass: f64) -> Self {
+        let length = (length.to_bits() >> 23) as i32 - 127;
+        let mass = (mass.to_bits() >> 52) as i32 - 1023;
+        Self { time: length - 100, openness: openness - 100, mass: mass - 100 }
     }
 }
 
@@ -167,9 +170,17 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    pub(crate) const fn new(curve: &CubicBezier, units: Units) -> Self {
-        let ends = [End::new(curve, false, units), End::new(curve, true, units)];
-        Self { ends, mass: whole_mass(curve) }
+    /// A ramp of a curve whose greatest openness is about `2^openness`.
+    pub(crate) const fn new(curve: &CubicBezier, openness: i32) -> Self {
+        let (first, last) = (curve.points()[0], curve.points()[3]);
+        let mass = whole_mass(curve);
+        let units = Units::new(last.0 - first.0, openness, mass);
+        Self { ends: [End::new(curve, false, units), End::new(curve, true, units)], mass }
+    }
+
+    #[inline(always)]
+    const fn units(&self, openness: i32) -> Units {
+        Units::new(self.ends[1].time - self.ends[0].time, openness, self.mass)
     }
 
     /// An end by its index, which is 0 or 1.
@@ -188,9 +199,9 @@ impl Segment {
 
     /// The place where `mass` has been collected, counted from end `from`.
     #[inline(always)]
-    pub(crate) fn at_mass(&self, from: usize, mass: Wide, units: Units, enough: Enough) -> Place {
+    pub(crate) fn at_mass(&self, from: usize, mass: Wide, enough: Enough) -> Place {
         let (from, mass) = self.nearer(from, mass);
-        let end = self.end(from);
+        let (end, units) = (self.end(from), self.units(0));
         if mass.is_zero() {
             return Place::at(end.time);
         }
@@ -199,9 +210,9 @@ impl Segment {
     }
 
     /// The same, seeded as a constant can.
-    pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide, units: Units) -> Place {
+    pub(crate) const fn at_mass_const(&self, from: usize, mass: Wide) -> Place {
         let (from, mass) = self.nearer(from, mass);
-        let end = self.end(from);
+        let (end, units) = (self.end(from), self.units(0));
         if mass.is_zero() {
             return Place::at(end.time);
         }
@@ -211,7 +222,8 @@ impl Segment {
 
     /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.
     #[inline]
-    pub(crate) fn at_time(&self, t: f32, units: Units) -> OnRamp<'_> {
+    pub(crate) fn at_time(&self, t: f32, openness: i32) -> OnRamp<'_> {
+        let units = self.units(openness);
         let before = Wide::between(self.ends[0].time, t);
         let after = Wide::between(t, self.ends[1].time);
         let (from, elapsed) = if before.exceeds(after) { (1, after) } else { (0, before) };

@@ -395,3 +395,65 @@ fn scaled_times_give_scaled_answers() {
         }
     }
 }
+
+/// Ramps, openness and intervals as far apart as `f32` and the limits of a curve let them be; some are refused, since
+/// `f32` does not hold their area or its reciprocal.
+#[test]
+fn extremes() {
+    let line = |a, b| CubicBezier::line(a, b).points();
+    let mut curves = Vec::new();
+    for end in [1.8e19f32, 1.0, 1e-10] {
+        let closing = line((end * 0.5, 1.0), (end, 0.0));
+        for ramp in [1e-45f32, 1e-42, 1e-40, 1e-38, 1e-30, 1e-20, 1e-11] {
+            let late = [(0.0, 0.0), (ramp * 0.25, 0.0), (ramp * 0.5, 1.0), (ramp, 1.0)];
+            curves.push(Curve::shutter(line((0.0, 0.0), (ramp, 1.0)), closing));
+            curves.push(Curve::shutter(late, closing));
+            let (dark, darker) =
+                (line((0.0, 1.0), (ramp, 1e-38)), line((ramp, 1e-38), (end, 1e-30)));
+            curves.push(Curve::shutter(dark, darker));
+        }
+    }
+    for height in [1e-37f32, 1e-30, 1e-20, 1.0, 1e20, 1e30, 3e38] {
+        for length in [6e-20f32, 1e-10, 1.0, 1e10, 1.8e19] {
+            let at = |t: f32, f: f32| (length * t, height * f);
+            curves.push(Curve::single([at(0.0, 0.0), at(0.3, 0.0), at(0.6, 1.0), at(1.0, 1.0)]));
+            curves.push(Curve::single([at(0.0, 1.0), at(0.3, 1e-30), at(0.6, 0.0), at(1.0, 1.0)]));
+            curves.push(Curve::single(line(at(0.0, 1.0), at(1.0, 1e-20))));
+        }
+    }
+    let mut checked = 0;
+    for curve in curves {
+        let [opening, closing] = [curve.opening, curve.closing].map(CubicBezier::new);
+        let exact = Exact::new(&curve);
+        let mut us = hard_us(&exact, 11, 8);
+        us.sort_by(f32::total_cmp);
+        let mut ts: Vec<f32> = if curve.is_shutter {
+            let Ok(shutter) = ShutterCurve::<8>::with_cells(opening, closing) else { continue };
+            judge::<0>(&exact, &us, &mut Worst::default());
+            judge::<8>(&exact, &us, &mut Worst::default());
+            us.iter().map(|u| shutter.inverse_cdf(*u)).collect()
+        } else {
+            let Ok(pdf) = BezierPdf::<8>::with_cells(opening) else { continue };
+            us.iter().map(|u| pdf.inverse_cdf(*u)).collect()
+        };
+        assert!(ts.is_sorted());
+        ts.extend((0..=40).map(|i| curve.opening[3].0 * (i as f32 / 40.0)));
+        ts.extend((0..20).map(f32::from_bits));
+        for t in ts.into_iter().filter(|t| *t <= curve.close_end()) {
+            let (cdf, pdf) = if curve.is_shutter {
+                let curve = ShutterCurve::<0>::with_cells(opening, closing).unwrap();
+                let error = exact.openness_ulp(curve.opening(t), t, 0.0);
+                assert!(error <= VALUE, "opening({t:e}) {error} ulp of {curve:?}");
+                (curve.cdf(t), curve.pdf(t))
+            } else {
+                let pdf = BezierPdf::<0>::with_cells(opening).unwrap();
+                (pdf.cdf(t), pdf.pdf(t))
+            };
+            let errors = [exact.cdf_ulp(cdf, t, CDF_FLOOR), exact.pdf_ulp(pdf, t, 0.0)];
+            assert!(errors.iter().all(|e| *e <= VALUE), "{errors:?} ulp at {t:e} of {curve:?}");
+        }
+        checked += 1;
+    }
+    println!("{checked} extreme curves");
+    assert!(checked > 100, "{checked}");
+}
