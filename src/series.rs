@@ -42,7 +42,9 @@ impl Pair {
     /// The nearest 54-bit number, and the exponent of its unit.
     #[inline(always)]
     const fn fixed(self) -> (i64, i32) {
-        let (hi, lo) = two_sum(self.hi, self.lo);
+        // The second is the smaller, so three operations make the sum exact.
+        let hi = self.hi + self.lo;
+        let lo = self.lo - (hi - self.hi);
         if hi == 0.0 {
             return (0, 0);
         }
