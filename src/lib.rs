@@ -21,8 +21,7 @@
 //! # Ok::<(), shutter_curve::ScheduleError>(())
 //! ```
 //!
-//! The README has the promised accuracy, the cost on a microcontroller, the features and the limits; the sources, read in
-//! the order of the modules they use, the numerics.
+//! The README has the promised accuracy, the cost on a microcontroller, the features and the limits.
 
 #![no_std]
 #![forbid(unsafe_code)]

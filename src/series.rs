@@ -6,9 +6,9 @@
 //! **Why this keeps relative accuracy.** Near `p = 2^-shift` the coefficients are taken as `c_k 2^(-k shift)`, in units
 //! of a power of two near the target, so that nothing overflows and what underflows does not count, however small
 //! `p` is. A non-negative polynomial's increasing integral bounds its own terms (Markov): together they exceed `S(p)` by a
-//! factor that depends on the degree alone, below 2¹³ for degree 6 and rarely above 2⁴. Single precision thus keeps
-//! some 20 bits of `S` and of its slope, enough to search, and pairs keep 44, enough to tell what is missing from a
-//! target, whose neighbour in `f32` is 2⁻²⁴ away.
+//! factor that depends on the degree alone, below 2¹³ for degree 6. Single precision thus keeps 9 bits of `S` at the
+//! least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is missing from a target,
+//! whose neighbour in `f32` is 2⁻²⁴ away.
 
 use crate::wide::Wide;
 
