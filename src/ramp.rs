@@ -2,18 +2,16 @@
 
 use crate::bezier::CubicBezier;
 use crate::seed::{seed, seed_by_bits};
-use crate::series::{Enough, Root, Seed, Series, series, solve};
-use crate::wide::{Wide, sum};
+use crate::series::{Enough, Pair, Root, Seed, Series, series, solve, sum};
+use crate::wide::Wide;
 
 /// For an `f32` fraction of the mass; in a flat place an eighth of the least distance between neighbours, so that
 /// these keep their order.
-pub(crate) const FOR_FRACTION: Enough =
-    Enough { near: bits(10), slope: bits(-7), flat: bits(27), middle: false };
+pub(crate) const FOR_FRACTION: Enough = Enough { error: bits(27), flat: bits(27), of_place: false };
 /// For a fraction with more bits, and a time that is to be known to 2⁻³⁸.
-pub(crate) const FOR_DELAY: Enough =
-    Enough { near: bits(20), slope: bits(-17), flat: bits(38), middle: false };
+pub(crate) const FOR_DELAY: Enough = Enough { error: bits(37), flat: bits(38), of_place: false };
 /// For a time all the bits there are, since openness and mass may be steep where time is flat.
-const FOR_TIME: Enough = Enough { near: bits(23), slope: bits(-20), flat: bits(44), middle: true };
+const FOR_TIME: Enough = Enough { error: bits(33), flat: bits(44), of_place: true };
 
 /// `2^-n`
 const fn bits(n: i32) -> f32 {
@@ -80,7 +78,7 @@ impl End {
         let (time, back) = (self.time, from == 1);
         let root = solve(&self.mass, mass, seed, enough);
         let (elapsed, unit) = root.value(&self.elapsed);
-        let elapsed = if elapsed < 0 { 0 } else { elapsed as u64 };
+        let elapsed = if elapsed.is_negative() { Pair::ZERO } else { elapsed };
         Place { time, back, elapsed, unit: unit + units.time, evaluations: root.evaluations }
     }
 }
@@ -130,7 +128,7 @@ pub(crate) struct Place {
     pub(crate) time: f32,
     pub(crate) back: bool,
     /// In units of `2^unit`.
-    elapsed: u64,
+    elapsed: Pair,
     unit: i32,
     /// Evaluations of the mass that it took to find.
     pub(crate) evaluations: u32,
@@ -139,18 +137,22 @@ pub(crate) struct Place {
 impl Place {
     /// An end.
     const fn at(time: f32) -> Self {
-        Self { time, back: false, elapsed: 0, unit: 0, evaluations: 0 }
+        Self { time, back: false, elapsed: Pair::ZERO, unit: 0, evaluations: 0 }
     }
 
     /// A place on the plateau.
     pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
-        let Wide { m, e } = elapsed;
-        // Two bits of room.
-        Self { time, back, elapsed: m >> 2, unit: e + 2, evaluations: 0 }
+        Self {
+            time,
+            back,
+            elapsed: Pair::significand(elapsed),
+            unit: elapsed.e + 63,
+            evaluations: 0,
+        }
     }
 
     pub(crate) const fn elapsed(self) -> Wide {
-        Wide::new(self.elapsed, self.unit)
+        self.elapsed.magnitude(self.unit)
     }
 
     /// The time, rounded once.
@@ -252,7 +254,7 @@ impl OnRamp<'_> {
     pub(crate) fn openness(&self) -> Wide {
         let (gained, unit) = self.root.value(&self.end.gained);
         let (gained, negative) =
-            (Wide::new(gained.unsigned_abs(), unit + self.units.openness), gained < 0);
+            (gained.magnitude(unit + self.units.openness), gained.is_negative());
         let end = Wide::from_f32(self.end.openness);
         // The end itself may graze 0 from below.
         match (self.end.openness < 0.0, negative) {
@@ -267,6 +269,6 @@ impl OnRamp<'_> {
     #[inline]
     pub(crate) fn mass(&self) -> Wide {
         let (mass, unit) = self.root.value(&self.end.mass);
-        if mass < 0 { Wide::ZERO } else { Wide::new(mass as u64, unit + self.units.mass) }
+        if mass.is_negative() { Wide::ZERO } else { mass.magnitude(unit + self.units.mass) }
     }
 }

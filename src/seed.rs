@@ -18,22 +18,8 @@ const fn rough_log(x: Wide) -> i32 {
     (x.e + 63) * ONE + ((x.m >> 43) as i32 & (ONE - 1))
 }
 
-/// What to add to a significand's fraction to have its logarithm to 0.01, and to take from a
-/// logarithm's fraction to have the significand again.
-const fn curvature(x: i32) -> i32 {
-    const WEIGHT: i32 = (0.344 * 1024.0) as i32;
-    let fraction = x & (ONE - 1);
-    let product = ((fraction >> 5) * ((ONE - fraction) >> 5)) >> 10;
-    (product * WEIGHT) >> 10
-}
-
-/// The leading term at the target: `k`, `c_k`, and the linear logarithms of the target and of `c_k`.
-#[derive(Clone, Copy)]
-struct Leading {
-    k: i32,
-    target: i32,
-    divisor: i32,
-}
+/// What a number is above its linear logarithm's power of two on average.
+const MEAN: i32 = (0.043 * ONE as f32) as i32;
 
 /// 2³⁰ over `k`.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
@@ -43,9 +29,9 @@ const fn divided(x: i32, k: i32) -> i32 {
     times_high(x << 2, RECIPROCALS[(k & 7) as usize])
 }
 
-#[inline(always)]
-const fn leading(c: &[Pair], log: i32) -> Leading {
-    // The least root, with its `k` for the lowest bits.
+/// The least root's linear logarithm, with its `k` for the lowest bits.
+#[inline(never)]
+const fn least_root(c: &[Pair], log: i32) -> i32 {
     let mut least = i32::MAX;
     let mut i = 0;
     while i < c.len() {
@@ -56,10 +42,7 @@ const fn leading(c: &[Pair], log: i32) -> Leading {
         }
         i += 1;
     }
-    let k = least & 7;
-    let i = (k - 1) as usize;
-    let divisor = if i < c.len() { c[i].rough_log() } else { 0 };
-    Leading { k, target: log, divisor }
+    least
 }
 
 /// The seed `2^exponent (1 + fraction / ONE)`, at most 1.
@@ -73,15 +56,8 @@ const fn seed_at(exponent: i32, fraction: i32) -> Seed {
 /// The guess from logarithms alone; all that a constant can use.
 #[inline(always)]
 pub(crate) const fn seed_by_bits(c: &[Pair], target: Wide) -> Seed {
-    root_by_bits(c, rough_log(target))
-}
-
-#[inline(never)]
-const fn root_by_bits(c: &[Pair], log: i32) -> Seed {
-    let l = leading(c, log);
-    let ratio = (l.target + curvature(l.target)) - (l.divisor + curvature(l.divisor));
-    let root = divided(ratio, l.k);
-    seed_at(root >> 20, (root & (ONE - 1)) - curvature(root))
+    let root = least_root(c, rough_log(target)) - MEAN;
+    seed_at(root >> 20, root & (ONE - 1))
 }
 
 /// The guess by the root that the features choose.
@@ -89,16 +65,18 @@ const fn root_by_bits(c: &[Pair], log: i32) -> Seed {
 pub(crate) fn seed(c: &[Pair], target: Wide) -> Seed {
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
-        let l = leading(c, rough_log(target));
-        if l.k == 2 || l.k == 4 {
+        let target = rough_log(target);
+        let k = least_root(c, target) & 7;
+        if (k == 2 || k == 4) && k as usize <= c.len() {
+            let divisor = c[k as usize - 1].rough_log();
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
-            let exponent = (l.target >> 20) - (l.divisor >> 20);
-            let (whole, rest) = (exponent >> (l.k / 2), exponent & (l.k - 1));
+            let exponent = (target >> 20) - (divisor >> 20);
+            let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
             let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-            let ratio = significand((l.target as u32 & 0xF_FFFF) << 3)
-                / significand((l.divisor as u32 & 0xF_FFFF) << 3);
+            let ratio = significand((target as u32 & 0xF_FFFF) << 3)
+                / significand((divisor as u32 & 0xF_FFFF) << 3);
             let root = square_root(ratio * (1 << rest) as f32);
-            let root = if l.k == 4 { square_root(root) } else { root }.to_bits();
+            let root = if k == 4 { square_root(root) } else { root }.to_bits();
             return seed_at(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
         }
     }

@@ -157,38 +157,6 @@ const fn nearest(m: u32) -> u32 {
     (m + 0x3F + (m >> 7 & 1)) >> 7
 }
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once, for a finite `base` and a `way` of at
-/// most 61 bits.
-#[inline(always)]
-pub(crate) const fn sum(base: f32, way: u64, unit: i32, back: bool) -> f32 {
-    // The base in whole units of its own, 24 bits, with 37 below them.
-    let exponent = (base.to_bits() >> 23 & 0xFF) as i32;
-    let fraction = base.to_bits() & 0x7F_FFFF;
-    let (size, own) = if exponent == 0 {
-        (fraction, -149 - 37)
-    } else {
-        (fraction | 1 << 23, exponent - 150 - 37)
-    };
-    let size = (size as u64) << 37;
-    // The coarser of the two units is that of the sum.
-    let (size, way, e) = if own > unit {
-        (size, shifted(way, own - unit), own)
-    } else {
-        (shifted(size, unit - own), way, unit)
-    };
-    let negative = base < 0.0;
-    let way = if back == negative { way as i64 } else { -(way as i64) };
-    let sum = size as i64 + way;
-    let near = Wide::new(sum.unsigned_abs(), e).to_f32();
-    if (sum < 0) != negative { -near } else { near }
-}
-
-/// `x / 2^down`, rounded down.
-#[inline(always)]
-const fn shifted(x: u64, down: i32) -> u64 {
-    x >> if down < 63 { down } else { 63 }
-}
-
 /// `a x`, in 32 bits, where `x` counts 2⁻³².
 #[inline(always)]
 pub(crate) const fn times_high(a: i32, x: i32) -> i32 {

@@ -58,9 +58,10 @@ fn write_curve(out: &mut String, name: &str, opening: Ramp, closing: Ramp, mut h
     writeln!(out, "Curve {{ name: {name:?}, {curve} }},").unwrap();
 }
 
-/// The `u` for which the mass is evaluated most often: the first few of 20 000, and of their neighbours.
+/// The `u` for which the mass is evaluated most often: the first few of 20 000, and of those around them, ever
+/// nearer.
 fn hardest<const CELLS: usize>(opening: Ramp, closing: Ramp) -> Vec<f32> {
-    const KEPT: usize = 8;
+    const KEPT: usize = 16;
     let [opening, closing] = [opening, closing].map(CubicBezier::new);
     let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
     let first = |mut us: Vec<f32>| {
@@ -70,12 +71,17 @@ fn hardest<const CELLS: usize>(opening: Ramp, closing: Ramp) -> Vec<f32> {
     };
     let spread = first((0..20_000).map(spread).collect());
     let mut near = spread.clone();
-    for _ in 0..4 {
-        let steps = |u: f32| (0..20).flat_map(move |k| [1 << k, -1 << k].map(|d| (u, d)));
-        let neighbours = near.iter().copied().flat_map(steps);
-        let neighbours =
-            neighbours.map(|(u, d)| f32::from_bits(u.to_bits().saturating_add_signed(d)));
-        near = first(near.iter().copied().chain(neighbours.filter(|u| *u <= 1.0)).collect());
+    for bits in [16, 13, 10, 7, 4] {
+        let around = |u: f32| {
+            (0..400u32).map(move |i| {
+                // Within 2^bits neighbours to either side.
+                let steps = i.wrapping_mul(0x9E37_79B9).cast_signed() >> (31 - bits);
+                f32::from_bits(u.to_bits().saturating_add_signed(steps))
+            })
+        };
+        let more: Vec<f32> = near.iter().copied().flat_map(around).filter(|u| *u <= 1.0).collect();
+        near = first([near, more].concat());
+        near.dedup();
     }
     [spread, near].concat()
 }
