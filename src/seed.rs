@@ -67,8 +67,9 @@ pub(crate) fn seed(c: &[Pair], target: Wide) -> Seed {
     {
         let target = rough_log(target);
         let k = least_root(c, target) & 7;
-        if (k == 2 || k == 4) && k as usize <= c.len() {
-            let divisor = c[k as usize - 1].rough_log();
+        let i = (k - 1) as usize;
+        if (k == 2 || k == 4) && i < c.len() {
+            let divisor = c[i].rough_log();
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
             let exponent = (target >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
