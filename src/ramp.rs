@@ -5,13 +5,12 @@ use crate::seed::{seed, seed_by_bits};
 use crate::series::{Enough, Pair, Root, Seed, Series, series, solve, sum};
 use crate::wide::Wide;
 
-/// For an `f32` fraction of the mass; in a flat place an eighth of the least distance between neighbours, so that
-/// these keep their order.
-pub(crate) const FOR_FRACTION: Enough = Enough { error: bits(27), flat: bits(27), of_place: false };
+/// For an `f32` fraction of the mass: an eighth of the least distance between neighbours, so that these keep their order.
+pub(crate) const FOR_FRACTION: Enough = Enough { error: bits(27), of_place: false, flat: bits(27) };
 /// For a fraction with more bits, and a time that is to be known to 2⁻³⁸.
-pub(crate) const FOR_DELAY: Enough = Enough { error: bits(37), flat: bits(38), of_place: false };
-/// For a time all the bits there are, since openness and mass may be steep where time is flat.
-const FOR_TIME: Enough = Enough { error: bits(33), flat: bits(44), of_place: true };
+pub(crate) const FOR_DELAY: Enough = Enough { error: bits(37), of_place: false, flat: bits(38) };
+/// For a time, whose place is asked for, since openness and mass may be steep where time is flat.
+const FOR_TIME: Enough = Enough { error: bits(33), of_place: true, flat: bits(44) };
 
 /// `2^-n`
 const fn bits(n: i32) -> f32 {
@@ -142,6 +141,9 @@ impl Place {
 
     /// A place on the plateau.
     pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
+        if elapsed.is_zero() {
+            return Self::at(time);
+        }
         Self {
             time,
             back,

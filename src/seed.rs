@@ -2,8 +2,8 @@
 //!
 //! Near its end a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
 //! `|target / c_k|^(1/k)` over the coefficients. The logarithms that floating-point numbers carry in their
-//! exponents tell which one is least; its root is then taken by the same logarithms, corrected to 1 %, or,
-//! where it is a second or fourth one, by `libm` or `micromath` if these features are on. The search behind it
+//! exponents tell which one is least, to a tenth, which Halley's step makes a thousandth; where it is a second or fourth
+//! root, `libm` or `micromath` take it if these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
 
 use crate::series::{Pair, Seed};
@@ -18,7 +18,7 @@ const fn rough_log(x: Wide) -> i32 {
     (x.e + 63) * ONE + ((x.m >> 43) as i32 & (ONE - 1))
 }
 
-/// What a number is above its linear logarithm's power of two on average.
+/// By how much a logarithm is above the linear one on average.
 const MEAN: i32 = (0.043 * ONE as f32) as i32;
 
 /// 2³⁰ over `k`.

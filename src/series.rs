@@ -3,12 +3,15 @@
 //! Measured from an end of the ramp, the time passed, the openness gained and the mass collected are
 //! all polynomials without a constant term: `S(p) = c₁ p + c₂ p² + ...`, `p` in [0, 1].
 //!
-//! **Why this keeps relative accuracy.** Near `p = 2^-shift` the coefficients are taken as `c_k 2^(-k shift)`, in units
-//! of a power of two near the target, so that nothing overflows and what underflows does not count, however small
-//! `p` is. A non-negative polynomial's increasing integral bounds its own terms (Markov): together they exceed `S(p)` by a
-//! factor that depends on the degree alone, below 2¹³ for degree 6. Single precision thus keeps 9 bits of `S` at the
-//! least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is missing from a target,
-//! whose neighbour in `f32` is 2⁻²⁴ away.
+//! **Why this keeps relative accuracy.** A non-negative polynomial's increasing integral bounds its own terms (Markov):
+//! together they exceed `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. Single precision thus
+//! keeps 9 bits of `S` at the least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is
+//! missing from a target, whose neighbour in `f32` is 2⁻²⁴ away. What is missing is then searched for with the polynomial
+//! around that place, where it is a small number known to all the bits of single precision.
+//!
+//! Nothing overflows, and what underflows does not count: near `p = 2^-shift` the search takes the coefficients as
+//! `c_k 2^(-k shift)`, in units of a power of two near the target; pairs are taken at `p` itself, in units of which the
+//! whole counts some 2¹⁰⁰, so that a share of 2⁻¹⁴⁹ still has both its halves.
 
 use crate::wide::Wide;
 
