@@ -1,4 +1,4 @@
-//! Power series from one end of a ramp, evaluated and solved in pairs of `f32`.
+//! Power series from one end of a ramp, searched in `f32` and measured in pairs of `f32`.
 //!
 //! Measured from an end of the ramp, the time passed, the openness gained and the mass collected are
 //! all polynomials without a constant term: `S(p) = c₁ p + c₂ p² + ...`, `p` in [0, 1].
