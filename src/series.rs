@@ -403,7 +403,7 @@ pub(crate) const fn solve<const N: usize>(
     Root { x: next, rest: (x - next) + step, shift, evaluations }
 }
 
-/// Horner's rule in single precision.
+/// The slope, in single precision.
 #[inline(always)]
 const fn slope_at<const N: usize>(c: &Series<N>, x: f32) -> f32 {
     let (mut value, mut slope) = (c[N - 1].hi, 0.0);
