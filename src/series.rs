@@ -386,7 +386,8 @@ pub(crate) const fn solve<const N: usize>(
         }
         // As many as there are `f32` in the bracket.
         let width = high.to_bits() - low.to_bits();
-        if width <= 1 || evaluations >= MAX_EVALUATIONS {
+        // One more time round may take two evaluations.
+        if width <= 1 || evaluations >= MAX_EVALUATIONS - 1 {
             break if step.abs() < high - low { step } else { 0.0 };
         }
         let next = x + step;

@@ -281,6 +281,32 @@ fn values() {
     );
 }
 
+/// Where openness dips to a 10⁸th of its height, a pair's last bit of the height is seen: a number of its own is promised.
+#[test]
+fn openness_in_a_deep_dip() {
+    let curve = Curve::shutter(
+        [
+            (3.6740906e-7, 0.39432076),
+            (3.6741358e-7, -0.117061704),
+            (3.674143e-7, 0.00029299562),
+            (3.674143e-7, 0.040745884),
+        ],
+        [
+            (3.6741443e-7, 0.32006663),
+            (3.6741443e-7, 0.61704683),
+            (3.6741443e-7, 0.77398366),
+            (3.6741443e-7, 0.4407312),
+        ],
+    );
+    let (exact, shutter) = (Exact::new(&curve), shutter::<8>(&curve));
+    // 2 ulp of this are 2⁻⁴⁷ of the plateau's openness.
+    let floor = 1.0 / (1 << 25) as f64;
+    for bits in 0..20_000 {
+        let t = f32::from_bits(3.6740906e-7f32.to_bits() + bits);
+        assert!(exact.openness_ulp(shutter.opening(t), t, floor) <= VALUE, "{t:e}");
+    }
+}
+
 /// A single Bezier of any scale.
 #[test]
 fn single_curves() {
