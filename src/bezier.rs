@@ -146,7 +146,7 @@ const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
 }
 
 /// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
-const fn sqrt(x: f64) -> f64 {
+pub(crate) const fn sqrt(x: f64) -> f64 {
     if x == 0.0 {
         return 0.0;
     }

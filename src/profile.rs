@@ -21,9 +21,7 @@ pub(crate) struct Profile<const CELLS: usize> {
     /// The significand of `K = 1/A`, its top bit set.
     reciprocal: u32,
     /// The exponent of the unit in which the curve's times count at most 2⁶¹.
-    unit: i16,
-    /// The exponent of the greatest openness.
-    openness: i16,
+    unit: i32,
     /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
@@ -132,9 +130,12 @@ impl<const CELLS: usize> Profile<CELLS> {
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
-        let (f, g) = (opening.opennesses(), closing.opennesses());
-        let openness = exponent(&[f[0], f[1], f[2], f[3], g[0], g[1], g[2], g[3]]);
-        let ramps = [Segment::new(opening, openness), Segment::new(closing, openness)];
+        // A ramp's mass is counted from its outer end, where all that there is of a tail is in that ramp. But where
+        // next to nothing comes before the closing ramp, its start is such a tail, too, and the one to be counted from,
+        // since `f32` are finer near 0 than near 1.
+        let before = whole_mass(opening) + plateau_mass;
+        let back = whole_mass(closing) <= before * (1 << 12) as f64;
+        let ramps = [Segment::new(opening, false), Segment::new(closing, back)];
         let exponent = exponent(&[t[0], s[3]]) - 60;
         let (mut base, mut slope) = (0, 0);
         if plateau_mass > 0.0 {
@@ -148,8 +149,7 @@ impl<const CELLS: usize> Profile<CELLS> {
             area,
             plateau_mass,
             reciprocal,
-            unit: exponent as i16,
-            openness: openness as i16,
+            unit: exponent,
             base,
             slope,
             plateau,
@@ -199,7 +199,7 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The exponent of the unit of time.
     pub(crate) const fn unit(&self) -> i32 {
-        self.unit as i32
+        self.unit
     }
 
     const fn unit_of_time(&self) -> f32 {
@@ -252,7 +252,7 @@ impl<const CELLS: usize> Profile<CELLS> {
     fn exact(&self, side: usize, mass: Wide, enough: Enough) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass(side, mass, enough),
+            Section::Ramp(ramp, rest) => self.ramp(ramp).at_mass(side == 1, rest, mass, enough),
         }
     }
 
@@ -261,7 +261,7 @@ impl<const CELLS: usize> Profile<CELLS> {
         let mass = a.times(Wide::from_f64(self.area));
         let place = match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, mass) => self.ramp(ramp).at_mass_const(side, mass),
+            Section::Ramp(ramp, rest) => self.ramp(ramp).at_mass_const(side == 1, rest, mass),
         };
         let elapsed = place.elapsed().to_f64();
         let way = if side == 0 {
@@ -460,11 +460,11 @@ impl<const CELLS: usize> Profile<CELLS> {
         if !(t >= start && t <= self.close_end()) {
             At::Outside
         } else if t < end || (t == end && !plateau && start < end) {
-            At::Opening(self.ramps[0].at_time(t, self.openness as i32))
+            At::Opening(self.ramps[0].at_time(t))
         } else if plateau && t <= self.close_start() {
             At::Plateau
         } else {
-            At::Closing(self.ramps[1].at_time(t, self.openness as i32))
+            At::Closing(self.ramps[1].at_time(t))
         }
     }
 
@@ -484,13 +484,10 @@ impl<const CELLS: usize> Profile<CELLS> {
         let first = || Wide::from_f64(self.ramps[0].mass);
         let mass = match self.at(t) {
             At::Outside => return if t > self.close_end() { 1.0 } else { 0.0 },
-            At::Opening(on) if on.from == 0 => on.mass(),
-            At::Opening(on) => first().minus(on.mass()),
+            At::Opening(on) => on.mass(),
             At::Plateau => first().plus(Wide::between(self.open_end(), t)),
-            At::Closing(on) if on.from == 0 => {
-                first().plus(Wide::from_f64(self.plateau_mass)).plus(on.mass())
-            }
-            At::Closing(on) => Wide::from_f64(self.area).minus(on.mass()),
+            At::Closing(on) if on.back() => Wide::from_f64(self.area).minus(on.mass()),
+            At::Closing(on) => first().plus(Wide::from_f64(self.plateau_mass)).plus(on.mass()),
         };
         if t == self.close_end() { 1.0 } else { self.normalized(mass) }
     }

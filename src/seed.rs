@@ -6,16 +6,17 @@
 //! root, `libm` or `micromath` take it if these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
 
-use crate::series::{Pair, Seed};
-use crate::wide::{Wide, times_high};
+use crate::series::{self, FIRST_TERM, Seed};
+use crate::wide::times_high;
 
 /// Logarithms here have 20 fraction bits, as many as the upper half of an `f64` has of significand.
 const ONE: i32 = 1 << 20;
 
-/// The integer and the fraction of a base-2 logarithm that is linear between powers of two: the
-/// exponent and the significand's upper bits, as they stand.
-const fn rough_log(x: Wide) -> i32 {
-    (x.e + 63) * ONE + ((x.m >> 43) as i32 & (ONE - 1))
+/// The base-2 logarithm of the magnitude, linear between powers of two: the exponent and the significand's upper
+/// bits, as they stand.
+#[inline(always)]
+const fn rough_log(x: f32) -> i32 {
+    (x.to_bits() << 1 >> 4) as i32 - 127 * ONE
 }
 
 /// By how much a logarithm is above the linear one on average.
@@ -31,12 +32,12 @@ const fn divided(x: i32, k: i32) -> i32 {
 
 /// The least root's linear logarithm, with its `k` for the lowest bits.
 #[inline(never)]
-const fn least_root(c: &[Pair], log: i32) -> i32 {
+const fn least_root(c: &[f32], log: i32) -> i32 {
     let mut least = i32::MAX;
     let mut i = 0;
     while i < c.len() {
         let k = i as i32 + 1;
-        let root = divided(log - c[i].rough_log(), k) & !7 | k;
+        let root = divided(log - rough_log(c[i]), k) & !7 | k;
         if root < least {
             least = root;
         }
@@ -47,29 +48,30 @@ const fn least_root(c: &[Pair], log: i32) -> i32 {
 
 /// The seed `2^exponent (1 + fraction / ONE)`, at most 1.
 const fn seed_at(exponent: i32, fraction: i32) -> Seed {
-    if exponent >= 0 {
-        return Seed { x: 0.125f32.next_down(), shift: -3 };
+    if exponent >= 24 {
+        return Seed { x: series::ONE, lift: 0 };
     }
-    Seed { x: f32::from_bits(0.125f32.to_bits() + (fraction << 3) as u32), shift: -3 - exponent }
+    let lift = if exponent < -FIRST_TERM { -FIRST_TERM - exponent } else { 0 };
+    Seed { x: f32::from_bits((((exponent + lift + 127) << 23) + (fraction << 3)) as u32), lift }
 }
 
 /// The guess from logarithms alone; all that a constant can use.
 #[inline(always)]
-pub(crate) const fn seed_by_bits(c: &[Pair], target: Wide) -> Seed {
+pub(crate) const fn seed_by_bits(c: &[f32], target: f32) -> Seed {
     let root = least_root(c, rough_log(target)) - MEAN;
     seed_at(root >> 20, root & (ONE - 1))
 }
 
 /// The guess by the root that the features choose.
 #[inline]
-pub(crate) fn seed(c: &[Pair], target: Wide) -> Seed {
+pub(crate) fn seed(c: &[f32], target: f32) -> Seed {
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let target = rough_log(target);
         let k = least_root(c, target) & 7;
         let i = (k - 1) as usize;
         if (k == 2 || k == 4) && i < c.len() {
-            let divisor = c[i].rough_log();
+            let divisor = rough_log(c[i]);
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
             let exponent = (target >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));

@@ -1,38 +1,36 @@
-//! Power series from one end of a ramp, searched in `f32` and measured in pairs of `f32`.
+//! Power series along a ramp, searched in `f32` and measured in pairs of `f32`.
 //!
-//! Measured from an end of the ramp, the time passed, the openness gained and the mass collected are
-//! all polynomials without a constant term: `S(p) = c₁ p + c₂ p² + ...`, `p` in [0, 1].
+//! Measured from a place on the ramp, the time passed and the mass collected are polynomials without a constant term:
+//! `S(p) = c₁ p + c₂ p² + ...`
 //!
 //! **Why this keeps relative accuracy.** A non-negative polynomial's increasing integral bounds its own terms (Markov):
 //! together they exceed `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. Single precision thus
-//! keeps 9 bits of `S` at the least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is
+//! keeps 8 bits of `S` at the least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is
 //! missing from a target, whose neighbour in `f32` is 2⁻²⁴ away. What is missing is then searched for with the polynomial
 //! around that place, where it is a small number known to all the bits of single precision.
 //!
-//! Nothing overflows, and what underflows does not count: near `p = 2^-shift` the search takes the coefficients as
-//! `c_k 2^(-k shift)`, in units of a power of two near the target; pairs are taken at `p` itself, in units of which the
-//! whole counts some 2¹⁰⁰, so that a share of 2⁻¹⁴⁹ still has both its halves.
+//! **Why nothing overflows**, and what underflows does not count: a ramp's length and mass count some 2¹⁰⁰, and places up
+//! to 2²⁴, so a share of 2⁻¹⁴⁹ still has both its halves, and so has a step towards it.
 
 use crate::wide::Wide;
 
 /// An unevaluated sum of two `f32`, the second at most a few ulp of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
-    hi: f32,
-    lo: f32,
+    pub(crate) hi: f32,
+    pub(crate) lo: f32,
 }
+
+/// The whole ramp: `p` counts from 0 at the one end to this at the other.
+pub(crate) const ONE: f32 = (1 << 24) as f32;
 
 /// `c[0] p + c[1] p² + ...`
 pub(crate) type Series<const N: usize> = [Pair; N];
 
 impl Pair {
     pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-
-    /// The base-2 logarithm of the magnitude, linear between powers of two, in units of 2⁻²⁰.
-    #[inline(always)]
-    pub(crate) const fn rough_log(self) -> i32 {
-        (self.hi.to_bits() << 1 >> 4) as i32 - (127 << 20)
-    }
+    /// Of which nothing is near.
+    pub(crate) const INFINITE: Self = Self { hi: f32::INFINITY, lo: 0.0 };
 
     /// The significand of `x`, in [1, 2).
     #[inline(always)]
@@ -40,6 +38,48 @@ impl Pair {
         const UNIT: f32 = 1.0 / (1u64 << 47) as f32;
         let hi = f32::from_bits(127 << 23 | (x.m >> 40) as u32 & 0x7F_FFFF);
         Self { hi, lo: ((x.m >> 16) as u32 & 0xFF_FFFF) as f32 * UNIT }
+    }
+
+    /// `x` to 48 bits.
+    #[inline(always)]
+    pub(crate) const fn new(x: Wide) -> Self {
+        let Self { hi, lo } = Self::significand(x);
+        let scale = power_of_two(x.e + 63);
+        Self { hi: hi * scale, lo: lo * scale }
+    }
+
+    /// `x 2^n`, a normal number or 0.
+    pub(crate) const fn scaled(x: f32, n: i32) -> Self {
+        // The power of two by halves, for it may not be a normal number itself.
+        let half = n >> 1;
+        Self { hi: x * power_of_two(half) * power_of_two(n - half), lo: 0.0 }
+    }
+
+    /// `self - other`
+    #[inline(always)]
+    pub(crate) const fn minus(self, other: Self) -> Self {
+        let (sum, lost) = two_sum(self.hi, -other.hi);
+        let (hi, lo) = two_sum(sum, lost + (self.lo - other.lo));
+        Self { hi, lo }
+    }
+
+    /// `x self`, for a power of two `x`.
+    #[inline(always)]
+    pub(crate) const fn times(self, x: f32) -> Self {
+        Self { hi: self.hi * x, lo: self.lo * x }
+    }
+
+    /// `3 self`
+    pub(crate) const fn thrice(self) -> Self {
+        let (sum, lost) = two_sum(self.hi, 2.0 * self.hi);
+        let (hi, lo) = two_sum(sum, lost + 3.0 * self.lo);
+        Self { hi, lo }
+    }
+
+    /// `self - other` in single precision, which keeps its relative accuracy where the two are near.
+    #[inline(always)]
+    pub(crate) const fn less(self, other: Self) -> f32 {
+        (self.hi - other.hi) + (self.lo - other.lo)
     }
 
     #[inline(always)]
@@ -70,12 +110,13 @@ impl Pair {
     }
 }
 
-/// The series with coefficients in units of `2^unit`.
+/// The series with coefficients `c`, of powers of the share of the ramp, in units of `2^unit`.
 pub(crate) const fn series<const N: usize>(c: [f64; N], unit: i32) -> Series<N> {
-    let scale = f64::from_bits(((1023 - unit) as u64) << 52);
+    let mut scale = f64::from_bits(((1023 - unit) as u64) << 52);
     let mut pairs = [Pair::ZERO; N];
     let mut k = 0;
     while k < N {
+        scale /= ONE as f64;
         let hi = (c[k] * scale) as f32;
         pairs[k] = Pair { hi, lo: (c[k] * scale - hi as f64) as f32 };
         k += 1;
@@ -85,7 +126,7 @@ pub(crate) const fn series<const N: usize>(c: [f64; N], unit: i32) -> Series<N> 
 
 /// `2^n`, a normal number.
 #[inline(always)]
-const fn power_of_two(n: i32) -> f32 {
+pub(crate) const fn power_of_two(n: i32) -> f32 {
     f32::from_bits(((n + 127) as u32) << 23)
 }
 
@@ -109,22 +150,13 @@ struct Taylor<const N: usize> {
     c: [f32; N],
 }
 
-/// A value to the bits of a pair, and what its terms sum up to without their signs.
-struct Exact {
-    value: Pair,
-    size: f32,
-}
-
-/// The coefficients near `2^-shift`, times `2^up`, in single precision: `x` then stands for `p = x 2^-shift`.
+/// The coefficients in single precision.
 #[inline(always)]
-const fn near<const N: usize>(series: &Series<N>, shift: i32, up: i32) -> [f32; N] {
+pub(crate) const fn single<const N: usize>(series: &Series<N>) -> [f32; N] {
     let mut c = [0.0; N];
-    let step = if shift < 127 { power_of_two(-shift) } else { 0.0 };
-    let mut factor = power_of_two(up - shift);
     let mut k = 0;
     while k < N {
-        c[k] = series[k].hi * factor;
-        factor *= step;
+        c[k] = series[k].hi;
         k += 1;
     }
     c
@@ -152,10 +184,10 @@ const fn at<const N: usize>(c: &[f32; N], x: f32) -> Taylor<N> {
 
 /// Horner's rule with what each sum and each product loses (Dekker) carried along.
 #[inline(never)]
-const fn exactly(c: &[Pair], x: f32) -> Exact {
+pub(crate) const fn exactly(c: &[Pair], x: f32) -> Pair {
     let x_high = upper(x);
     let x_low = x - x_high;
-    let (mut hi, mut lo, mut size) = (0.0, 0.0, 0.0);
+    let (mut hi, mut lo) = (0.0, 0.0);
     // Unknown to the compiler, which would unroll the loop to several times its bytes.
     let mut k = core::hint::black_box(c.len());
     while k > 0 && k <= c.len() {
@@ -167,9 +199,14 @@ const fn exactly(c: &[Pair], x: f32) -> Exact {
         let low = sum - high;
         let lost = ((high * x_high - hi) + high * x_low + low * x_high) + low * x_low;
         lo = lo * x + lost;
-        size = (size + c[k].hi.abs()) * x;
     }
-    Exact { value: Pair { hi, lo }, size }
+    Pair { hi, lo }
+}
+
+/// The coefficients around `x` in single precision, taken in pairs, for they may be differences of nearly the same.
+pub(crate) const fn around([a, b, c]: &Series<3>, x: f32) -> [f32; 3] {
+    let (twice, thrice) = (Pair::ZERO.minus(*b).minus(*b), Pair::ZERO.minus(c.thrice()));
+    [a.less(exactly(&[twice, thrice], x)), b.less(exactly(&[thrice], x)), c.hi]
 }
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once, for a `way` of at most 2⁶⁴ and a `unit`
@@ -211,19 +248,34 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
     f32::from_bits(if (lost < 0.0) == (sum < 0.0) { bits + 1 } else { bits - 1 })
 }
 
-/// Where a search starts: `p = x 2^-shift`, `x` in [1/8, 1/4).
+/// A first guess of a way, `x 2^-lift`. What is very near to an end is sought `2^lift` times as far from it, where the
+/// series is still its first term, for the sake of the range of `f32`.
 #[derive(Clone, Copy)]
 pub(crate) struct Seed {
     pub(crate) x: f32,
-    pub(crate) shift: i32,
+    pub(crate) lift: i32,
 }
 
-/// A place on a ramp, `p = (x + rest) 2^-shift`, and how many evaluations it took to find it.
+/// Nearer to an end than 2 to minus this a series is its first term.
+pub(crate) const FIRST_TERM: i32 = 100;
+
+/// A known place from which a search starts.
+pub(crate) struct Start<const N: usize> {
+    pub(crate) place: f32,
+    /// Does the way lead back, to smaller `p`?
+    pub(crate) back: bool,
+    /// What is collected along the way, in single precision, each coefficient with its relative accuracy.
+    pub(crate) c: [f32; N],
+    /// What is to be collected.
+    pub(crate) sought: f32,
+}
+
+/// Where a search ended: the way `(x + rest) 2^-lift` from its start, and how many evaluations it took.
 #[derive(Clone, Copy)]
-pub(crate) struct Root {
-    x: f32,
-    rest: f32,
-    shift: i32,
+pub(crate) struct Way {
+    pub(crate) x: f32,
+    pub(crate) rest: f32,
+    pub(crate) lift: i32,
     pub(crate) evaluations: u32,
 }
 
@@ -235,36 +287,33 @@ const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
 pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 
-/// A seed takes the greatest term for the whole, which by Markov's bound may be 2¹³ times as much: no root is farther
-/// than `2^FARTHEST`.
-const FARTHEST: i32 = 14;
+/// A way on a ramp is at most 1, but for rounding.
+const FARTHEST: f32 = 2.0 * ONE;
 
-/// Nearer to its end than 2 to minus this a series is its first term.
-const FIRST_TERM: i32 = 120;
-
-/// It takes pairs to tell what less than this share of a target is missing.
-const NEAR: f32 = 1.0 / 1024.0;
+/// Where less than this share of what is sought is missing, it is measured in pairs: the rounding of the terms may be as
+/// much, and Halley's step leaves the cube of it, about as much as may be left.
+const NEAR: f32 = 1.0 / 512.0;
 
 /// What single precision's rounding makes of a slope, as a share of its terms.
 const ROUNDING: f32 = 1.0 / (1 << 21) as f32;
 
-/// How exact a search has to be.
+/// How exact a search has to be, relative to a size given with the target.
 #[derive(Clone, Copy)]
 pub(crate) struct Enough {
-    /// Relative to the target, or to the place.
     pub(crate) error: f32,
-    /// Whether it is the place's error.
-    pub(crate) of_place: bool,
-    /// What of the target may be missing in a flat place. If the place's error counts, it is the middle of the flat
-    /// place that is asked for.
+    /// Is it the way's error instead, relative to the way?
+    pub(crate) of_way: bool,
+    /// What may be missing where it is so flat that no step helps.
     pub(crate) flat: f32,
 }
 
 impl<const N: usize> Taylor<N> {
-    /// The step that makes up for `missing`, nearly.
+    /// Halley's step to make up for `missing`, at most twice Newton's.
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
-        step(self.c[0], self.c[1], self.c[2], missing)
+        let newton = missing / self.c[0];
+        let slope = self.c[0] + self.c[1] * newton;
+        missing / if slope < 0.5 * self.c[0] { 0.5 * self.c[0] } else { slope }
     }
 
     /// What a step leaves of what is missing, by up to four derivatives.
@@ -278,107 +327,80 @@ impl<const N: usize> Taylor<N> {
         }
         (missing - made).abs()
     }
+}
 
-    /// The step to the middle of a flat place, if all between is rounding.
-    const fn to_middle(&self, x: f32) -> f32 {
-        let from_middle = self.c[1] / (3.0 * self.c[2]);
-        let size = self.c[2] * from_middle * from_middle * from_middle;
-        if size.abs() < 8.0 * ROUNDING && from_middle.abs() < x * NEAR { -from_middle } else { 0.0 }
+/// What the terms of a polynomial at `x` sum up to without their signs.
+#[inline(always)]
+const fn size_at<const N: usize>(c: &[f32; N], x: f32) -> f32 {
+    let mut size = 0.0;
+    let mut k = N;
+    while k > 0 {
+        k -= 1;
+        size = (size + c[k].abs()) * x;
     }
+    size
 }
 
-/// Halley's step, `r / (S' + S''/2 · r/S')`, with one division, where it is short. Where it is long, and `S` is by three
-/// derivatives as `c (x - q)^k + d` near a flat place `q`, a root. Elsewhere Halley's again, but at most twice Newton's.
-#[inline(never)]
-const fn step(slope: f32, bend: f32, twist: f32, missing: f32) -> f32 {
-    let (newton, curve) = (slope * slope, bend * missing);
-    let mut halley = newton + curve;
-    // From outside a flat place of order k it is k - 1 over 2k.
-    if slope <= 0.0 || curve.abs() > 0.3 * newton {
-        let (square, other) = (bend * bend, 3.0 * slope * twist);
-        if other > 0.5 * square && other < 1.8 * square {
-            let (two, four) = (2.0 * square - other, 4.0 * square - other);
-            let from_flat = slope * bend / two;
-            let order = two / four;
-            let share = 1.0 + missing * four / (bend * newton);
-            let size = share.abs();
-            let root = power(size, order);
-            let root = if share < 0.0 { -root } else { root };
-            return from_flat * (root - 1.0);
-        }
-        if halley < 0.5 * newton {
-            halley = 0.5 * newton;
-        }
-    }
-    missing * slope / halley
-}
-
-/// `x^y` for `x > 0` and `y` in [0, 1], to a few percent: floats are nearly logarithms.
-const fn power(x: f32, y: f32) -> f32 {
-    const ONE: i32 = 1.0f32.to_bits() as i32;
-    const MEAN: f32 = 0.045 * (1 << 23) as f32;
-    f32::from_bits((ONE + ((x.to_bits() as i32 - ONE) as f32 * y - MEAN * (1.0 - y)) as i32) as u32)
-}
-
-/// The `p` in [0, 1] with `S(p) = target`, for an `S` that increases from 0 to at least `target`.
+/// The way from `start` to the `p` with `S(p) = target`, for an increasing `S`.
 ///
-/// Iterative refinement: a search in single precision; at its end what is missing, measured in pairs; then a search for
-/// that with the polynomial around there, in which single precision is precise. What that polynomial may be mistaken by
-/// grows with the way from where it was measured, by `drift`; once that is [`Enough`], the search is over, or else it is
-/// measured again.
+/// Iterative refinement: a search in single precision; at its end what is missing, measured in pairs; then the step that
+/// makes up for it, by the polynomial around there. That polynomial is mistaken by its rounding, so a step is mistaken by
+/// `drift` times its length; where that or what the step leaves by the further derivatives is too much, it goes on from
+/// there, and every place is measured.
 ///
-/// The search is one of steps inside a bracket, and of bisection where a step leaves it or where, after [`NEWTON`]
+/// The search is one of Halley's steps inside a bracket, and of bisection where a step leaves it or where, after [`NEWTON`]
 /// evaluations, the bracket is wider than bisection alone would have left it. It ends with neighbours at the latest.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: &Series<N>,
-    target: Wide,
+    target: Pair,
+    size: f32,
+    start: &Start<N>,
     seed: Seed,
     enough: Enough,
-) -> Root {
-    let Seed { mut x, shift } = seed;
-    let beyond = if shift > FIRST_TERM { shift - FIRST_TERM } else { 0 };
-    let up = -(target.e + 63);
-    let goal = Pair::significand(target);
-    // The polynomial around `origin`, what is sought with it, and by how much a step from there may be mistaken.
-    let (mut c, mut origin, mut sought, mut drift) = (near(series, shift, up), 0.0, goal.hi, 1.0);
-    let (mut low, mut high) = (0.0, power_of_two(if shift < FARTHEST { shift } else { FARTHEST }));
+) -> Way {
+    if start.sought == 0.0 {
+        return Way::NONE;
+    }
+    let Seed { mut x, lift } = seed;
+    let up = power_of_two(lift);
+    let (target, size) = (target.times(up), size * up);
+    let flat = enough.flat * size;
+    let sign = if start.back { -1.0 } else { 1.0 };
+    // The polynomial around `origin`, what is sought with it, and by what share a step from there may be mistaken.
+    let (mut c, mut origin, mut sought, mut drift) = (start.c, 0.0, start.sought * up, 0.0);
+    let (mut low, mut high) = (0.0, FARTHEST);
     let mut evaluations = 0;
-    let step = 'found: loop {
-        let mut way: f32 = x - origin;
-        let mut local = at(&c, way);
+    let step = loop {
+        let local = at(&c, x - origin);
         evaluations += 1;
         let mut missing = sought - local.value;
-        let step = loop {
-            let step = local.step(missing);
-            let error = if enough.of_place { enough.error * x * local.c[0] } else { enough.error };
-            // Terms of four times the target are usual.
-            let is_last =
-                4.0 * ROUNDING * step.abs() <= error * x && local.left(missing, step) <= error;
-            if is_last && drift * (way + step).abs() <= error {
-                break 'found step;
-            }
-            let mistaken = 2.0 * drift * way.abs();
-            if missing.abs() + mistaken <= enough.flat {
-                break 'found if enough.of_place { local.to_middle(x) } else { 0.0 };
-            }
-            let is_lost = missing.abs() <= if origin == 0.0 { NEAR } else { mistaken };
-            if way == 0.0 || !(is_last || is_lost) {
-                break step;
+        let is_near = origin != 0.0 || missing.abs() <= NEAR * sought + flat;
+        if is_near {
+            if origin == 0.0 {
+                drift = ROUNDING * size_at(&c, x) / x;
             }
             evaluations += 1;
-            let exact = exactly(series, x * power_of_two(beyond - shift));
-            let scale = power_of_two(up - beyond);
-            let taken = sought - missing;
-            missing = (goal.hi - exact.value.hi * scale) + (goal.lo - exact.value.lo * scale);
-            drift = ROUNDING * (exact.size * scale) / x;
-            if origin != 0.0 {
-                // Two measurements tell the slope better, up to what it changes between them.
-                local.c[0] += ((sought - missing) - taken) / way;
-                drift *= 2.0 * way.abs() / x;
+            let (p, lost) = two_sum(start.place, sign * x);
+            // To the place before rounding it is `lost` more, which the slope tells.
+            missing = sign * (target.less(exactly(series, p)) - lost * local.c[0]);
+            (c, origin, sought) = (local.c, x, missing);
+        }
+        let step = local.step(missing);
+        if is_near {
+            let error = if enough.of_way {
+                let error = enough.error * x * local.c[0];
+                if error > flat { error } else { flat }
+            } else {
+                enough.error * size
+            };
+            if drift * step.abs() <= error && local.left(missing, step) <= error {
+                break step;
             }
-            (c, origin, sought, way) = (local.c, x, missing, 0.0);
-        };
+            if missing.abs() <= flat {
+                break 0.0;
+            }
+        }
         if missing > 0.0 {
             low = x;
         } else {
@@ -401,7 +423,7 @@ pub(crate) const fn solve<const N: usize>(
         };
     };
     let next = x + step;
-    Root { x: next, rest: (x - next) + step, shift, evaluations }
+    Way { x: next, rest: (x - next) + step, lift, evaluations }
 }
 
 /// The slope, in single precision.
@@ -417,18 +439,21 @@ const fn slope_at<const N: usize>(c: &Series<N>, x: f32) -> f32 {
     slope
 }
 
-impl Root {
-    /// `p = 0`.
-    pub(crate) const START: Self = Self { x: 0.0, rest: 0.0, shift: 0, evaluations: 0 };
+impl Way {
+    pub(crate) const NONE: Self = Self { x: 0.0, rest: 0.0, lift: 0, evaluations: 0 };
 
-    /// The series' value here, in units of a power of two, and its exponent.
+    /// The place to which it leads from `start`, as the way there from the end where `p` is 0.
+    pub(crate) const fn from<const N: usize>(self, start: &Start<N>) -> Self {
+        let sign = if start.back { -1.0 } else { 1.0 };
+        let (x, lost) = two_sum(start.place, sign * self.x);
+        Self { x, rest: lost + sign * self.rest, ..self }
+    }
+
+    /// The value of an end's series at this way from it, in units of a power of two, and the exponent of that.
     #[inline(always)]
     pub(crate) const fn value<const N: usize>(&self, series: &Series<N>) -> (Pair, i32) {
-        let shift = if self.shift < FIRST_TERM { self.shift } else { FIRST_TERM };
-        let scale = power_of_two(-shift);
-        let p = self.x * scale;
-        let Pair { hi, lo } = exactly(series, p).value;
-        let slope = slope_at(series, p);
-        (Pair { hi, lo: lo + slope * (self.rest * scale) }, shift - self.shift)
+        let Pair { hi, lo } = exactly(series, self.x);
+        let slope = slope_at(series, self.x);
+        (Pair { hi, lo: lo + slope * self.rest }, -self.lift)
     }
 }

@@ -111,6 +111,13 @@ impl Wide {
         Self::new(self.m - m, self.e)
     }
 
+    /// The greatest power of two in it, but at most 2¹²⁰.
+    #[inline(always)]
+    pub(crate) const fn power_below(self) -> f32 {
+        let e = self.e + 63;
+        f32::from_bits(((if e < 120 { e } else { 120 } + 127) as u32) << 23)
+    }
+
     /// `self > other`.
     pub(crate) const fn exceeds(self, other: Self) -> bool {
         self.e > other.e || (self.e == other.e && self.m > other.m)

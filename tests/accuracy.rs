@@ -62,7 +62,7 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
         worst.evaluations = worst.evaluations.max(evaluations);
     }
     // A search that takes longer has lost its way, though the cap would end it.
-    assert!(worst.evaluations <= 16, "{} evaluations", worst.evaluations);
+    assert!(worst.evaluations <= 8, "{} evaluations", worst.evaluations);
     assert_eq!(
         (curve.inverse_cdf(0.0), curve.inverse_cdf(1.0)),
         (curve.open_start(), curve.close_end())
@@ -395,6 +395,9 @@ fn a_mirrored_curve_gives_mirrored_times() {
             continue;
         }
         let (a, b) = (shutter::<8>(&curve), shutter::<8>(&curve.mirrored()));
+        if cases::is_one_ramp(&a) {
+            continue;
+        }
         for k in 1..=1000 {
             // A u whose complement is exact too.
             let u = (k * 16_777) as f32 / (1 << 24) as f32;
