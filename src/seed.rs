@@ -31,7 +31,7 @@ const fn divided(x: i32, k: i32) -> i32 {
 }
 
 /// The least root's linear logarithm, with its `k` for the lowest bits.
-#[inline(never)]
+#[inline(always)]
 const fn least_root(c: &[f32], log: i32) -> i32 {
     let mut least = i32::MAX;
     let mut i = 0;

@@ -183,7 +183,7 @@ const fn at<const N: usize>(c: &[f32; N], x: f32) -> Taylor<N> {
 }
 
 /// Horner's rule with what each sum and each product loses (Dekker) carried along.
-#[inline(never)]
+#[inline(always)]
 pub(crate) const fn exactly(c: &[Pair], x: f32) -> Pair {
     let x_high = upper(x);
     let x_low = x - x_high;
@@ -406,20 +406,23 @@ pub(crate) const fn solve<const N: usize>(
         } else {
             high = x;
         }
+        let next = x + step;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        if evaluations < NEWTON {
+            x = next;
+            continue;
+        }
         // As many as there are `f32` in the bracket.
         let width = high.to_bits() - low.to_bits();
         // One more time round may take two evaluations.
         if width <= 1 || evaluations >= MAX_EVALUATIONS - 1 {
             break if step.abs() < high - low { step } else { 0.0 };
         }
-        let next = x + step;
-        x = if evaluations >= NEWTON && width > 1 << 30 >> ((evaluations + 1 - NEWTON) / 2) {
-            // The bracket must shrink, on average, as bisection would shrink it.
+        // It must shrink, on average, as bisection would shrink it.
+        x = if width > 1 << 30 >> ((evaluations + 1 - NEWTON) / 2) {
             f32::from_bits(low.to_bits() + width / 2)
-        } else if next > low && next < high {
-            next
         } else {
-            0.5 * (low + high)
+            next
         };
     };
     let next = x + step;

@@ -101,7 +101,7 @@ impl Wide {
     }
 
     /// `self - other`, or 0 where `other` is the greater.
-    #[inline(never)]
+    #[inline(always)]
     pub(crate) const fn minus(self, other: Self) -> Self {
         if !self.exceeds(other) {
             return Self::ZERO;

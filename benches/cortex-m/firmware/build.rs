@@ -2,6 +2,7 @@
 //! `tests/cases/found.rs`, as Rust, each with the inputs that a search finds hardest; and the folder of the
 //! board's `memory.x`, which is the crate's.
 
+use std::collections::HashSet;
 use std::{array, cmp::Reverse, env, fmt::Write, fs, path::PathBuf};
 
 use shutter_curve::{CubicBezier, ShutterCurve};
@@ -65,6 +66,8 @@ fn hardest<const CELLS: usize>(opening: Ramp, closing: Ramp) -> Vec<f32> {
     let [opening, closing] = [opening, closing].map(CubicBezier::new);
     let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
     let first = |mut us: Vec<f32>| {
+        let mut seen = HashSet::new();
+        us.retain(|u| seen.insert(u.to_bits()));
         us.sort_by_cached_key(|u| Reverse(curve.evaluations(*u)));
         us.truncate(KEPT);
         us
@@ -81,7 +84,6 @@ fn hardest<const CELLS: usize>(opening: Ramp, closing: Ramp) -> Vec<f32> {
         };
         let more: Vec<f32> = near.iter().copied().flat_map(around).filter(|u| *u <= 1.0).collect();
         near = first([near, more].concat());
-        near.dedup();
     }
     [spread, near].concat()
 }

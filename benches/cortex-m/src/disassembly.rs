@@ -81,7 +81,13 @@ impl Disassembly {
 
     /// The functions that a function calls or jumps to directly.
     pub fn calls(&self, function: u32) -> BTreeSet<u32> {
-        let targets = self.in_function(function).iter().filter_map(Instruction::target);
+        self.branches(function, |_| true)
+    }
+
+    /// The functions that a function goes to by branches of some kind.
+    fn branches(&self, function: u32, kind: impl Fn(&Instruction) -> bool) -> BTreeSet<u32> {
+        let branches = self.in_function(function).iter().filter(|i| kind(i));
+        let targets = branches.filter_map(Instruction::target);
         let starts = targets.filter_map(|target| self.functions.range(..=target).next_back());
         starts.map(|(start, _)| *start).filter(|start| *start != function).collect()
     }
@@ -114,11 +120,15 @@ impl Disassembly {
             return 0;
         }
         above.push(function);
-        let below =
-            self.calls(function).into_iter().map(|called| self.deepest(called, above)).max();
+        let mut below = |kind: fn(&Instruction) -> bool| {
+            let next = self.branches(function, kind).into_iter();
+            next.map(|called| self.deepest(called, above)).max().unwrap_or(0)
+        };
+        // A function that jumps to another has given its stack back before.
+        let (called, jumped_to) = (below(Instruction::is_call), below(|i| !i.is_call()));
         above.pop();
         let own = self.functions[&function].stack.unwrap_or_else(|| self.prologue(function));
-        own + below.unwrap_or(0)
+        jumped_to.max(own + called)
     }
 
     /// What a function pushes and takes off the stack pointer.
@@ -159,6 +169,11 @@ impl Disassembly {
 }
 
 impl Instruction {
+    /// Does it leave where to return to?
+    fn is_call(&self) -> bool {
+        matches!(self.name.trim_end_matches(".w"), "bl" | "blx")
+    }
+
     /// Where a direct branch goes.
     pub fn target(&self) -> Option<u32> {
         if !self.name.starts_with(['b', 'c']) {
