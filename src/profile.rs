@@ -2,7 +2,8 @@
 //!
 //! Everything is seen from two sides. Side 0 looks from the earlier end and counts `a = u`; side 1
 //! looks from the later end, back in time, and counts `a = 1 - u`, exact for `u >= 1/2`. So both tails
-//! keep their relative accuracy, the ends are exact, and a mirrored curve gives mirrored times.
+//! keep their relative accuracy, the ends are exact, and a mirrored curve gives mirrored times, unless one ramp has nearly
+//! all of the mass.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};

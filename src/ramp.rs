@@ -28,7 +28,7 @@ const fn bits(n: i32) -> f32 {
 /// The exponents of the units in which a ramp's series count: its length and its mass count some 2¹⁰⁰, and so what is
 /// 2⁻²⁰⁰ of them keeps its bits too.
 #[derive(Clone, Copy)]
-pub(crate) struct Units {
+struct Units {
     time: i32,
     mass: i32,
 }
@@ -137,7 +137,7 @@ impl End {
     }
 }
 
-/// The mass's coefficients from some place in single precision, all but the last, which is the same from everywhere.
+/// The mass's coefficients from some place in single precision, all but the last, whose size is the same everywhere.
 type Near = [f32; 5];
 
 /// Rounded, in units of `2^unit`.
@@ -220,7 +220,7 @@ pub(crate) struct Segment {
     /// The earlier end and the later one.
     pub(crate) ends: [End; 2],
     /// Is mass counted from the later end, back in time?
-    pub(crate) back: bool,
+    back: bool,
     /// The openness of the control points, from the end where the mass is counted.
     openness: [f32; 4],
     /// `∫ f dt` between that end and `p`: the closed form of `∫ f t' dp`, of degree 6.
@@ -309,7 +309,7 @@ impl Segment {
 
     /// The place that a search finds, `enough` for a mass of `size`.
     #[inline(always)]
-    const fn end_of(
+    const fn found(
         &self,
         target: Pair,
         start: &Start<6>,
@@ -335,16 +335,14 @@ impl Segment {
     #[inline(always)]
     pub(crate) fn at_mass(&self, late: bool, mass: Wide, size: Wide, enough: Enough) -> Place {
         let (target, start) = self.begin(late, mass);
-        // A copy, for a pointer to the start itself would keep all of it in memory.
-        let c = start.c;
-        self.end_of(target, &start, seed(&c, start.sought), size, enough)
+        self.found(target, &start, seed(&start.c, start.sought), size, enough)
     }
 
     /// The same, seeded as a constant can.
     pub(crate) const fn at_mass_const(&self, late: bool, mass: Wide, size: Wide) -> Place {
         let (target, start) = self.begin(late, mass);
         let seed = seed_by_bits(&start.c, start.sought);
-        self.end_of(target, &start, seed, size, FOR_FRACTION)
+        self.found(target, &start, seed, size, FOR_FRACTION)
     }
 
     /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.

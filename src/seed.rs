@@ -55,20 +55,27 @@ const fn seed_at(exponent: i32, fraction: i32) -> Seed {
     Seed { x: f32::from_bits((((exponent + lift + 127) << 23) + (fraction << 3)) as u32), lift }
 }
 
-/// The guess from logarithms alone; all that a constant can use.
+/// The guess from a root's logarithm alone.
 #[inline(always)]
-pub(crate) const fn seed_by_bits(c: &[f32], target: f32) -> Seed {
-    let root = least_root(c, rough_log(target)) - MEAN;
+const fn by_bits(root: i32) -> Seed {
+    let root = root - MEAN;
     seed_at(root >> 20, root & (ONE - 1))
 }
 
+/// The guess from logarithms alone; all that a constant can use.
+#[inline(always)]
+pub(crate) const fn seed_by_bits(c: &[f32], target: f32) -> Seed {
+    by_bits(least_root(c, rough_log(target)))
+}
+
 /// The guess by the root that the features choose.
-#[inline]
+#[inline(always)]
 pub(crate) fn seed(c: &[f32], target: f32) -> Seed {
+    let target = rough_log(target);
+    let root = least_root(c, target);
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
-        let target = rough_log(target);
-        let k = least_root(c, target) & 7;
+        let k = root & 7;
         let i = (k - 1) as usize;
         if (k == 2 || k == 4) && i < c.len() {
             let divisor = rough_log(c[i]);
@@ -83,7 +90,7 @@ pub(crate) fn seed(c: &[f32], target: f32) -> Seed {
             return seed_at(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
         }
     }
-    seed_by_bits(c, target)
+    by_bits(root)
 }
 
 #[cfg(feature = "libm")]
