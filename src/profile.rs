@@ -131,9 +131,9 @@ impl<const CELLS: usize> Profile<CELLS> {
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let octaves = [[Octave::NONE; CELLS]; 2];
         let reciprocal = (normalization.to_bits() >> 21) as u32 | 1 << 31;
-        // A ramp's mass is counted from its outer end, where all that there is of a tail is in that ramp. But where
-        // next to nothing comes before the closing ramp, its start is such a tail, too, and the one to be counted from,
-        // since `f32` are finer near 0 than near 1.
+        // A ramp's mass is counted from its outer end, the tail that has to keep its relative accuracy. Where next to
+        // nothing comes before the closing ramp, its start is such a tail, too, and the one to be counted from, since
+        // `f32` are finer near 0 than near 1.
         let before = whole_mass(opening) + plateau_mass;
         let back = whole_mass(closing) <= before * (1 << 12) as f64;
         let ramps = [Segment::new(opening, false), Segment::new(closing, back)];

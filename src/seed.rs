@@ -1,6 +1,6 @@
 //! The first guess of a search: a k-th root.
 //!
-//! Near its end a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
+//! Near the place that it is measured from a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
 //! `|target / c_k|^(1/k)` over the coefficients. The logarithms that floating-point numbers carry in their
 //! exponents tell which one is least, to a tenth, which Halley's step makes a thousandth; where it is a second or fourth
 //! root, `libm` or `micromath` take it if these features are on. The search behind it

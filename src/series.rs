@@ -126,7 +126,7 @@ pub(crate) const fn series<const N: usize>(c: [f64; N], unit: i32) -> Series<N> 
 
 /// `2^n`, a normal number.
 #[inline(always)]
-pub(crate) const fn power_of_two(n: i32) -> f32 {
+const fn power_of_two(n: i32) -> f32 {
     f32::from_bits(((n + 127) as u32) << 23)
 }
 
@@ -256,7 +256,7 @@ pub(crate) struct Seed {
     pub(crate) lift: i32,
 }
 
-/// Nearer to an end than 2 to minus this a series is its first term.
+/// Nearer to an end than 2 to minus this, where the whole ramp is [`ONE`], a series is its first term.
 pub(crate) const FIRST_TERM: i32 = 100;
 
 /// A known place from which a search starts.
@@ -273,9 +273,9 @@ pub(crate) struct Start<const N: usize> {
 /// Where a search ended: the way `(x + rest) 2^-lift` from its start, and how many evaluations it took.
 #[derive(Clone, Copy)]
 pub(crate) struct Way {
-    pub(crate) x: f32,
-    pub(crate) rest: f32,
-    pub(crate) lift: i32,
+    x: f32,
+    rest: f32,
+    lift: i32,
     pub(crate) evaluations: u32,
 }
 
@@ -290,18 +290,18 @@ pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 /// A way on a ramp is at most 1, but for rounding.
 const FARTHEST: f32 = 2.0 * ONE;
 
-/// Where less than this share of what is sought is missing, it is measured in pairs: the rounding of the terms may be as
-/// much, and Halley's step leaves the cube of it, about as much as may be left.
+/// Where less than this share of what is sought is missing, it is measured in pairs: the rounding of the terms may be
+/// about as much, and Halley's step leaves the cube of it, about as much as may be left.
 const NEAR: f32 = 1.0 / 512.0;
 
 /// What single precision's rounding makes of a slope, as a share of its terms.
 const ROUNDING: f32 = 1.0 / (1 << 21) as f32;
 
-/// How exact a search has to be, relative to a size given with the target.
+/// How exact a search has to be: what may be missing, relative to a size given with the target.
 #[derive(Clone, Copy)]
 pub(crate) struct Enough {
     pub(crate) error: f32,
-    /// Is it the way's error instead, relative to the way?
+    /// Is `error` the way's instead, relative to the way?
     pub(crate) of_way: bool,
     /// What may be missing where it is so flat that no step helps.
     pub(crate) flat: f32,

@@ -22,7 +22,7 @@ use peers::{
 };
 use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
 
-/// For one `u` of a case here: what a search over 41 461 curves found at most.
+/// For one `u` of a case here: what a close look found at most on the worst of 41 710 curves that a search bred.
 const MOST_EVALUATIONS: u32 = 9;
 
 /// What of the promise an inverse breaks on a curve, any curve whatsoever.

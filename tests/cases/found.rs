@@ -105,7 +105,7 @@ pub const FOUND: &[(&str, Ramp, Ramp)] = &[
         ],
     ),
     (
-        "search: most evaluations, 16 with those in pairs",
+        "search: 16 evaluations once, nearly flat twice",
         [
             (-8.6693565e-14, 0.21461953),
             (3.0222324e-8, -0.12389345),
