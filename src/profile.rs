@@ -9,7 +9,6 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::octave::Octave;
 use crate::ramp::{FOR_DELAY, FOR_FRACTION, OnRamp, Place, Segment, whole_mass};
-use crate::series::Enough;
 use crate::wide::Wide;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -250,10 +249,10 @@ impl<const CELLS: usize> Profile<CELLS> {
 
     /// The place where a mass has been collected, from a side, by the solver.
     #[inline(always)]
-    fn exact(&self, side: usize, mass: Wide, enough: Enough) -> Place {
+    fn exact(&self, side: usize, mass: Wide, error: f32) -> Place {
         match self.section(side, mass) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, rest) => self.ramp(ramp).at_mass(side == 1, rest, mass, enough),
+            Section::Ramp(ramp, rest) => self.ramp(ramp).at_mass(side == 1, rest, mass, error),
         }
     }
 

@@ -9,16 +9,21 @@
 use crate::bezier::{CubicBezier, sqrt};
 use crate::seed::{seed, seed_by_bits};
 use crate::series::{
-    Enough, ONE, Pair, Seed, Series, Start, Way, around, exactly, series, single, solve, sum,
+    ONE, Pair, Seed, Series, Start, Way, around, exactly, series, single, solve, sum,
 };
 use crate::wide::Wide;
 
+// How exact a search has to be: what may be missing.
+
 /// For an `f32` fraction of the mass: an eighth of the least distance between neighbours, so that these keep their order.
-pub(crate) const FOR_FRACTION: Enough = Enough { error: bits(27), of_way: false, flat: bits(27) };
+pub(crate) const FOR_FRACTION: f32 = bits(27);
 /// For a fraction with more bits, and a time that is to be known to 2⁻³⁸.
-pub(crate) const FOR_DELAY: Enough = Enough { error: bits(37), of_way: false, flat: bits(38) };
-/// For a time, the way to whose place is asked for, since openness and mass may be steep where time is flat.
-const FOR_TIME: Enough = Enough { error: bits(33), of_way: true, flat: bits(44) };
+pub(crate) const FOR_DELAY: f32 = bits(37);
+/// For a time, relative to the way, since openness and mass may be steep where time is flat.
+const FOR_TIME: f32 = bits(33);
+
+/// A slope from a quarter to half of a ramp's mean `t'`, in the ramp's units.
+const SLOW: f32 = (1u128 << 75) as f32;
 
 /// `2^-n`
 const fn bits(n: i32) -> f32 {
@@ -307,7 +312,7 @@ impl Segment {
         (target, self.start(target, whole))
     }
 
-    /// The place that a search finds, `enough` for a mass of `size`.
+    /// The place that a search finds, within an `error` relative to `size`.
     #[inline(always)]
     const fn found(
         &self,
@@ -315,11 +320,11 @@ impl Segment {
         start: &Start<6>,
         seed: Seed,
         size: Wide,
-        enough: Enough,
+        error: f32,
     ) -> Place {
         let units = self.units();
         let size = size.in_unit(units.mass).power_below();
-        let way = solve(&self.collected, target, size, start, seed, enough);
+        let way = solve(&self.collected, target, start, seed, size, error);
         // From the other end the way is known better than the place.
         let other = start.place == ONE;
         let (back, way) = (self.back != other, if other { way } else { way.from(start) });
@@ -333,9 +338,9 @@ impl Segment {
     /// The place where `mass` has been collected, counted from the later end where `late`; `size` is the curve's mass up
     /// to there, to which an error is relative.
     #[inline(always)]
-    pub(crate) fn at_mass(&self, late: bool, mass: Wide, size: Wide, enough: Enough) -> Place {
+    pub(crate) fn at_mass(&self, late: bool, mass: Wide, size: Wide, error: f32) -> Place {
         let (target, start) = self.begin(late, mass);
-        self.found(target, &start, seed(&start.c, start.sought), size, enough)
+        self.found(target, &start, seed(&start.c, start.sought), size, error)
     }
 
     /// The same, seeded as a constant can.
@@ -358,9 +363,10 @@ impl Segment {
         }
         let target = Pair::new(elapsed.in_unit(units.time));
         let mut start = Start { place: 0.0, back: false, c: single(series), sought: target.hi };
-        let flat = &self.flats[0];
-        if flat.p > 0.0 {
-            let place = if (from == 1) == self.back { flat.p } else { ONE - flat.p };
+        // Where `t' = c1 + 2 c2 p + 3 c3 p²` is least, if time is slow there.
+        let [c1, c2, c3] = start.c;
+        let place = -c2 / (3.0 * c3);
+        if c3 > 0.0 && place > 0.0 && place < ONE && c1 + c2 * place < SLOW {
             let beyond = target.less(exactly(series, place));
             if beyond.abs() < target.hi {
                 let (c, back) = (around(series, place), beyond < 0.0);
@@ -369,7 +375,7 @@ impl Segment {
             }
         }
         let seed = seed(&start.c, start.sought);
-        let way = solve(series, target, target.hi, &start, seed, FOR_TIME).from(&start);
+        let way = solve(series, target, &start, seed, start.sought, FOR_TIME).from(&start);
         OnRamp { from, ramp: self, way, units }
     }
 }

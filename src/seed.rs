@@ -1,7 +1,7 @@
 //! The first guess of a search: a k-th root.
 //!
 //! Near the place that it is measured from a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
-//! `|target / c_k|^(1/k)` over the coefficients. The logarithms that floating-point numbers carry in their
+//! `(target / c_k)^(1/k)` over the positive coefficients. The logarithms that floating-point numbers carry in their
 //! exponents tell which one is least, to a tenth, which Halley's step makes a thousandth; where it is a second or fourth
 //! root, `libm` or `micromath` take it if these features are on. The search behind it
 //! is the same, and so, to the last bit or so, is its answer.
@@ -12,11 +12,11 @@ use crate::wide::times_high;
 /// Logarithms here have 20 fraction bits, as many as the upper half of an `f64` has of significand.
 const ONE: i32 = 1 << 20;
 
-/// The base-2 logarithm of the magnitude, linear between powers of two: the exponent and the significand's upper
-/// bits, as they stand.
+/// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand. That
+/// of a negative number is below all others, so a root taken by it is the greatest: no such term makes up a positive sum.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
-    (x.to_bits() << 1 >> 4) as i32 - 127 * ONE
+    (x.to_bits() as i32 >> 3) - 127 * ONE
 }
 
 /// By how much a logarithm is above the linear one on average.

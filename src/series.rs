@@ -144,12 +144,6 @@ const fn upper(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0xFFFF_F000)
 }
 
-/// A polynomial's value at a place, and its Taylor coefficients there: `S'`, `S''/2`, `S'''/6`, ...
-struct Taylor<const N: usize> {
-    value: f32,
-    c: [f32; N],
-}
-
 /// The coefficients in single precision.
 #[inline(always)]
 pub(crate) const fn single<const N: usize>(series: &Series<N>) -> [f32; N] {
@@ -162,24 +156,53 @@ pub(crate) const fn single<const N: usize>(series: &Series<N>) -> [f32; N] {
     c
 }
 
-/// Horner's rule in single precision, again and again: the first time it gives the value, and each time a coefficient
-/// of the polynomial around `x`.
-#[inline(always)]
-const fn at<const N: usize>(c: &[f32; N], x: f32) -> Taylor<N> {
-    let (mut c, mut value) = (*c, 0.0);
-    let mut done = 0;
-    while done <= N {
-        let mut k = N - 1;
-        while k > 0 && k >= done {
-            k -= 1;
-            c[k] += c[k + 1] * x;
-        }
-        if done == 0 {
-            value = c[0] * x;
-        }
-        done += 1;
+/// A polynomial around `x`, as far as it is told: Horner's rule gives its value there, and again and again its Taylor
+/// coefficients `S'`, `S''/2`, ...
+struct Taylor<const N: usize> {
+    x: f32,
+    value: f32,
+    /// The first two are those around `x`, the others are on their way.
+    c: [f32; N],
+}
+
+impl<const N: usize> Taylor<N> {
+    /// `c[0] x + c[1] x² + ...` at `x`, with two derivatives.
+    #[inline(always)]
+    const fn new(c: &[f32; N], x: f32) -> Self {
+        let mut local = Self { x, value: 0.0, c: *c };
+        local.divide(0);
+        local.value = local.c[0] * x;
+        local.divide(0);
+        local.divide(1);
+        local
     }
-    Taylor { value, c }
+
+    /// Horner's rule, down to the coefficient `last`.
+    #[inline(always)]
+    const fn divide(&mut self, last: usize) {
+        let mut k = N - 1;
+        while k > last {
+            k -= 1;
+            self.c[k] += self.c[k + 1] * self.x;
+        }
+    }
+
+    /// All coefficients around `x`.
+    #[inline(always)]
+    const fn around(mut self) -> [f32; N] {
+        let mut done = 2;
+        while done < N {
+            self.divide(done);
+            done += 1;
+        }
+        self.c
+    }
+
+    /// Halley's step to make up for `missing`.
+    #[inline(always)]
+    const fn step(&self, missing: f32) -> f32 {
+        missing / (self.c[0] + self.c[1] * (missing / self.c[0]))
+    }
 }
 
 /// Horner's rule with what each sum and each product loses (Dekker) carried along.
@@ -279,55 +302,24 @@ pub(crate) struct Way {
     pub(crate) evaluations: u32,
 }
 
-/// Evaluations before the bracket has to keep up with what bisection would make of it.
+/// Evaluations before all of them are in pairs and the bracket has to keep up with what bisection would make of it.
 const NEWTON: u32 = 10;
-/// Bisections that bring any bracket between 0 and [`FARTHEST`] down to neighbours, taken by their bits; each may
+/// Bisections that bring any bracket between 0 and [`ONE`] down to neighbours, taken by their bits; each may
 /// take two evaluations.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
 pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 
-/// A way on a ramp is at most 1, but for rounding.
-const FARTHEST: f32 = 2.0 * ONE;
+/// Where less than this share of what is sought is missing, it is measured in pairs. Of what a step starts with Halley's
+/// leaves less than a twelfth of the cube, as for `p^k`: 2⁻³⁹.
+const NEAR: f32 = 1.0 / 4096.0;
 
-/// Where less than this share of what is sought is missing, it is measured in pairs: the rounding of the terms may be
-/// about as much, and Halley's step leaves the cube of it, about as much as may be left.
-const NEAR: f32 = 1.0 / 512.0;
+/// A step leads at most this many times as far from the start, since before a dip in the density it overshoots, and the
+/// way back is slow.
+const FARTHER: f32 = 2.5;
 
 /// What single precision's rounding makes of a slope, as a share of its terms.
 const ROUNDING: f32 = 1.0 / (1 << 21) as f32;
-
-/// How exact a search has to be: what may be missing, relative to a size given with the target.
-#[derive(Clone, Copy)]
-pub(crate) struct Enough {
-    pub(crate) error: f32,
-    /// Is `error` the way's instead, relative to the way?
-    pub(crate) of_way: bool,
-    /// What may be missing where it is so flat that no step helps.
-    pub(crate) flat: f32,
-}
-
-impl<const N: usize> Taylor<N> {
-    /// Halley's step to make up for `missing`, at most twice Newton's.
-    #[inline(always)]
-    const fn step(&self, missing: f32) -> f32 {
-        let newton = missing / self.c[0];
-        let slope = self.c[0] + self.c[1] * newton;
-        missing / if slope < 0.5 * self.c[0] { 0.5 * self.c[0] } else { slope }
-    }
-
-    /// What a step leaves of what is missing, by up to four derivatives.
-    #[inline(always)]
-    const fn left(&self, missing: f32, step: f32) -> f32 {
-        let mut made = 0.0;
-        let mut k = if N < 4 { N } else { 4 };
-        while k > 0 {
-            k -= 1;
-            made = (made + self.c[k]) * step;
-        }
-        (missing - made).abs()
-    }
-}
 
 /// What the terms of a polynomial at `x` sum up to without their signs.
 #[inline(always)]
@@ -341,73 +333,72 @@ const fn size_at<const N: usize>(c: &[f32; N], x: f32) -> f32 {
     size
 }
 
-/// The way from `start` to the `p` with `S(p) = target`, for an increasing `S`.
+/// The way from `start` to the `p` with `S(p) = target`, for an increasing `S`, within an `error` relative to `size`.
 ///
 /// Iterative refinement: a search in single precision; at its end what is missing, measured in pairs; then the step that
-/// makes up for it, by the polynomial around there. That polynomial is mistaken by its rounding, so a step is mistaken by
-/// `drift` times its length; where that or what the step leaves by the further derivatives is too much, it goes on from
-/// there, and every place is measured.
+/// makes up for it, by the polynomial around there. It is the last one if little enough was missing, and if it is so short
+/// that the rounding of that polynomial does not matter. Otherwise it goes on from there, and every place is measured.
 ///
-/// The search is one of Halley's steps inside a bracket, and of bisection where a step leaves it or where, after [`NEWTON`]
-/// evaluations, the bracket is wider than bisection alone would have left it. It ends with neighbours at the latest.
+/// The search is one of Halley's steps inside a bracket, at first from the start to the end of the ramp, since beyond it
+/// `S` need not increase, and of bisection where a step leaves it. After [`NEWTON`] evaluations all are in pairs, and there
+/// is bisection where the bracket is wider than that alone would have left it. It ends with neighbours at the latest.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: &Series<N>,
     target: Pair,
-    size: f32,
     start: &Start<N>,
     seed: Seed,
-    enough: Enough,
+    size: f32,
+    error: f32,
 ) -> Way {
     if start.sought == 0.0 {
         return Way::NONE;
     }
     let Seed { mut x, lift } = seed;
     let up = power_of_two(lift);
-    let (target, size) = (target.times(up), size * up);
-    let flat = enough.flat * size;
+    let (target, whole) = (target.times(up), start.sought * up);
+    let error = error * (size * up);
+    let near = NEAR * whole + error;
     let sign = if start.back { -1.0 } else { 1.0 };
-    // The polynomial around `origin`, what is sought with it, and by what share a step from there may be mistaken.
-    let (mut c, mut origin, mut sought, mut drift) = (start.c, 0.0, start.sought * up, 0.0);
-    let (mut low, mut high) = (0.0, FARTHEST);
+    // The polynomial around `origin`, what is sought with it, and what rounding may make of its value.
+    let (mut c, mut origin, mut sought, mut rounding) = (start.c, 0.0, whole, 0.0);
+    let (mut low, mut high) = (0.0, if start.back { start.place } else { ONE - start.place });
+    // At the end of the ramp the density may be 0.
+    if x > 0.75 * high {
+        x = 0.75 * high;
+    }
     let mut evaluations = 0;
     let step = loop {
-        let local = at(&c, x - origin);
+        let local = Taylor::new(&c, x - origin);
         evaluations += 1;
         let mut missing = sought - local.value;
-        let is_near = origin != 0.0 || missing.abs() <= NEAR * sought + flat;
+        let is_near = origin != 0.0 || missing.abs() <= near || evaluations >= NEWTON;
         if is_near {
             if origin == 0.0 {
-                drift = ROUNDING * size_at(&c, x) / x;
+                rounding = ROUNDING * size_at(&c, x);
+                // What the bracket was made of may have been rounding; from here on signs are certain.
+                (low, high) = (0.0, ONE);
             }
             evaluations += 1;
             let (p, lost) = two_sum(start.place, sign * x);
             // To the place before rounding it is `lost` more, which the slope tells.
             missing = sign * (target.less(exactly(series, p)) - lost * local.c[0]);
-            (c, origin, sought) = (local.c, x, missing);
         }
         let step = local.step(missing);
         if is_near {
-            let error = if enough.of_way {
-                let error = enough.error * x * local.c[0];
-                if error > flat { error } else { flat }
-            } else {
-                enough.error * size
-            };
-            if drift * step.abs() <= error && local.left(missing, step) <= error {
+            if missing.abs() <= 1.5 * near && rounding * step.abs() <= error * x {
                 break step;
             }
-            if missing.abs() <= flat {
-                break 0.0;
-            }
+            (c, origin, sought) = (local.around(), x, missing);
         }
         if missing > 0.0 {
             low = x;
         } else {
             high = x;
         }
+        let far = if high < FARTHER * x { high } else { FARTHER * x };
         let next = x + step;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let next = if next > low && next < far { next } else { 0.5 * (low + far) };
         if evaluations < NEWTON {
             x = next;
             continue;
