@@ -166,8 +166,9 @@ impl Flat {
     const NONE: Self = Self { p: 0.0, mass: Pair::INFINITE, c: [0.0; 5] };
 
     const fn new(p: f64, openness: Cubic, elapsed: Cubic, series: &Series<6>, unit: i32) -> Self {
-        // Not where the end itself serves.
-        if !(p > 1.0 / 128.0 && p < 127.0 / 128.0) {
+        // Nearer to an end that serves as well, and the mass, of order 6, would leave the range of a pair.
+        const NEAREST: f64 = 1.0 / (1 << 20) as f64;
+        if !(p > NEAREST && p < 1.0 - NEAREST) {
             return Self::NONE;
         }
         let (at, p) = (p as f32 as f64, p as f32 * ONE);

@@ -62,7 +62,7 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
         worst.evaluations = worst.evaluations.max(evaluations);
     }
     // A search that takes longer has lost its way, though the cap would end it.
-    assert!(worst.evaluations <= 8, "{} evaluations", worst.evaluations);
+    assert!(worst.evaluations <= 6, "{} evaluations", worst.evaluations);
     assert_eq!(
         (curve.inverse_cdf(0.0), curve.inverse_cdf(1.0)),
         (curve.open_start(), curve.close_end())

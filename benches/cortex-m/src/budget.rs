@@ -49,7 +49,7 @@ pub fn run() -> Result<(), String> {
         &format!("cycles of inverse_cdf, worst ({curve})"),
         f64::from(worst),
         1200.0,
-        Some(2450.0),
+        Some(1650.0),
     );
     for (row, (name, _)) in ROWS.iter().enumerate() {
         check(
