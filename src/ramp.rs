@@ -3,8 +3,9 @@
 //! Near its end a series is as its leading term, and a root of that is a good first guess. So it is near a place inside
 //! where the density nearly vanishes, if the series is taken from there: what is a flat place for a search from the end,
 //! where the slope tells next to nothing, is a cube root to be taken. A density `f t'` is that flat only where `f` or `t'`
-//! has a minimum, and each of these cubics and parabolas has one at most. So every search starts at one of four places,
-//! the one whose mass is nearest: the two ends and the two minima. From there no more than a few steps are needed.
+//! has a minimum, and each of these cubics and parabolas has one at most. So every search for a mass starts at one of
+//! four places, the one whose mass is nearest: the two ends and the two minima. From there no more than a few steps are
+//! needed. A search for a time has the nearer end and the minimum of `t'`.
 
 use crate::bezier::{CubicBezier, sqrt};
 use crate::seed::{seed, seed_by_bits};

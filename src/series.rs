@@ -5,9 +5,10 @@
 //!
 //! **Why this keeps relative accuracy.** A non-negative polynomial's increasing integral bounds its own terms (Markov):
 //! together they exceed `S(p)` by a factor that depends on the degree alone, below 2¹³ for degree 6. Single precision thus
-//! keeps 8 bits of `S` at the least and mostly 20, enough to search, and pairs keep 31 at the least, enough to tell what is
-//! missing from a target, whose neighbour in `f32` is 2⁻²⁴ away. What is missing is then searched for with the polynomial
-//! around that place, where it is a small number known to all the bits of single precision.
+//! keeps mostly 20 bits of `S`, enough to search, and 8 at the least, where the search ends in pairs. These keep 31 at the
+//! least, enough to tell what is missing from a target, whose neighbour in `f32` is 2⁻²⁴ away. What is missing is then
+//! searched for with the polynomial around that place, where it is a small number known to all the bits of single
+//! precision.
 //!
 //! **Why nothing overflows**, and what underflows does not count: a ramp's length and mass count some 2¹⁰⁰, and places up
 //! to 2²⁴, so a share of 2⁻¹⁴⁹ still has both its halves, and so has a step towards it.
