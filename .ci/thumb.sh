@@ -23,10 +23,14 @@ for tool in rustc cargo; do
 done
 host=$(rustc -vV | sed -n 's/^host: //p')
 
-# known PACKAGE: whether Debian's lists here have it.
-known() { apt-cache show "$1" >/dev/null 2>&1; }
-
 has_apt() { command -v apt-get >/dev/null && command -v dpkg >/dev/null; }
+
+# refresh HINT: Debian's lists anew, once: old ones may name an older compiler than the crate needs, or none.
+refresh() {
+    [ -n "${refreshed:-}" ] && return
+    apt-get update >&2 || fail "apt-get update failed; missing $1"
+    refreshed=yes
+}
 
 # unpack NAME HINT PACKAGE...: the Debian packages, unpacked into the cache folder NAME.
 # With dependencies where NAME ends in '+': those that are not installed.
@@ -39,7 +43,7 @@ unpack() {
     local work
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir -p "$work/debs/partial" "$work/root"
-    known "$1" || apt-get update >&2 || fail "apt-get update failed; missing $hint"
+    refresh "$hint"
     if [ "$name" != "${name%+}" ]; then
         apt-get install --yes --download-only --no-install-recommends -o Debug::NoLocking=true \
             -o Dir::Cache::archives="$work/debs" "$@" >"$work/log" 2>&1
@@ -77,7 +81,7 @@ set_up_rustc() {
     if [ ! -e "$compiler.ready" ]; then
         has_apt || fail "missing $hint"
         local std llvm
-        known rustc-web || apt-get update >&2 || fail "apt-get update failed; missing $hint"
+        refresh "$hint"
         std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*' "$hint")
         llvm=$(depends "$std" 'libllvm[0-9]*' "$hint")
         rm -rf "$compiler"
