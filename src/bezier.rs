@@ -1,5 +1,6 @@
 //! A cubic Bezier curve in (time, openness), and the checks that make it a ramp.
 
+use crate::cubic::{cubic_range, differences, quadratic_min, widened};
 use crate::error::{CurveError, Ramp};
 
 /// A cubic Bezier `c(p) = (t(p), f(p))`, `p` in [0, 1], by its control points:
@@ -53,16 +54,16 @@ impl CubicBezier {
         self.points
     }
 
-    /// The times of the control points.
-    pub(crate) const fn times(&self) -> [f64; 4] {
+    /// The times of the control points; -0.0 counts as 0.0.
+    pub(crate) const fn times(&self) -> [f32; 4] {
         let p = &self.points;
-        [p[0].0 as f64, p[1].0 as f64, p[2].0 as f64, p[3].0 as f64]
+        [p[0].0 + 0.0, p[1].0 + 0.0, p[2].0 + 0.0, p[3].0 + 0.0]
     }
 
-    /// The openness of the control points.
-    pub(crate) const fn opennesses(&self) -> [f64; 4] {
+    /// The openness of the control points; -0.0 counts as 0.0.
+    pub(crate) const fn opennesses(&self) -> [f32; 4] {
         let p = &self.points;
-        [p[0].1 as f64, p[1].1 as f64, p[2].1 as f64, p[3].1 as f64]
+        [p[0].1 + 0.0, p[1].1 + 0.0, p[2].1 + 0.0, p[3].1 + 0.0]
     }
 
     /// Is every coordinate finite?
@@ -82,18 +83,17 @@ impl CubicBezier {
     /// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound
     /// by [`GRAZE`] of the ramp's length or of the greatest |f|.
     pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
-        let t = self.times();
-        let slope = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
+        let t = widened(self.times());
         // Grazing is for the inside: before its start or after its end there is no ramp. Only where rounding puts the
         // first control time before the start, t' is -GRAZE there at worst, and time, with the second one a third in,
         // runs as -GRAZE p + p², which dips by GRAZE²/4.
         let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
         let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
         let leaves = first < -slack || last > t[3] - t[0] + slack;
-        if leaves || quadratic_min(slope) < -GRAZE / 3.0 * (t[3] - t[0]) {
+        if leaves || quadratic_min(differences(t)) < -GRAZE / 3.0 * (t[3] - t[0]) {
             return Err(CurveError::TimeTurnsBack(ramp));
         }
-        let (low, high) = cubic_range(self.opennesses());
+        let (low, high) = cubic_range(widened(self.opennesses()));
         let size = if -low > high { -low } else { high };
         if low < -GRAZE * size {
             return Err(CurveError::NegativeOpenness(ramp));
@@ -108,54 +108,3 @@ impl CubicBezier {
 /// How far, relative to its size, a bounded quantity may pass its bound by the rounding of its
 /// control points: 2⁻²².
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;
-
-/// The least value on [0, 1] of a quadratic given in the Bernstein basis.
-const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
-    let ends = if a < c { a } else { c };
-    // The vertex is inside just where the middle coefficient is below both ends; there
-    // min = (ac - b²) / (a - 2b + c), and both parts of the divisor are positive.
-    if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
-}
-
-/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis.
-const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
-    let (mut low, mut high) = if f[0] < f[3] { (f[0], f[3]) } else { (f[3], f[0]) };
-    // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
-    let (a, b, c) = (f[1] - f[0], f[2] - f[1], f[3] - f[2]);
-    let (half, square) = (b - a, a - 2.0 * b + c);
-    let discriminant = half * half - a * square;
-    if discriminant >= 0.0 {
-        let root = sqrt(discriminant);
-        let q = if half < 0.0 { -half + root } else { -half - root };
-        let candidates = [q / square, a / q];
-        let mut i = 0;
-        while i < 2 {
-            let p = candidates[i];
-            // False for the NaN of 0/0.
-            if p > 0.0 && p < 1.0 {
-                let r = 1.0 - p;
-                let value =
-                    r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3]);
-                low = if value < low { value } else { low };
-                high = if value > high { value } else { high };
-            }
-            i += 1;
-        }
-    }
-    (low, high)
-}
-
-/// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
-pub(crate) const fn sqrt(x: f64) -> f64 {
-    if x == 0.0 {
-        return 0.0;
-    }
-    // Half the exponent: within 6 %, so four steps are enough, and a fifth settles the last bit.
-    let mut y = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
-    let mut i = 0;
-    while i < 5 {
-        y = 0.5 * (y + x / y);
-        i += 1;
-    }
-    y
-}

@@ -26,23 +26,26 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod batch;
 mod bezier;
+mod cubic;
 mod error;
+mod exposure;
 mod octave;
+mod pair;
 mod pdf;
-mod profile;
+mod plan;
 mod ramp;
 mod schedule;
 mod seed;
-mod series;
 mod shutter;
-mod wide;
+mod solve;
 
 pub use bezier::CubicBezier;
 pub use error::{CurveError, Ramp, ScheduleError, valid};
 pub use pdf::BezierPdf;
-pub use series::MAX_EVALUATIONS;
 pub use shutter::ShutterCurve;
+pub use solve::MAX_EVALUATIONS;
 
 /// The README's code, compiled.
 #[cfg(doctest)]

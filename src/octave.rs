@@ -1,22 +1,25 @@
 //! The direct way: an octave of `u` as a polynomial that gives the time outright.
 //!
-//! Take `a`, the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Its exponent
-//! picks the octave and its significand is the exact offset within, so octaves shrink towards the
-//! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all.
+//! Take `a`, the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of it shrink towards the
+//! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all. Their boundaries
+//! are a power of two apart from the *top* of their side, which is chosen so that where the near ramp ends is a boundary. So no
+//! octave holds parts of two ramps. (One may hold the end of the plateau and the start of the far ramp; the plateau is
+//! answered before by its line.)
+//!
+//! The difference of the bits of the top's and of `a`'s `f32` counts the octaves between them, since the exponent is their
+//! upper part. The offset within the octave is exact: the significand of `a`, less the octave's middle.
 
-use crate::profile::{Profile, floor_bits};
-use crate::wide::{Wide, times_high};
+use crate::exposure::Exposure;
 
-/// One octave's polynomial: the time is `middle + factor · P(x)` in the profile's unit, `x` in
-/// [-1/2, 1/2) across the octave.
+/// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
+/// the octave, or somewhat less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     middle: i64,
-    /// A power of two, or minus that from the later side.
+    /// A power of two, or minus that from the later side; 0 where there is no polynomial.
     factor: i32,
-    /// The bits of the first `f32` that the polynomial serves, and how many it serves.
-    pub(crate) from: u32,
-    pub(crate) length: u32,
+    /// The bits of the greatest `f32` in it.
+    pub(crate) top: u32,
     /// `P(x) = c[0] x + c[1] x² + ...`
     c: [i32; DEGREE],
 }
@@ -60,10 +63,56 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
-impl Octave {
-    pub(crate) const NONE: Self = Self { middle: 0, factor: 0, from: 0, length: 0, c: [0; DEGREE] };
+/// Counts of a curve's times: the unit's exponent, and the times at which the sides start.
+#[derive(Clone, Copy)]
+pub(crate) struct Unit {
+    pub(crate) exponent: i32,
+    pub(crate) starts: [i64; 2],
+}
 
-    /// The time, in the profile's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
+/// The bits of the least top: below 2⁻³⁰ there are no octaves, so that the bits of 0 are not among theirs.
+pub(crate) const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
+
+/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none.
+///
+/// It is 1/2 if the near ramp goes beyond that, or else where the near ramp ends. If the far ramp begins below 1/2, too, it is that
+/// times a power of two, so that the octaves reach 1/2.
+pub(crate) const fn top(exposure: &Exposure, side: usize) -> u32 {
+    const HALF: u32 = 0.5f32.to_bits();
+    let [near, far] = exposure.joins(side);
+    let join = floor_bits(if near > 0.0 { near } else { far });
+    if join >= HALF {
+        return if near > 0.0 { HALF } else { 0 };
+    }
+    if far >= 0.5 {
+        join
+    } else if join < LEAST {
+        HALF
+    } else {
+        // As many octaves up as reach 1/2.
+        join + ((HALF - join + (1 << 23) - 1) >> 23 << 23)
+    }
+}
+
+impl Octave {
+    pub(crate) const NONE: Self = Self { middle: 0, factor: 0, top: 0, c: [0; DEGREE] };
+
+    /// Is there a polynomial?
+    #[inline(always)]
+    pub(crate) const fn exists(&self) -> bool {
+        self.factor != 0
+    }
+
+    /// The offset of a significand, whose top bit is set, from the octave's middle; `down` is 1 where its exponent is below
+    /// that of the octave's top, or else 0.
+    #[inline(always)]
+    pub(crate) const fn offset(top: u32, significand: u32, down: u32) -> i32 {
+        let top = top << 8 | 1 << 31;
+        // Doubled, so that the offset fills the word; what passes its end comes back.
+        (significand >> (down & 31) << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
+    }
+
+    /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
     /// multiply-and-add of 32 bits, and the last one of 64, on a microcontroller that has them.
     #[inline(always)]
     pub(crate) const fn time(&self, x: i32) -> i64 {
@@ -84,67 +133,38 @@ impl Octave {
         times_high(value, x)
     }
 
-    /// The polynomial for the octave `a` in [2^-(index + 2), 2^-(index + 1)) from one side, or
-    /// [`NONE`](Self::NONE) where none keeps the promised error.
-    pub(crate) const fn fit<const CELLS: usize>(
-        profile: &Profile<CELLS>,
-        side: usize,
-        index: usize,
-    ) -> Self {
-        let low = 1.0 / (4.0 * power_of_two(index as i32));
-        let high = 2.0 * low;
-        // The longer part of the octave that lies in one ramp.
-        let [first, second] = profile.bounds(side);
-        let first = if first < low {
-            low
-        } else if first < high {
-            first
-        } else {
-            high
-        };
-        let second = if second > high {
-            high
-        } else if second > low {
-            second
-        } else {
-            low
-        };
-        let (from, to) = if first - low > high - second { (low, first) } else { (second, high) };
-        if from >= to {
-            return Self::NONE;
+    /// The polynomial of a side's octave below the bits of its `top`, without one where none keeps the promised error.
+    pub(crate) const fn fit(exposure: &Exposure, unit: &Unit, side: usize, top: u32) -> Self {
+        let high = f32::from_bits(top) as f64;
+        let [near, far] = exposure.joins(side);
+        // The part that lies on a ramp.
+        let from = if near >= high || far <= 0.5 * high { 0.5 * high } else { far };
+        let to = if high > 0.5 { 0.5 } else { high };
+        let none = Self { top, ..Self::NONE };
+        // Below 2⁻⁹ the plateau's line has not all of it.
+        let is_behind_plateau = near < far && from > 0.5 * high;
+        if from >= to || is_behind_plateau && high < 1.0 / 128.0 {
+            return none;
         }
-        // A bound belongs to neither part; that of the octave does.
-        let start = floor_bits(from) + (from > low) as u32;
-        let length = floor_bits(to) - start;
-        let part = Part {
-            side,
-            index,
-            middle: (from + to) / (2.0 * low) - 1.5,
-            half: (to - from) / (2.0 * low),
-        };
-        part.direct(profile, start, length)
+        let part = Part { side, top, high, middle: 0.5 * (from + to), half: 0.5 * (to - from) };
+        part.fitted(exposure, unit, none)
     }
 
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
     /// in `u`, in which time's slope across the octave measures it.
-    const fn keeps_promise<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        part: &Part,
-        middle: f64,
-        scale: f64,
-    ) -> bool {
+    const fn keeps_promise(&self, exposure: &Exposure, part: &Part, middle: f64, scale: f64) -> bool {
+        // What one unit of x and one ulp of u are to each other.
+        let ulp = part.ulp() / part.width();
         let mut i = 0;
         while i < PEAKS.len() {
             let x = part.offset(PEAKS[i]);
-            let exact = part.exact(profile, x);
+            let exact = part.exact(exposure, x);
             let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
-            let error = if error < 0.0 { -error } else { error };
-            // What one ulp of u is in time: the octave is 2²³ ulp long.
-            let ulp = self.slope(x) * scale / (1 << 23) as f64;
-            let size = profile.size_of_time(part.side, exact);
+            let size = exposure.size_of_time(part.side, exact);
             // Written so that a NaN fails.
-            if !(error <= TIME_ERROR * size && error + NOISE * scale <= ULP_ERROR * ulp) {
+            if !(error.abs() <= TIME_ERROR * size
+                && error.abs() + NOISE * scale <= ULP_ERROR * self.slope(x) * scale * ulp)
+            {
                 return false;
             }
             i += 1;
@@ -165,77 +185,85 @@ impl Octave {
     }
 }
 
-/// The part of an octave that its polynomial serves, in the offset `x`.
+/// The part of an octave that its polynomial serves, in `a`.
 struct Part {
     side: usize,
-    index: usize,
+    top: u32,
+    /// The octave's upper end.
+    high: f64,
     middle: f64,
     half: f64,
 }
 
 impl Part {
+    /// What an offset of 1, that is 2³² units, is in `a`.
+    const fn width(&self) -> f64 {
+        // The significand of the top counts 2³¹ to 2³², and a unit of the offset is half of one of its.
+        let significand = (self.top << 8 | 1 << 31) as f64;
+        0.5 * self.high / significand * WORD
+    }
+
+    /// The least ulp of `a` in the part.
+    const fn ulp(&self) -> f64 {
+        let least = (self.middle - self.half) as f32;
+        least.next_up() as f64 - least as f64
+    }
+
     /// The offset of a point of [-1, 1], in units of 2⁻³².
     const fn offset(&self, point: f64) -> i32 {
         // A cast saturates.
-        ((self.middle + self.half * point) * WORD) as i32
+        ((self.middle + self.half * point - 0.75 * self.high) / self.width() * WORD) as i32
     }
 
     /// The exact time from the side's start at an offset.
-    const fn exact<const CELLS: usize>(&self, profile: &Profile<CELLS>, x: i32) -> f64 {
-        let m = 1 << 63 | ((x as u32 ^ 1 << 31) as u64) << 31;
-        let a = Wide { m, e: -(self.index as i32 + 2 + 63) };
-        profile.elapsed(self.side, a)
+    const fn exact(&self, exposure: &Exposure, x: i32) -> f64 {
+        exposure.elapsed(self.side, 0.75 * self.high + x as f64 / WORD * self.width())
     }
 
-    /// The octave that gives the time, where it keeps the promise.
-    const fn direct<const CELLS: usize>(
-        &self,
-        profile: &Profile<CELLS>,
-        from: u32,
-        length: u32,
-    ) -> Octave {
-        let c = self.interpolate(profile);
+    /// The octave with the polynomial, where it keeps the promise.
+    const fn fitted(&self, exposure: &Exposure, unit: &Unit, none: Octave) -> Octave {
+        let c = self.interpolate(exposure);
 
         // The largest value that Horner's rule meets fills 31 bits.
         let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
         while k > 0 {
-            bound = (if c[k] < 0.0 { -c[k] } else { c[k] }) + bound / 2.0;
+            bound = c[k].abs() + bound / 2.0;
             most = if bound > most { bound } else { most };
             k -= 1;
         }
         if !(most > 0.0 && most < f64::MAX) {
-            return Octave::NONE;
+            return none;
         }
         let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
-        let exponent = if exponent < profile.unit() { profile.unit() } else { exponent };
-        if exponent - profile.unit() > 30 {
-            return Octave::NONE;
+        let exponent = if exponent < unit.exponent { unit.exponent } else { exponent };
+        if exponent - unit.exponent > 30 {
+            return none;
         }
         let scale = power_of_two(exponent);
-        let factor = 1 << (exponent - profile.unit());
-        let mut octave = Octave { middle: 0, factor, from, length, c: [0; DEGREE] };
+        let factor = 1 << (exponent - unit.exponent);
+        let mut octave = Octave { factor, ..none };
         let mut k = 0;
         while k < DEGREE {
             octave.c[k] = round(c[k + 1] / scale);
             k += 1;
         }
         // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
-        let middle = (c[0] / power_of_two(profile.unit())) as i64 + factor as i64 / 2;
-        octave.middle =
-            profile.start_in_units(self.side) + if self.side == 0 { middle } else { -middle };
+        let middle = (c[0] / power_of_two(unit.exponent)) as i64 + factor as i64 / 2;
+        let start = unit.starts[self.side & 1];
+        octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        if octave.keeps_promise(profile, self, c[0], scale) { octave } else { Octave::NONE }
+        if octave.keeps_promise(exposure, self, c[0], scale) { octave } else { none }
     }
 
     /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.
-    const fn interpolate<const CELLS: usize>(&self, profile: &Profile<CELLS>) -> [f64; DEGREE + 1] {
+    const fn interpolate(&self, exposure: &Exposure) -> [f64; DEGREE + 1] {
         // Newton's divided differences ...
         let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         let mut i = 0;
         while i <= DEGREE {
             let offset = self.offset(NODES[i]);
             x[i] = offset as f64 / WORD;
-            d[i] = self.exact(profile, offset);
+            d[i] = self.exact(exposure, offset);
             i += 1;
         }
         let mut order = 1;
@@ -269,4 +297,17 @@ const fn power_of_two(exponent: i32) -> f64 {
 
 const fn round(x: f64) -> i32 {
     (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
+}
+
+/// `a x`, in 32 bits, where `x` counts 2⁻³².
+#[inline(always)]
+const fn times_high(a: i32, x: i32) -> i32 {
+    ((a as i64 * x as i64) >> 32) as i32
+}
+
+/// The bits of the greatest `f32` at or below a non-negative `x` that is at most about 1.
+pub(crate) const fn floor_bits(x: f64) -> u32 {
+    let rounded = x as f32;
+    let bits = rounded.to_bits();
+    if rounded as f64 > x { bits - 1 } else { bits }
 }

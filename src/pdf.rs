@@ -2,9 +2,10 @@
 
 use core::fmt;
 
+use crate::batch;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
-use crate::profile::Profile;
+use crate::plan::Plan;
 
 /// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`.
 ///
@@ -26,7 +27,7 @@ use crate::profile::Profile;
 #[derive(Clone, Copy, PartialEq)]
 pub struct BezierPdf<const CELLS: usize = 8> {
     /// The curve as the opening ramp; plateau and closing ramp have no length.
-    profile: Profile<CELLS>,
+    plan: Plan<CELLS>,
 }
 
 impl BezierPdf {
@@ -49,43 +50,43 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
         let end = curve.points()[3].0;
         let end = if end.is_finite() { end } else { 0.0 };
         let nothing = CubicBezier::new([(end, 0.0); 4]);
-        match Profile::new(&curve, &nothing, Ramp::Single, f64::INFINITY) {
-            Ok(profile) => Ok(Self { profile }),
+        match Plan::new(&curve, &nothing, Ramp::Single, f64::INFINITY) {
+            Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }
     }
 
     /// The normalised density at `t`; 0 outside the curve and for NaN.
     pub fn pdf(&self, t: f32) -> f32 {
-        self.profile.normalized(self.profile.openness(t))
+        self.plan.exposure.density(self.plan.exposure.openness(t))
     }
 
     /// The fraction of the area before `t`: 0 before the curve and for NaN, 1 after.
     pub fn cdf(&self, t: f32) -> f32 {
-        self.profile.cdf(t)
+        self.plan.exposure.cdf(t)
     }
 
     /// The `t` with `cdf(t) = u`; `u` is clamped to [0, 1], and NaN counts as 0.
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        self.profile.inverse_cdf(u)
+        batch::inverse_cdf(&self.plan, u)
     }
 
     /// `∫ f dt`, before normalisation.
     pub const fn area(&self) -> f32 {
-        self.profile.area as f32
+        self.plan.exposure.area as f32
     }
 
     /// `K`, the reciprocal of the area.
     pub const fn normalization(&self) -> f32 {
-        self.profile.normalization() as f32
+        (1.0 / self.plan.exposure.area) as f32
     }
 }
 
 impl<const CELLS: usize> fmt::Debug for BezierPdf<CELLS> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.debug_struct("BezierPdf")
-            .field("start", &self.profile.open_start())
-            .field("end", &self.profile.close_end())
+            .field("start", &self.plan.exposure.start(0))
+            .field("end", &self.plan.exposure.start(1))
             .field("area", &self.area())
             .finish_non_exhaustive()
     }
@@ -94,7 +95,7 @@ impl<const CELLS: usize> fmt::Debug for BezierPdf<CELLS> {
 #[cfg(feature = "defmt")]
 impl<const CELLS: usize> defmt::Format for BezierPdf<CELLS> {
     fn format(&self, out: defmt::Formatter<'_>) {
-        let (start, end) = (self.profile.open_start(), self.profile.close_end());
+        let (start, end) = (self.plan.exposure.start(0), self.plan.exposure.start(1));
         defmt::write!(
             out,
             "BezierPdf {{ start: {}, end: {}, area: {}, .. }}",

@@ -1,444 +1,459 @@
-//! A ramp: one Bezier, and the places on it from which a search starts.
+//! A ramp: one Bezier, seen from either end, and the anchors from which a search on it starts.
 //!
-//! Near its end a series is as its leading term, and a root of that is a good first guess. So it is near a place inside
-//! where the density nearly vanishes, if the series is taken from there: what is a flat place for a search from the end,
-//! where the slope tells next to nothing, is a cube root to be taken. A density `f t'` is that flat only where `f` or `t'`
-//! has a minimum, and each of these cubics and parabolas has one at most. So every search for a mass starts at one of
-//! four places, the one whose mass is nearest: the two ends and the two minima. From there no more than a few steps are
-//! needed. A search for a time has the nearer end and the minimum of `t'`.
+//! From an end, the time passed and the mass collected are polynomials without a constant term in the place, which counts
+//! from 0 there to [`ONE`] at the other end. So both tails keep their relative accuracy. A side of the curve
+//! sees every ramp from the end that faces it: side 0 from the earlier end, side 1 from the later one, back in time.
+//!
+//! Near its end a series is as its leading term, and a root of that is a good first guess. So it is near a place inside where
+//! the density nearly vanishes, if the series is taken from there: what is a flat place for a search from the end, where the
+//! slope tells next to nothing, is then a root to be taken. A density `f t'` is that flat only where `f` or `t'` has a
+//! minimum, and each of these cubics and parabolas has one at most. So every search for a mass starts at one of four
+//! anchors, the one whose mass is nearest: the two ends and the two minima.
 
-use crate::bezier::{CubicBezier, sqrt};
+use crate::bezier::CubicBezier;
+use crate::cubic::{Cubic, differences, forward, integral, lifted, widened};
+use crate::pair::{Pair, Series, exponent, power_of_two, rounded_sum};
 use crate::seed::{seed, seed_by_bits};
-use crate::series::{
-    ONE, Pair, Seed, Series, Start, Way, around, exactly, series, single, solve, sum,
-};
-use crate::wide::Wide;
+use crate::solve::{Anchor, ONE, Offset, solve};
 
-// How exact a search has to be: what may be missing.
+/// Fractions of the exposure count so many to the whole: the least `f32` and its rounding errors are then normal numbers.
+pub(crate) const WHOLE: f32 = (1u128 << 100) as f32;
 
-/// For an `f32` fraction of the mass: an eighth of the least distance between neighbours, so that these keep their order.
-pub(crate) const FOR_FRACTION: f32 = bits(27);
-/// For a fraction with more bits, and a time that is to be known to 2⁻³⁸.
-pub(crate) const FOR_DELAY: f32 = bits(37);
-/// For a time, relative to the way, since openness and mass may be steep where time is flat.
-const FOR_TIME: f32 = bits(33);
+/// An error in time, relative to the way from the ramp's end: a quarter of the least distance between neighbours, so that
+/// these keep their order.
+const TIME_ERROR: f32 = 1.0 / (1 << 26) as f32;
 
-/// A slope from a quarter to half of a ramp's mean `t'`, in the ramp's units.
-const SLOW: f32 = (1u128 << 75) as f32;
+/// A slope from a quarter to half of a ramp's mean `t'`.
+const SLOW: f32 = 0.25 * LENGTH / ONE;
 
-/// `2^-n`
-const fn bits(n: i32) -> f32 {
-    f32::from_bits(((127 - n) as u32) << 23)
-}
+/// A ramp's length in its own unit, but for a factor in [1, 2).
+const LENGTH: f32 = (1u128 << 64) as f32;
 
-/// The exponents of the units in which a ramp's series count: its length and its mass count some 2¹⁰⁰, and so what is
-/// 2⁻²⁰⁰ of them keeps its bits too.
+/// A Bezier as it is integrated: lifted where it grazes a bound, and seen from one of its ends.
 #[derive(Clone, Copy)]
-struct Units {
-    time: i32,
-    mass: i32,
+pub(crate) struct Shape {
+    /// The openness of the control points.
+    f: [f32; 4],
+    /// The differences of their times, all counted away from the end.
+    d: [f64; 3],
 }
 
-impl Units {
-    #[inline(always)]
-    const fn new(length: f32, mass: f64) -> Self {
-        let length = (length.to_bits() >> 23) as i32 - 127;
-        let mass = (mass.to_bits() >> 52) as i32 - 1023;
-        Self { time: length - 100, mass: mass - 100 }
+impl Shape {
+    /// Seen from the earlier end.
+    pub(crate) const fn new(curve: &CubicBezier) -> Self {
+        let times = widened(curve.times());
+        let d = forward(differences(times), times[3] - times[0]);
+        Self { f: lifted(curve.opennesses()), d }
+    }
+
+    /// Seen from the other end.
+    const fn reversed(self) -> Self {
+        let Self { f, d } = self;
+        Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] }
+    }
+
+    const fn openness(&self) -> Cubic {
+        Cubic::new(self.f[0] as f64, differences(widened(self.f)))
+    }
+
+    /// The time passed since the end.
+    const fn elapsed(&self) -> Cubic {
+        Cubic::new(0.0, self.d)
+    }
+
+    /// The mass collected since the end: `∫ f t' dp`, of degree 6.
+    const fn collected(&self) -> [f64; 6] {
+        integral(self.openness(), self.elapsed())
+    }
+
+    /// `∫ f dt` over the ramp, the same seen from both ends.
+    pub(crate) const fn mass(&self) -> f64 {
+        let (m, n) = (self.collected(), self.reversed().collected());
+        let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
+        let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
+        0.5 * (first + last)
     }
 }
 
-/// A cubic by its power coefficients from one of its ends: `value + c[0] p + c[1] p² + c[2] p³`.
-#[derive(Clone, Copy)]
-struct Cubic {
-    value: f64,
-    c: [f64; 3],
-}
-
-impl Cubic {
-    /// From its Bernstein coefficients, measured from the first or the last. The differences of `f32` are exact in `f64`
-    /// unless their exponents lie 29 apart.
-    const fn new(v: [f64; 4], last: bool) -> Self {
-        let [v0, v1, v2, v3] = if last { [v[3], v[2], v[1], v[0]] } else { v };
-        let c = [3.0 * (v1 - v0), 3.0 * ((v2 - v1) - (v1 - v0)), (v3 - v0) - 3.0 * (v2 - v1)];
-        Self { value: v0, c }
-    }
-
-    /// The same measured from `p`.
-    const fn from(self, p: f64) -> Self {
-        let Self { value, c: [a, b, c] } = self;
-        Self {
-            value: value + p * (a + p * (b + p * c)),
-            c: [a + p * (2.0 * b + p * 3.0 * c), b + 3.0 * p * c, c],
-        }
-    }
-
-    /// Where the slope `a + 2 b p + 3 c p²` is least, or nowhere on the ramp.
-    const fn least_slope(self) -> f64 {
-        let [_, b, c] = self.c;
-        if c > 0.0 { -b / (3.0 * c) } else { -1.0 }
-    }
-
-    /// Where it has a minimum, or nowhere on the ramp.
-    const fn minimum(self) -> f64 {
-        let [a, b, c] = self.c;
-        let discriminant = b * b - 3.0 * a * c;
-        if discriminant <= 0.0 {
-            return -1.0;
-        }
-        // By the form that does not cancel.
-        let root = sqrt(discriminant);
-        if b > 0.0 { -a / (b + root) } else { (root - b) / (3.0 * c) }
-    }
-}
-
-/// The mass from the place where both are measured, by powers of `p`: the product of `f = f0 + a1 p + a2 p² + a3 p³`
-/// and `t' = b1 + 2 b2 p + 3 b3 p²`, integrated.
-const fn mass(openness: Cubic, elapsed: [f64; 3]) -> [f64; 6] {
-    let (Cubic { value: f, c: a }, b) = (openness, elapsed);
-    [
-        f * b[0],
-        (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
-        (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
-        (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
-        (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
-        a[2] * b[2] / 2.0,
-    ]
-}
-
-/// The time since an end. Away from the last end time runs down; what has elapsed runs up from both.
-const fn elapsed(curve: &CubicBezier, last: bool) -> Cubic {
-    let t = Cubic::new(curve.times(), last);
-    Cubic { value: 0.0, c: if last { [-t.c[0], -t.c[1], -t.c[2]] } else { t.c } }
-}
-
-/// The mass since an end.
-const fn collected(curve: &CubicBezier, last: bool) -> [f64; 6] {
-    mass(Cubic::new(curve.opennesses(), last), elapsed(curve, last).c)
-}
-
-/// `∫ f dt` over a ramp, the same for a mirrored one.
-pub(crate) const fn whole_mass(curve: &CubicBezier) -> f64 {
-    let (m, n) = (collected(curve, false), collected(curve, true));
-    let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
-    let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
-    // A density that grazes 0 from below can leave a mass below 0 by rounding.
-    if first + last > 0.0 { 0.5 * (first + last) } else { 0.0 }
-}
-
-/// One end of a ramp: `p` is 0 here and 1 at the other end.
+/// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct End {
-    /// The time here.
-    pub(crate) time: f32,
-    /// `|t(p) - time|`
-    elapsed: Series<3>,
+struct End {
+    time: f32,
+    /// `|t(p) - time|` but for its last coefficient.
+    elapsed: [Pair; 2],
+    /// The mass in between, but for its last coefficient.
+    mass: [Pair; 5],
 }
 
-impl End {
-    /// The end at `P0` where `!last`, at `P3` where `last`.
-    const fn new(curve: &CubicBezier, last: bool, units: Units) -> Self {
-        let time = curve.points()[if last { 3 } else { 0 }].0;
-        Self { time, elapsed: series(elapsed(curve, last).c, units.time) }
-    }
-}
-
-/// The mass's coefficients from some place in single precision, all but the last, whose size is the same everywhere.
-type Near = [f32; 5];
-
-/// Rounded, in units of `2^unit`.
-const fn near(c: [f64; 6], unit: i32) -> Near {
-    let c = single(&series(c, unit));
-    [c[0], c[1], c[2], c[3], c[4]]
-}
-
-/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish.
+/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. All in it counts away from
+/// the nearer end, in single precision but for the mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// The place, from the end where the mass is counted.
-    p: f32,
-    /// The mass there.
+    /// How far from the nearer end; negative where that is the later one.
+    place: f32,
+    /// The mass between that end and here.
     mass: Pair,
-    /// The mass from there, by powers of `p`.
-    c: Near,
+    /// The mass from here, by powers of the distance; the two coefficients that are missing follow from the end's.
+    c: [f32; 4],
 }
 
 impl Flat {
-    const NONE: Self = Self { p: 0.0, mass: Pair::INFINITE, c: [0.0; 5] };
-
-    const fn new(p: f64, openness: Cubic, elapsed: Cubic, series: &Series<6>, unit: i32) -> Self {
-        // Nearer to an end that serves as well, and the mass, of order 6, would leave the range of a pair.
-        const NEAREST: f64 = 1.0 / (1 << 20) as f64;
-        if !(p > NEAREST && p < 1.0 - NEAREST) {
-            return Self::NONE;
-        }
-        let (at, p) = (p as f32 as f64, p as f32 * ONE);
-        let c = near(mass(openness.from(at), elapsed.from(at).c), unit);
-        Self { p, mass: exactly(series, p), c }
-    }
+    /// No place: nothing is near to it.
+    const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
 }
 
 /// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
-    pub(crate) time: f32,
-    pub(crate) back: bool,
-    /// In units of `2^unit`.
+    time: f32,
+    back: bool,
+    /// In units of `2^unit`, at least 0.
     elapsed: Pair,
     unit: i32,
+    /// No time on the way is beyond this.
+    until: f32,
     /// Evaluations of the mass that it took to find.
     pub(crate) evaluations: u32,
 }
 
 impl Place {
-    /// An end.
-    const fn at(time: f32) -> Self {
-        Self { time, back: false, elapsed: Pair::ZERO, unit: 0, evaluations: 0 }
-    }
-
-    /// A place on the plateau.
-    pub(crate) const fn new(time: f32, back: bool, elapsed: Wide) -> Self {
-        if elapsed.is_zero() {
-            return Self::at(time);
-        }
-        Self {
-            time,
-            back,
-            elapsed: Pair::significand(elapsed),
-            unit: elapsed.e + 63,
-            evaluations: 0,
-        }
-    }
-
-    pub(crate) const fn elapsed(self) -> Wide {
-        self.elapsed.magnitude(self.unit)
+    /// A place on the plateau, on the way from one end of it to the other.
+    pub(crate) const fn on_way(time: f32, until: f32, back: bool, elapsed: Pair, unit: i32) -> Self {
+        Self { time, until, back, elapsed, unit, evaluations: 0 }
     }
 
     /// The time, rounded once.
     #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
-        sum(self.time, self.elapsed, self.unit, self.back)
+        let time = rounded_sum(self.time, self.elapsed, self.unit, self.back);
+        let is_beyond = if self.back { time < self.until } else { time > self.until };
+        if is_beyond { self.until } else { time }
     }
+
+    /// The time since `start`, in units of `2^unit`, and that unit's exponent: at least 2⁻¹⁰⁰ of the longer of the ways.
+    pub(crate) const fn since(self, start: f32, unit: i32) -> Pair {
+        let base = scaled(Pair::sum(self.time, -start), -unit);
+        let way = scaled(self.elapsed, self.unit - unit);
+        if self.back { base.minus(way) } else { base.plus(way) }
+    }
+
+    /// The time since `start`, in `f64`.
+    pub(crate) const fn since_f64(self, start: f32) -> f64 {
+        let unit = f64::from_bits(((1023 + self.unit) as u64) << 52);
+        let (base, way) = (self.time as f64 - start as f64, self.elapsed.to_f64() * unit);
+        if self.back { base - way } else { base + way }
+    }
+}
+
+/// `x 2^n`, by halves, for the power of two may not be a normal number itself.
+#[inline(always)]
+pub(crate) const fn scaled(x: Pair, n: i32) -> Pair {
+    let half = n >> 1;
+    x.scaled(power_of_two(half)).scaled(power_of_two(n - half))
 }
 
 /// One Bezier as a part of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Segment {
+pub(crate) struct Ramp {
     /// The earlier end and the later one.
-    pub(crate) ends: [End; 2],
-    /// Is mass counted from the later end, back in time?
-    back: bool,
-    /// The openness of the control points, from the end where the mass is counted.
+    ends: [End; 2],
+    /// The last coefficient of both ends' time.
+    cubic: Pair,
+    /// The last coefficient of the earlier end's mass; the later end's is minus that.
+    sextic: Pair,
+    /// The openness of the control points.
     openness: [f32; 4],
-    /// `∫ f dt` between that end and `p`: the closed form of `∫ f t' dp`, of degree 6.
-    collected: Series<6>,
     /// Where `t'` has its minimum, and where `f` has.
     flats: [Flat; 2],
-    /// The mass from the other end.
-    other: Near,
-    /// `∫ f dt` over the ramp.
-    pub(crate) mass: f64,
+    /// The ramp's fraction of the exposure, in [`WHOLE`].
+    pub(crate) share: Pair,
 }
 
-impl Segment {
-    /// A ramp whose mass is counted from its last end where `back`, or else from its first.
-    pub(crate) const fn new(curve: &CubicBezier, back: bool) -> Self {
-        let points = curve.points();
-        let mass = whole_mass(curve);
-        let units = Units::new(points[3].0 - points[0].0, mass);
-        let collected = series(collected(curve, back), units.mass);
-        let (openness, elapsed) = (Cubic::new(curve.opennesses(), back), elapsed(curve, back));
-        let f = [points[0].1, points[1].1, points[2].1, points[3].1];
-        Self {
-            ends: [End::new(curve, false, units), End::new(curve, true, units)],
-            back,
-            openness: if back { [f[3], f[2], f[1], f[0]] } else { f },
-            collected,
-            flats: [
-                Flat::new(elapsed.least_slope(), openness, elapsed, &collected, units.mass),
-                Flat::new(openness.minimum(), openness, elapsed, &collected, units.mass),
-            ],
-            other: near(self::collected(curve, !back), units.mass),
-            mass,
+impl Ramp {
+    /// A ramp of a curve with this area.
+    pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
+        let times = curve.times();
+        let seen = Shape::new(curve);
+        let seen = [seen, seen.reversed()];
+        // A ramp with less than 2⁻¹⁵⁵ of the exposure is dark: no `f32` u is reached on it.
+        let share = seen[0].mass() / area * WHOLE as f64;
+        let share = Pair::from_f64(if share < power_of_two(-55) as f64 { 0.0 } else { share });
+        let unit = unit_of_time(times[0], times[3]);
+        let per_unit = f64::from_bits(((1023 - unit) as u64) << 52);
+        let per_mass = unit_of_mass(share) as f64 * WHOLE as f64 / area;
+        let masses = [
+            in_places(seen[0].collected(), per_mass),
+            in_places(seen[1].collected(), per_mass),
+        ];
+        let elapsed = [
+            in_places(seen[0].elapsed().c, per_unit),
+            in_places(seen[1].elapsed().c, per_unit),
+        ];
+        let ends = [
+            End::new(times[0], &elapsed[0], &masses[0]),
+            End::new(times[3], &elapsed[1], &masses[1]),
+        ];
+        let mut flats = [Flat::NONE; 2];
+        let mut side = 0;
+        while side < 2 {
+            let (openness, elapsed) = (seen[side].openness(), seen[side].elapsed());
+            let minima = [elapsed.least_slope(), openness.minimum()];
+            let mut kind = 0;
+            while kind < 2 {
+                let p = minima[kind];
+                // A trace beyond the middle, so that rounding hides no minimum from both sides.
+                if p > 0.0 && p <= 0.5000001 {
+                    let (place, p) = (p as f32 * ONE, p as f32 as f64);
+                    let series = Series { c: &masses[side].0, last: masses[side].1 };
+                    let c = integral(openness.around(p), elapsed.around(p));
+                    let (c, _): ([Pair; 5], Pair) = in_places(c, per_mass);
+                    flats[kind] = Flat {
+                        place: if side == 0 { place } else { -place },
+                        mass: series.at(place),
+                        c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
+                    };
+                }
+                kind += 1;
+            }
+            side += 1;
         }
+        Self { ends, cubic: elapsed[0].1, sextic: masses[0].1, openness: seen[0].f, flats, share }
     }
 
+    /// The time of its end that faces a side.
+    pub(crate) const fn time(&self, side: usize) -> f32 {
+        self.end(side).time
+    }
+
+    /// An end by its side, which is 0 or 1.
     #[inline(always)]
-    const fn units(&self) -> Units {
-        Units::new(self.ends[1].time - self.ends[0].time, self.mass)
+    const fn end(&self, side: usize) -> &End {
+        &self.ends[side & 1]
     }
 
-    /// An end by its index, which is 0 or 1.
-    pub(crate) const fn end(&self, index: usize) -> &End {
-        &self.ends[index & 1]
-    }
-
-    /// The known place whose mass is nearest to a target, with what is to be collected from there.
+    /// The time passed since the end that faces a side.
     #[inline(always)]
-    const fn start(&self, target: Pair, whole: Pair) -> Start<6> {
-        let (mut place, mut beyond, mut c) = (ONE, target.less(whole), &self.other);
+    const fn elapsed(&self, side: usize) -> Series<'_> {
+        Series { c: &self.end(side).elapsed, last: self.cubic }
+    }
+
+    /// The mass collected since the end that faces a side.
+    #[inline(always)]
+    const fn collected(&self, side: usize) -> Series<'_> {
+        let last = if side == 0 { self.sextic } else { self.sextic.negated() };
+        Series { c: &self.end(side).mass, last }
+    }
+
+    /// The same in single precision.
+    #[inline(always)]
+    const fn single(&self, side: usize) -> [f32; 6] {
+        let Series { c, last } = self.collected(side);
+        [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
+    }
+
+    /// The anchor whose mass is nearest to a target, seen from a side.
+    #[inline(always)]
+    const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
+        let share = self.share.scaled(unit_of_mass(self.share));
+        // The other end, then the minima.
+        let (mut beyond, mut nearest) = (target.difference(share), 2);
         let mut i = 0;
         while i < 2 {
             let flat = &self.flats[i];
-            let from_flat = target.less(flat.mass);
+            let is_ours = (flat.place < 0.0) == (side == 1);
+            let mass = if is_ours { flat.mass } else { share.minus(flat.mass) };
+            let from_flat = target.difference(mass);
             if from_flat.abs() < beyond.abs() {
-                (place, beyond, c) = (flat.p, from_flat, &flat.c);
+                (beyond, nearest) = (from_flat, i);
             }
             i += 1;
         }
         if target.hi <= beyond.abs() {
-            let c = single(&self.collected);
-            return Start { place: 0.0, back: false, c, sought: target.hi };
+            let c = self.single(side);
+            return Anchor { place: Pair::ZERO, back: false, limit: ONE, c, sought: target.hi };
         }
-        let ([c1, c2, c3, c4, c5], c6) = (*c, self.collected[5].hi);
-        let back = beyond < 0.0;
-        let c = if !back {
-            [c1, c2, c3, c4, c5, c6]
-        } else if place == ONE {
-            // The other end looks back already.
-            [c1, c2, c3, c4, c5, -c6]
-        } else {
+        let (back, sought) = (beyond < 0.0, beyond.abs());
+        if nearest == 2 {
+            let c = self.single(side ^ 1);
+            return Anchor { place: Pair::new(ONE), back, limit: ONE, c, sought };
+        }
+        let Flat { place, c: [c1, c2, c3, c4], .. } = self.flats[nearest & 1];
+        let from = (place < 0.0) as usize;
+        let [_, _, _, _, c5, c6] = self.single(from);
+        let c5 = c5 + 6.0 * c6 * place.abs();
+        // The flat counts away from its own end: against the way of the search, every second sign is the other.
+        let c = if back == (from == side) {
             [c1, -c2, c3, -c4, c5, -c6]
+        } else {
+            [c1, c2, c3, c4, c5, c6]
         };
-        Start { place, back, c, sought: beyond.abs() }
+        let place = if from == side { Pair::new(place.abs()) } else { Pair::sum(ONE, -place.abs()) };
+        let limit = if back { place.hi } else { ONE - place.hi };
+        Anchor { place, back, limit, c, sought }
     }
 
-    /// What to search for, and from where, to find the place where `mass` has been collected, counted from the later end
-    /// where `late`.
+    /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
+    /// [`WHOLE`].
     #[inline(always)]
-    const fn begin(&self, late: bool, mass: Wide) -> (Pair, Start<6>) {
-        let unit = self.units().mass;
-        let whole = Pair::new(Wide::from_f64(self.mass).in_unit(unit));
-        let mass = Pair::new(mass.in_unit(unit));
-        let target = if late == self.back { mass } else { whole.minus(mass) };
-        (target, self.start(target, whole))
-    }
-
-    /// The place that a search finds, within an `error` relative to `size`.
-    #[inline(always)]
-    const fn found(
-        &self,
-        target: Pair,
-        start: &Start<6>,
-        seed: Seed,
-        size: Wide,
-        error: f32,
-    ) -> Place {
-        let units = self.units();
-        let size = size.in_unit(units.mass).power_below();
-        let way = solve(&self.collected, target, start, seed, size, error);
-        // From the other end the way is known better than the place.
-        let other = start.place == ONE;
-        let (back, way) = (self.back != other, if other { way } else { way.from(start) });
-        let Way { evaluations, .. } = way;
-        let end = self.end(back as usize);
-        let (elapsed, unit) = way.value(&end.elapsed);
-        let elapsed = if elapsed.is_negative() { Pair::ZERO } else { elapsed };
-        Place { time: end.time, back, elapsed, unit: unit + units.time, evaluations }
-    }
-
-    /// The place where `mass` has been collected, counted from the later end where `late`; `size` is the curve's mass up
-    /// to there, to which an error is relative.
-    #[inline(always)]
-    pub(crate) fn at_mass(&self, late: bool, mass: Wide, size: Wide, error: f32) -> Place {
-        let (target, start) = self.begin(late, mass);
-        self.found(target, &start, seed(&start.c, start.sought), size, error)
+    pub(crate) fn at_mass(&self, side: usize, target: Pair, error: f32) -> Place {
+        let unit = unit_of_mass(self.share);
+        let target = target.scaled(unit);
+        let anchor = self.anchor(side, target);
+        let seed = seed(&anchor.c, anchor.sought);
+        self.place(side, solve(self.collected(side), target, &anchor, seed, error * unit))
     }
 
     /// The same, seeded as a constant can.
-    pub(crate) const fn at_mass_const(&self, late: bool, mass: Wide, size: Wide) -> Place {
-        let (target, start) = self.begin(late, mass);
-        let seed = seed_by_bits(&start.c, start.sought);
-        self.found(target, &start, seed, size, FOR_FRACTION)
+    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: f32) -> Place {
+        let unit = unit_of_mass(self.share);
+        let target = target.scaled(unit);
+        let anchor = self.anchor(side, target);
+        let seed = seed_by_bits(&anchor.c, anchor.sought);
+        self.place(side, solve(self.collected(side), target, &anchor, seed, error * unit))
     }
 
-    /// The end nearer to `t`, by its index, and the way from there; `t` lies on the ramp.
+    #[inline(always)]
+    const fn place(&self, side: usize, offset: Offset) -> Place {
+        let elapsed = offset.value(self.elapsed(side));
+        Place {
+            time: self.time(side),
+            back: side == 1,
+            elapsed: if elapsed.rounded() < 0.0 { Pair::ZERO } else { elapsed },
+            unit: unit_of_time(self.ends[0].time, self.ends[1].time),
+            until: self.time(side ^ 1),
+            evaluations: offset.evaluations,
+        }
+    }
+
+    /// Where the ramp is at `t`, which lies on it.
+    ///
+    /// From the nearer end, with the exact time since. Where the ramp runs across time 0, `f32` are denser there than any
+    /// search is exact: then from the earlier end, with the time since in single precision, so that neighbours that
+    /// differ at all differ by more than the search's error, and the order of times is kept.
     #[inline]
     pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
-        let units = self.units();
-        let before = Wide::between(self.ends[0].time, t);
-        let after = Wide::between(t, self.ends[1].time);
-        let (from, elapsed) = if before.exceeds(after) { (1, after) } else { (0, before) };
-        let series = &self.end(from).elapsed;
-        if elapsed.is_zero() {
-            return OnRamp { from, ramp: self, way: Way::NONE, units };
-        }
-        let target = Pair::new(elapsed.in_unit(units.time));
-        let mut start = Start { place: 0.0, back: false, c: single(series), sought: target.hi };
-        // Where `t' = c1 + 2 c2 p + 3 c3 p²` is least, if time is slow there.
-        let [c1, c2, c3] = start.c;
-        let place = -c2 / (3.0 * c3);
-        if c3 > 0.0 && place > 0.0 && place < ONE && c1 + c2 * place < SLOW {
-            let beyond = target.less(exactly(series, place));
+        let [start, end] = [self.ends[0].time, self.ends[1].time];
+        let (before, after) = (Pair::sum(t, -start), Pair::sum(end, -t));
+        let (side, way) = if start < 0.0 && end > 0.0 {
+            (0, Pair::new(before.hi))
+        } else if before.difference(after) > 0.0 {
+            (1, after)
+        } else {
+            (0, before)
+        };
+        let target = scaled(way, -unit_of_time(start, end));
+        let offset = self.offset_at(side, target);
+        OnRamp { ramp: self, side, offset }
+    }
+
+    /// The place at which a time has passed since the end that faces a side, in the ramp's unit.
+    #[inline(always)]
+    fn offset_at(&self, side: usize, target: Pair) -> Offset {
+        let series = self.elapsed(side);
+        let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
+        let mut anchor =
+            Anchor { place: Pair::ZERO, back: false, limit: ONE, c, sought: target.hi };
+        // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
+        let slowest = -c2 / (3.0 * c3);
+        if c3 > 0.0 && slowest > 0.0 && slowest < ONE && c1 + c2 * slowest < SLOW {
+            let beyond = target.difference(series.at(slowest));
             if beyond.abs() < target.hi {
-                let (c, back) = (around(series, place), beyond < 0.0);
-                let c = if back { [c[0], -c[1], c[2]] } else { c };
-                start = Start { place, back, c, sought: beyond.abs() };
+                let back = beyond < 0.0;
+                let [c1, c2, c3] = around(series, slowest);
+                let c = if back { [c1, -c2, c3] } else { [c1, c2, c3] };
+                let limit = if back { slowest } else { ONE - slowest };
+                anchor = Anchor { place: Pair::new(slowest), back, limit, c, sought: beyond.abs() };
             }
         }
-        let seed = seed(&start.c, start.sought);
-        let way = solve(series, target, &start, seed, start.sought, FOR_TIME).from(&start);
-        OnRamp { from, ramp: self, way, units }
+        let seed = seed(&anchor.c, anchor.sought);
+        solve(series, target, &anchor, seed, TIME_ERROR * target.hi)
     }
 }
 
-/// A time on a ramp, found from the nearer end.
+impl End {
+    const fn new(time: f32, elapsed: &([Pair; 2], Pair), mass: &([Pair; 5], Pair)) -> Self {
+        Self { time, elapsed: elapsed.0, mass: mass.0 }
+    }
+}
+
+/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁷⁰ to 2⁷¹, so that all
+/// coefficients keep their bits.
+#[inline(always)]
+const fn unit_of_mass(share: Pair) -> f32 {
+    let exponent = exponent(share.hi);
+    power_of_two(70 - if exponent < -56 { -56 } else { exponent })
+}
+
+/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that.
+#[inline(always)]
+const fn unit_of_time(start: f32, end: f32) -> i32 {
+    exponent(end - start) - 64
+}
+
+/// The coefficients by powers of the share of a ramp as those by powers of the place, times `scale`; the last one apart.
+const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> ([Pair; M], Pair) {
+    const { assert!(M + 1 == N) };
+    let mut scale = scale;
+    let (mut pairs, mut last) = ([Pair::ZERO; M], Pair::ZERO);
+    let mut k = 0;
+    while k < N {
+        scale /= ONE as f64;
+        last = Pair::from_f64(c[k] * scale);
+        if k < M {
+            pairs[k] = last;
+        }
+        k += 1;
+    }
+    (pairs, last)
+}
+
+/// The coefficients around `x` in single precision, taken in pairs, for they may be differences of nearly the same.
+fn around(series: Series, x: f32) -> [f32; 3] {
+    let (a, b, c) = (series.c[0], series.c[1], series.last);
+    let thrice = c.plus(c.scaled(2.0));
+    let slope = Series { c: &[b.scaled(2.0)], last: thrice }.at(x);
+    let bend = thrice.times(Pair::new(x));
+    [slope.plus(a).rounded(), bend.plus(b).rounded(), c.hi]
+}
+
+/// A time on a ramp, as a place.
 pub(crate) struct OnRamp<'a> {
-    from: usize,
-    ramp: &'a Segment,
-    way: Way,
-    units: Units,
+    ramp: &'a Ramp,
+    pub(crate) side: usize,
+    offset: Offset,
 }
 
 impl OnRamp<'_> {
-    /// The openness, at least 0.
+    /// The fraction collected between the end that faces the side and here, in [`WHOLE`].
     #[inline]
-    pub(crate) fn openness(&self) -> Wide {
-        let [v0, v1, v2, v3] = self.ramp.openness;
-        let v =
-            if self.ramp.back == (self.from == 1) { [v0, v1, v2, v3] } else { [v3, v2, v1, v0] };
-        let unit = exponent(&v) - 100;
-        let (gained, lift) = self.way.value(&gained(v, unit));
-        let (gained, negative) = (gained.magnitude(lift + unit), gained.is_negative());
-        let end = Wide::from_f32(v[0]);
-        // The end itself may graze 0 from below.
-        match (v[0] < 0.0, negative) {
-            (false, false) => end.plus(gained),
-            (false, true) => end.minus(gained),
-            (true, false) => gained.minus(end),
-            (true, true) => Wide::ZERO,
-        }
+    pub(crate) fn mass(&self) -> Pair {
+        let mass = self.offset.value(self.ramp.collected(self.side));
+        let mass = if mass.rounded() < 0.0 { Pair::ZERO } else { mass };
+        mass.scaled(1.0 / unit_of_mass(self.ramp.share))
     }
 
-    /// Is its mass counted back in time?
-    pub(crate) fn back(&self) -> bool {
-        self.ramp.back
+    /// What rounding makes of that at most: see [`Series::at`].
+    pub(crate) fn noise(&self) -> f32 {
+        let c = self.ramp.single(self.side);
+        let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
+        size / unit_of_mass(self.ramp.share) / (1u64 << 40) as f32
     }
 
-    /// The mass between the end where it is counted and here.
+    /// The openness, at least 0, in units of a power of two, and the exponent of that.
     #[inline]
-    pub(crate) fn mass(&self) -> Wide {
-        let way = if self.ramp.back == (self.from == 1) {
-            self.way
-        } else {
-            self.way.from(&Start { place: ONE, back: true, c: [], sought: 0.0 })
-        };
-        let (mass, unit) = way.value(&self.ramp.collected);
-        if mass.is_negative() { Wide::ZERO } else { mass.magnitude(unit + self.units.mass) }
+    pub(crate) fn openness(&self) -> (Pair, i32) {
+        let [f0, f1, f2, f3] = self.ramp.openness;
+        let f = if self.side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
+        // Scaled so that the second halves of all coefficients, and what they make of the least place, keep their bits.
+        let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
+        let f = f.map(|f| scaled(Pair::new(f), -unit));
+        let d = [f[1].minus(f[0]), f[2].minus(f[1]), f[3].minus(f[2])];
+        let thrice = |x: Pair| x.plus(x.scaled(2.0));
+        let bend = d[1].minus(d[0]);
+        let (one, two, three) = (1.0 / ONE, 1.0 / ONE / ONE, 1.0 / ONE / ONE / ONE);
+        let c = [thrice(d[0]).scaled(one), thrice(bend).scaled(two)];
+        let series = Series { c: &c, last: d[2].minus(d[1]).minus(bend).scaled(three) };
+        let value = f[0].plus(self.offset.value(series));
+        (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
     }
-}
-
-/// The exponent of the greatest magnitude.
-fn exponent(v: &[f32; 4]) -> i32 {
-    let most = v.iter().fold(0, |most, v| most.max(v.to_bits() << 1));
-    ((most >> 24) as i32 - 127).max(-126)
-}
-
-/// A cubic less its value at the first end, by its Bernstein coefficients, in units of `2^unit`.
-fn gained(v: [f32; 4], unit: i32) -> Series<3> {
-    let v = v.map(|v| Pair::scaled(v, -unit));
-    let (first, second, all) = (v[1].minus(v[0]), v[2].minus(v[1]), v[3].minus(v[0]));
-    let c = [first.thrice(), second.minus(first).thrice(), all.minus(second.thrice())];
-    let (one, two) = (1.0 / ONE, 1.0 / ONE / ONE);
-    [c[0].times(one), c[1].times(two), c[2].times(one * two)]
 }

@@ -1,20 +1,31 @@
 //! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
 
 use crate::error::ScheduleError;
-use crate::profile::Profile;
+use crate::exposure::FOR_TICK;
+use crate::pair::Pair;
+use crate::plan::Plan;
+use crate::ramp::{Place, WHOLE, scaled};
 use crate::shutter::ShutterCurve;
-use crate::wide::Wide;
 
-/// Intervals of more ticks are beyond what a direct polynomial places to a quarter of a tick.
-const DIRECT_TICKS: u32 = 1 << 24;
-/// The most ticks an interval may have.
-const MOST_TICKS: u32 = 1 << 31;
+/// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
+const DIRECT_TICKS: i32 = 24;
+/// Up to here `i + 1/2` is an `f32`.
+const EXACT_HALVES: u32 = 1 << 23;
+/// An interval may have 2 to this ticks.
+const MOST_TICKS: i32 = 31;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The `n` times that split the exposure evenly, each in the middle of its share:
     /// `inverse_cdf((i + 1/2) / n)`; never a step back.
     pub fn trigger_times(&self, n: u32) -> impl ExactSizeIterator<Item = f32> {
-        (0..n).map(move |i| self.inverse_cdf((i as f32 + 0.5) / n as f32))
+        let fractions = Fractions::new(n);
+        (0..n).map(move |i| {
+            if n <= EXACT_HALVES {
+                self.inverse_cdf((i as f32 + 0.5) / n as f32)
+            } else {
+                place(&self.plan, &fractions, 2 * i as u64 + 1).time()
+            }
+        })
     }
 
     /// So many triggers are sure to keep `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since
@@ -25,7 +36,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
             return u32::MAX;
         }
         // The cast rounds down and saturates.
-        let most = (self.profile.area / min_gap as f64) as u32;
+        let most = (self.plan.exposure.area / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
     }
 
@@ -45,7 +56,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         n: u32,
         tick_hz: u32,
     ) -> Result<impl ExactSizeIterator<Item = u32>, ScheduleError> {
-        let ticks = Ticks::new(&self.profile, n, tick_hz)?;
+        let ticks = Ticks::new(&self.plan, n, tick_hz)?;
         Ok((0..n).map(move |i| ticks.at(i)))
     }
 
@@ -66,7 +77,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if n as usize > N {
             return Err(ScheduleError::CapacityExceeded);
         }
-        let ticks = Ticks::new(&self.profile, n, tick_hz)?;
+        let ticks = Ticks::new(&self.plan, n, tick_hz)?;
         for i in 0..n {
             let tick = ticks.at(i);
             if schedule.last().is_some_and(|last| tick - last < min_gap) {
@@ -97,38 +108,72 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 }
 
+/// Frames of more triggers are searched for throughout: a polynomial might put neighbours in the wrong order.
+const DIRECT_TRIGGERS: u32 = 1 << 22;
+
+/// The fractions `(2i + 1) / 2n` of the exposure.
+struct Fractions {
+    n: u32,
+    /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
+    share: u64,
+    /// ... and what is missing of it, in units of 2⁻⁹⁶.
+    rest: u32,
+}
+
+impl Fractions {
+    /// A 64-bit division is dear on a small processor, so only this one is made.
+    fn new(n: u32) -> Self {
+        let divisor = n as u64 | (n == 0) as u64;
+        let share = (1 << 63) / divisor;
+        // The remainder over n is the remainder times 2/2n.
+        let remainder = (1 << 63) - share * divisor;
+        Self { n, share, rest: ((remainder * share) >> 31) as u32 }
+    }
+
+    /// The fraction `odd / 2n` from below, in units of 2⁻⁶⁴: by less than `odd` of these.
+    #[inline(always)]
+    fn in_words(&self, odd: u64) -> u64 {
+        odd.wrapping_mul(self.share)
+    }
+
+    /// The fraction `odd / 2n` counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
+    fn exactly(&self, odd: u64) -> (usize, Pair) {
+        let n = self.n as u64;
+        let (side, near) = if odd <= n { (0, odd) } else { (1, 2 * n - odd) };
+        // By words: near times a number of 96 bits.
+        let low = near * self.rest as u64;
+        let middle = near * (self.share as u32 as u64) + (low >> 32);
+        let high = near * (self.share >> 32) + (middle >> 32);
+        let word = |word: u64, unit: f32| Pair::from_u32(word as u32).scaled(unit);
+        const WORD: f32 = (1u64 << 32) as f32;
+        let upper = word(high >> 32, WHOLE).plus(word(high, WHOLE / WORD));
+        (side, upper.plus(word(middle, WHOLE / WORD / WORD)))
+    }
+}
+
 /// What places the triggers of one frame.
 struct Ticks<'a, const CELLS: usize> {
-    profile: &'a Profile<CELLS>,
-    n: u32,
-    rate: Wide,
-    /// `1 / 2n` in units of 2⁻⁶⁴.
-    share: u64,
-    plateau: [u32; 2],
+    plan: &'a Plan<CELLS>,
+    fractions: Fractions,
+    tick_hz: u32,
+    plateau: [u64; 2],
     direct: Option<Direct>,
 }
 
 impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
-    fn new(profile: &'a Profile<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
+    fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
         if tick_hz == 0 {
             return Err(ScheduleError::TickRateZero);
         }
-        let rate = Wide::new(tick_hz as u64, 0);
-        let start = profile.start_in_units(0);
-        let length = (profile.start_in_units(1) - start) as u64;
-        let ticks = Wide::new(length, profile.unit()).times(rate);
-        if ticks.exceeds(Wide::new(MOST_TICKS as u64, 0)) {
+        let start = plan.start_in_units(0);
+        let length = (plan.start_in_units(1) - start) as u64;
+        if exceeds(length, tick_hz, plan.unit(), MOST_TICKS) {
             return Err(ScheduleError::TickRateTooHigh);
         }
-        // A 64-bit division is dear on a small processor, so only this one is made.
-        let share = if n == 0 { 0 } else { (1 << 63) / n as u64 };
-        let plateau = profile.plateau_in_words();
-        let direct = if ticks.exceeds(Wide::new(DIRECT_TICKS as u64, 0)) {
-            None
-        } else {
-            Direct::new(start, length, Wide::new(1, profile.unit()).times(rate))
-        };
-        Ok(Self { profile, n, rate, share, plateau, direct })
+        let searched = n > DIRECT_TRIGGERS || exceeds(length, tick_hz, plan.unit(), DIRECT_TICKS);
+        let direct = if searched { None } else { Direct::new(start, length, tick_hz, plan.unit()) };
+        let (fractions, plateau) = (Fractions::new(n), plan.plateau_in_words());
+        Ok(Self { plan, fractions, tick_hz, plateau, direct })
     }
 
     /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
@@ -136,27 +181,46 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     fn at(&self, i: u32) -> u32 {
         let odd = 2 * i as u64 + 1;
         if let Some(direct) = &self.direct
-            && let Some(time) = self.profile.direct(odd.wrapping_mul(self.share), self.plateau)
+            && let Some(time) =
+                self.plan.direct_in_words(self.fractions.in_words(odd), self.plateau)
         {
             return direct.tick(time);
         }
-        self.exact(odd)
+        self.searched(odd)
     }
 
-    /// The same by the exact way; out of line, so that the direct one saves no registers for it.
+    /// The same by a search; out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn exact(&self, odd: u64) -> u32 {
-        let n = self.n;
-        let (side, near) = if odd <= n as u64 { (0, odd) } else { (1, 2 * n as u64 - odd) };
-        let a = half_reciprocal(n).times(Wide::new(near, 0));
-        let delay = self.profile.delay(side, a).times(self.rate);
-        // In halves of a tick, so that the last bit rounds.
-        ((delay.in_units(-1) + 1) >> 1) as u32
+    fn searched(&self, odd: u64) -> u32 {
+        let unit = self.plan.unit();
+        let place = place(self.plan, &self.fractions, odd);
+        let delay = place.since(self.plan.exposure.start(0), unit);
+        let ticks = scaled(delay.times(Pair::from_u32(self.tick_hz)), unit);
+        // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
+        let whole = ticks.hi as u32;
+        let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
+        // The cast rounds down what is above 0.
+        (whole + (rest + 256.0) as u32).saturating_sub(256)
     }
 }
 
-/// From times in the profile's unit to ticks, in fixed point.
+/// The place of the fraction `odd / 2n`, by a search.
+#[inline(never)]
+fn place<const CELLS: usize>(plan: &Plan<CELLS>, fractions: &Fractions, odd: u64) -> Place {
+    let (side, a) = fractions.exactly(odd);
+    plan.exposure.at_fraction(side, a, FOR_TICK)
+}
+
+/// Is `length`, in units of `2^unit` of the curve's time, more than `2^most` ticks?
+fn exceeds(length: u64, tick_hz: u32, unit: i32, most: i32) -> bool {
+    // Below 2⁹⁶.
+    let ticks = length as u128 * tick_hz as u128;
+    let shift = most - unit;
+    shift < 96 && ticks > if shift < 0 { 0 } else { 1 << shift }
+}
+
+/// From times in the plan's unit to ticks, in fixed point.
 struct Direct {
     start: i64,
     /// What brings a time after the start down to 31 bits, and the ticks in a unit of these, which count 2⁻⁶⁴.
@@ -165,11 +229,18 @@ struct Direct {
 }
 
 impl Direct {
-    /// For an interval that starts at `start` and is `length` long, in units of so many `ticks`; none where these are
-    /// next to none.
-    fn new(start: i64, length: u64, ticks: Wide) -> Option<Self> {
+    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`; none where a tick is next to
+    /// all of it.
+    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Option<Self> {
         let down = 33u32.saturating_sub(length.leading_zeros());
-        let factor = ticks.in_units(-64 - down as i32) as u64;
+        let up = unit + 64 + down as i32;
+        let rate = tick_hz as u64;
+        let factor = if up < 0 {
+            rate.checked_shr(up.unsigned_abs())
+        } else {
+            rate.checked_shl(up.unsigned_abs())
+        };
+        let factor = factor.unwrap_or(0);
         (factor >> 32 != 0).then_some(Self { start, down, factor })
     }
 
@@ -186,11 +257,4 @@ impl Direct {
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }
-}
-
-/// `1 / 2n`, to 2⁻⁶², for `n` above 0.
-fn half_reciprocal(n: u32) -> Wide {
-    let n = n as u64 | (n == 0) as u64;
-    let (whole, rest) = ((1 << 63) / n, (1 << 63) % n);
-    Wide::new(whole, -64).plus(Wide::new((rest << 32) / n, -96))
 }

@@ -1,15 +1,14 @@
 //! The first guess of a search: a k-th root.
 //!
-//! Near the place that it is measured from a series is as its leading term, `S(p) ≈ c_k p^k`, so `p` is near the least
-//! `(target / c_k)^(1/k)` over the positive coefficients. The logarithms that floating-point numbers carry in their
-//! exponents tell which one is least, to a tenth, which Halley's step makes a thousandth; where it is a second or fourth
-//! root, `libm` or `micromath` take it if these features are on. The search behind it
-//! is the same, and so, to the last bit or so, is its answer.
+//! Near the anchor that it is measured from a series is as its leading term, `S(x) ≈ c_k x^k`, so `x` is near the least
+//! `(sought / c_k)^(1/k)` over the positive coefficients. The exponents of floating-point numbers are logarithms that come
+//! for free; they tell which root is least, to a tenth, which Halley's step makes a thousandth. Where it is a second or
+//! fourth root, `libm` or `micromath` take it if these features are on. The search behind it is the same, and so, to the
+//! last bit or so, is its answer.
 
-use crate::series::{self, FIRST_TERM, Seed};
-use crate::wide::times_high;
+use crate::pair::power_of_two;
 
-/// Logarithms here have 20 fraction bits, as many as the upper half of an `f64` has of significand.
+/// Logarithms here have 20 fraction bits, so that a difference of two fits 32 bits.
 const ONE: i32 = 1 << 20;
 
 /// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand. That
@@ -26,8 +25,9 @@ const MEAN: i32 = (0.043 * ONE as f32) as i32;
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
 /// `x / k` for `k` up to 6, near enough, without a division that could fail.
+#[inline(always)]
 const fn divided(x: i32, k: i32) -> i32 {
-    times_high(x << 2, RECIPROCALS[(k & 7) as usize])
+    (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
 /// The least root's linear logarithm, with its `k` for the lowest bits.
@@ -46,33 +46,33 @@ const fn least_root(c: &[f32], log: i32) -> i32 {
     least
 }
 
-/// The seed `2^exponent (1 + fraction / ONE)`, at most 1.
-const fn seed_at(exponent: i32, fraction: i32) -> Seed {
-    if exponent >= 24 {
-        return Seed { x: series::ONE, lift: 0 };
-    }
-    let lift = if exponent < -FIRST_TERM { -FIRST_TERM - exponent } else { 0 };
-    Seed { x: f32::from_bits((((exponent + lift + 127) << 23) + (fraction << 3)) as u32), lift }
-}
-
-/// The guess from a root's logarithm alone.
+/// `2^exponent (1 + fraction / ONE)`, within what a search can have.
 #[inline(always)]
-const fn by_bits(root: i32) -> Seed {
-    let root = root - MEAN;
-    seed_at(root >> 20, root & (ONE - 1))
+const fn guess(exponent: i32, fraction: i32) -> f32 {
+    if exponent >= 40 {
+        return power_of_two(40);
+    }
+    let exponent = if exponent < -126 { -126 } else { exponent };
+    f32::from_bits((((exponent + 127) << 23) + (fraction << 3)) as u32)
 }
 
 /// The guess from logarithms alone; all that a constant can use.
 #[inline(always)]
-pub(crate) const fn seed_by_bits(c: &[f32], target: f32) -> Seed {
-    by_bits(least_root(c, rough_log(target)))
+pub(crate) const fn seed_by_bits(c: &[f32], sought: f32) -> f32 {
+    by_bits(least_root(c, rough_log(sought)))
+}
+
+#[inline(always)]
+const fn by_bits(root: i32) -> f32 {
+    let root = root - MEAN;
+    guess(root >> 20, root & (ONE - 1))
 }
 
 /// The guess by the root that the features choose.
 #[inline(always)]
-pub(crate) fn seed(c: &[f32], target: f32) -> Seed {
-    let target = rough_log(target);
-    let root = least_root(c, target);
+pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
+    let sought = rough_log(sought);
+    let root = least_root(c, sought);
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let k = root & 7;
@@ -80,14 +80,14 @@ pub(crate) fn seed(c: &[f32], target: f32) -> Seed {
         if (k == 2 || k == 4) && i < c.len() {
             let divisor = rough_log(c[i]);
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
-            let exponent = (target >> 20) - (divisor >> 20);
+            let exponent = (sought >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
             let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-            let ratio = significand((target as u32 & 0xF_FFFF) << 3)
+            let ratio = significand((sought as u32 & 0xF_FFFF) << 3)
                 / significand((divisor as u32 & 0xF_FFFF) << 3);
             let root = square_root(ratio * (1 << rest) as f32);
             let root = if k == 4 { square_root(root) } else { root }.to_bits();
-            return seed_at(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
+            return guess(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
         }
     }
     by_bits(root)

@@ -2,10 +2,12 @@
 
 use core::fmt;
 
+use crate::batch;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
-use crate::profile::Profile;
-use crate::wide::Wide;
+use crate::pair::{Pair, rounded_sum};
+use crate::plan::Plan;
+use crate::ramp::scaled;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
@@ -19,7 +21,7 @@ use crate::wide::Wide;
 /// evaluation may come before, beyond 16.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {
-    pub(crate) profile: Profile<CELLS>,
+    pub(crate) plan: Plan<CELLS>,
 }
 
 impl ShutterCurve {
@@ -73,30 +75,30 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        match Profile::new(&opening, &closing, Ramp::Opening, 1.0) {
-            Ok(profile) => Ok(Self { profile }),
+        match Plan::new(&opening, &closing, Ramp::Opening, 1.0) {
+            Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }
     }
 
     /// When the shutter starts to open.
     pub const fn open_start(&self) -> f32 {
-        self.profile.open_start()
+        self.plan.exposure.start(0)
     }
 
     /// When it is fully open.
     pub const fn open_end(&self) -> f32 {
-        self.profile.open_end()
+        self.plan.exposure.plateau_start(0)
     }
 
     /// When it starts to close.
     pub const fn close_start(&self) -> f32 {
-        self.profile.close_start()
+        self.plan.exposure.plateau_start(1)
     }
 
     /// When it is closed.
     pub const fn close_end(&self) -> f32 {
-        self.profile.close_end()
+        self.plan.exposure.start(1)
     }
 
     /// The openness `f` at `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
@@ -104,24 +106,26 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
-        self.openness(t).to_f32()
+        let (f, unit) = self.openness(t);
+        rounded_sum(0.0, f, unit, false)
     }
 
     /// The openness, no more than 1 where rounding makes the curve graze it.
-    fn openness(&self, t: f32) -> Wide {
-        let f = self.profile.openness(t);
-        if f.exceeds(Wide::ONE) { Wide::ONE } else { f }
+    #[inline]
+    fn openness(&self, t: f32) -> (Pair, i32) {
+        let (f, unit) = self.plan.exposure.openness(t);
+        if scaled(f, unit).rounded() > 1.0 { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 
     /// The normalised density at `t`, `K · opening(t)`.
     pub fn pdf(&self, t: f32) -> f32 {
-        self.profile.normalized(self.openness(t))
+        self.plan.exposure.density(self.openness(t))
     }
 
     /// The fraction of the exposure collected by `t`: 0 before the shutter opens and for NaN, 1 after
     /// it has closed.
     pub fn cdf(&self, t: f32) -> f32 {
-        self.profile.cdf(t)
+        self.plan.exposure.cdf(t)
     }
 
     /// The time by which the fraction `u` of the exposure is collected.
@@ -145,7 +149,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        self.profile.inverse_cdf(u)
+        batch::inverse_cdf(&self.plan, u)
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits.
@@ -154,28 +158,28 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// If the lengths differ.
     pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
         assert!(u.len() == t.len(), "u and t differ in length");
-        self.profile.inverse_cdf_slice(u, t);
+        batch::inverse_cdf_slice(&self.plan, u, t);
     }
 
     /// The effective exposure time `A = ∫ f dt`.
     pub const fn exposure(&self) -> f32 {
-        self.profile.area as f32
+        self.plan.exposure.area as f32
     }
 
     /// `K = 1/A`, which makes the openness a probability density.
     pub const fn normalization(&self) -> f32 {
-        self.profile.normalization() as f32
+        (1.0 / self.plan.exposure.area) as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
     pub const fn efficiency(&self) -> f32 {
-        (self.profile.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
+        (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.
     #[doc(hidden)]
     pub fn evaluations(&self, u: f32) -> u32 {
-        self.profile.evaluations(u)
+        self.plan.evaluations(u)
     }
 }
 

@@ -1,0 +1,79 @@
+//! Doubles where the processor has them: the plateau's line in doubles, for one `u` and for a slice.
+
+use crate::plan::{DOUBLES, Plan};
+
+/// The plateau's line, `t = base + A u`.
+///
+/// In doubles the time is within four roundings of the exact one, and in 64-bit units within one, so the two lie
+/// less than the slack apart; where all within the slack rounds to one `f32`, that is the answer of both.
+struct Line {
+    base: f64,
+    slope: f64,
+    slack: f64,
+    /// The plateau in `u`: above the first, up to the second.
+    from: f32,
+    to: f32,
+}
+
+impl Line {
+    #[inline(always)]
+    fn new<const CELLS: usize>(plan: &Plan<CELLS>) -> Self {
+        let (base, slope, [from, to]) = plan.line();
+        // 2¹² units are 2⁻⁴⁸ of the greatest time.
+        Self { base, slope, slack: 4096.0 * plan.unit_of_time() as f64, from, to }
+    }
+
+    /// The time, and whether it is the answer.
+    #[inline(always)]
+    fn at(&self, u: f32) -> (f32, bool) {
+        let time = self.base + self.slope * u as f64;
+        let (least, greatest) = ((time - self.slack) as f32, (time + self.slack) as f32);
+        (least, (u > self.from) & (u <= self.to) & (least == greatest))
+    }
+}
+
+/// [`Plan::inverse_cdf`], the plateau by doubles where there are any: the same bits.
+#[inline]
+pub(crate) fn inverse_cdf<const CELLS: usize>(plan: &Plan<CELLS>, u: f32) -> f32 {
+    if DOUBLES {
+        let (time, is_right) = Line::new(plan).at(u);
+        if is_right {
+            return time;
+        }
+    }
+    plan.inverse_cdf(u)
+}
+
+/// [`inverse_cdf`] of each `u` into the `t` beside it.
+///
+/// Which section a `u` falls into can't be predicted, and where a processor tries, a miss costs more than
+/// the answer. So a first pass gives every `u` the plateau's answer, several at a time, a second lists,
+/// without a branch, those for which it is none, and a third mends these.
+pub(crate) fn inverse_cdf_slice<const CELLS: usize>(plan: &Plan<CELLS>, u: &[f32], t: &mut [f32]) {
+    if !DOUBLES {
+        for (u, t) in u.iter().zip(t) {
+            *t = plan.inverse_cdf(*u);
+        }
+        return;
+    }
+    const CHUNK: usize = 128;
+    let line = Line::new(plan);
+    for (u, t) in u.chunks(CHUNK).zip(t.chunks_mut(CHUNK)) {
+        let mut right = [0u32; CHUNK];
+        for ((u, t), right) in u.iter().zip(&mut *t).zip(&mut right) {
+            let (time, is_right) = line.at(*u);
+            (*t, *right) = (time, is_right as u32);
+        }
+        let (mut list, mut listed) = ([0u8; CHUNK], 0);
+        for (i, right) in right.iter().take(u.len()).enumerate() {
+            list[listed % CHUNK] = i as u8;
+            listed += 1 - *right as usize;
+        }
+        // Without an index that could panic: the list has `listed` places, and each is one of both slices.
+        for i in list.iter().take(listed) {
+            if let (Some(u), Some(t)) = (u.get(*i as usize), t.get_mut(*i as usize)) {
+                *t = plan.inverse_cdf(*u);
+            }
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Cubics in `f64`, as a curve's construction needs them: extremes, the power form from a place, and what lifts a curve
+//! that grazes its bound.
+
+/// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
+#[derive(Clone, Copy)]
+pub(crate) struct Cubic {
+    pub(crate) value: f64,
+    pub(crate) c: [f64; 3],
+}
+
+impl Cubic {
+    /// From its value at 0 and the differences of its Bernstein coefficients.
+    pub(crate) const fn new(value: f64, [d0, d1, d2]: [f64; 3]) -> Self {
+        Self { value, c: [3.0 * d0, 3.0 * (d1 - d0), d0 - 2.0 * d1 + d2] }
+    }
+
+    /// The same around `p`.
+    pub(crate) const fn around(self, p: f64) -> Self {
+        let Self { value, c: [a, b, c] } = self;
+        Self {
+            value: value + p * (a + p * (b + p * c)),
+            c: [a + p * (2.0 * b + p * 3.0 * c), b + 3.0 * p * c, c],
+        }
+    }
+
+    /// Where the slope `a + 2 b p + 3 c p²` is least, or -1 for nowhere.
+    pub(crate) const fn least_slope(self) -> f64 {
+        let [_, b, c] = self.c;
+        if c > 0.0 { -b / (3.0 * c) } else { -1.0 }
+    }
+
+    /// Where it has a minimum, or -1 for nowhere.
+    pub(crate) const fn minimum(self) -> f64 {
+        let [a, b, c] = self.c;
+        let discriminant = b * b - 3.0 * a * c;
+        if discriminant <= 0.0 {
+            return -1.0;
+        }
+        // By the form that does not cancel.
+        let root = sqrt(discriminant);
+        if b > 0.0 { -a / (b + root) } else { (root - b) / (3.0 * c) }
+    }
+}
+
+/// The integral of the product of `f` and the slope of `t`, from the place that both are around, by powers of `p`.
+pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
+    let (Cubic { value: f, c: a }, b) = (f, t.c);
+    [
+        f * b[0],
+        (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
+        (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
+        (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
+        (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
+        a[2] * b[2] / 2.0,
+    ]
+}
+
+pub(crate) const fn widened(v: [f32; 4]) -> [f64; 4] {
+    [v[0] as f64, v[1] as f64, v[2] as f64, v[3] as f64]
+}
+
+/// The differences of neighbours. Those of `f32` are exact unless their exponents lie 29 apart.
+pub(crate) const fn differences(v: [f64; 4]) -> [f64; 3] {
+    [v[1] - v[0], v[2] - v[1], v[3] - v[2]]
+}
+
+/// The least value on [0, 1] of a quadratic given in the Bernstein basis.
+pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
+    let ends = if a < c { a } else { c };
+    // The vertex is inside just where the middle coefficient is below both ends; there
+    // min = (ac - b²) / (a - 2b + c), and both parts of the divisor are positive.
+    if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
+}
+
+/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis.
+pub(crate) const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
+    let (mut low, mut high) = if f[0] < f[3] { (f[0], f[3]) } else { (f[3], f[0]) };
+    // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
+    let [a, b, c] = differences(f);
+    let (half, square) = (b - a, a - 2.0 * b + c);
+    let discriminant = half * half - a * square;
+    if discriminant >= 0.0 {
+        let root = sqrt(discriminant);
+        let q = if half < 0.0 { -half + root } else { -half - root };
+        let candidates = [q / square, a / q];
+        let mut i = 0;
+        while i < 2 {
+            let p = candidates[i];
+            // False for the NaN of 0/0.
+            if p > 0.0 && p < 1.0 {
+                let r = 1.0 - p;
+                let value =
+                    r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3]);
+                low = if value < low { value } else { low };
+                high = if value > high { value } else { high };
+            }
+            i += 1;
+        }
+    }
+    (low, high)
+}
+
+/// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and a trace for the
+/// rounding of that, each to the next `f32` above. A Bezier moves with its control values.
+pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
+    let (low, high) = cubic_range(widened(v));
+    if low >= 0.0 {
+        return v;
+    }
+    let size = if -low > high { -low } else { high };
+    let raise = -low + size / (1u64 << 50) as f64;
+    let mut i = 0;
+    while i < 4 {
+        let exact = v[i] as f64 + raise;
+        let near = exact as f32;
+        v[i] = if (near as f64) < exact { near.next_up() } else { near };
+        i += 1;
+    }
+    v
+}
+
+/// The differences of the control times of a ramp, whose slope may graze 0 from below, so that it does not.
+///
+/// A quadratic with the Bernstein coefficients `d` is at least 0 where both ends are and the middle is at least
+/// `-sqrt(d0 d2)`. Scaled, it keeps that, and the ramp its length.
+pub(crate) const fn forward(d: [f64; 3], length: f64) -> [f64; 3] {
+    let [d0, d1, d2] = [if d[0] < 0.0 { 0.0 } else { d[0] }, d[1], if d[2] < 0.0 { 0.0 } else { d[2] }];
+    let turns = d1 < 0.0 && d1 * d1 > d0 * d2;
+    if !turns && d[0] >= 0.0 && d[2] >= 0.0 {
+        return d;
+    }
+    let d1 = if turns { -sqrt(d0 * d2) } else { d1 };
+    let scale = length / (d0 + d1 + d2);
+    [d0 * scale, d1 * scale, d2 * scale]
+}
+
+/// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
+pub(crate) const fn sqrt(x: f64) -> f64 {
+    if x == 0.0 {
+        return 0.0;
+    }
+    // Half the exponent: within 6 %, so four steps are enough, and a fifth settles the last bit.
+    let mut y = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
+    let mut i = 0;
+    while i < 5 {
+        y = 0.5 * (y + x / y);
+        i += 1;
+    }
+    y
+}

@@ -1,0 +1,271 @@
+//! The exposure: a ramp, a plateau and a ramp, with one area over all three; its exact inverse, its cdf and its openness.
+//!
+//! Everything is seen from two sides. Side 0 looks from the earlier end and counts `a = u`; side 1 looks from the later end,
+//! back in time, and counts `a = 1 - u`, exact for `u >= 1/2`. From its side a fraction `a` of at most 1/2 lies on the near
+//! ramp, on the plateau, or on the far ramp, and what is sought there is never more than `a`: so an error relative to what
+//! is sought is none that `a` could see. A mirrored curve gives mirrored times.
+
+use crate::bezier::CubicBezier;
+use crate::error::{CurveError, Ramp as Part};
+use crate::pair::{Pair, rounded_sum};
+use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, scaled};
+
+/// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
+/// these keep their order.
+pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
+/// To fit a polynomial by: 1/16 of an ulp.
+const FOR_FIT: f32 = 1.0 / (1 << 28) as f32;
+/// For a fraction with more bits.
+pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 37) as f32;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Exposure {
+    ramps: [Ramp; 2],
+    /// The plateau's fraction of the exposure, in [`WHOLE`].
+    plateau: Pair,
+    /// `A = ∫ f dt`
+    pub(crate) area: f64,
+}
+
+/// Where a fraction is collected.
+enum Section {
+    Plateau(Place),
+    /// On a ramp, with what is to be collected there, in [`WHOLE`].
+    Ramp(usize, Pair),
+}
+
+/// Where a time lies on the curve.
+enum At<'a> {
+    Outside,
+    Opening(OnRamp<'a>),
+    Plateau,
+    Closing(OnRamp<'a>),
+}
+
+impl Exposure {
+    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`.
+    pub(crate) const fn new(
+        opening: &CubicBezier,
+        closing: &CubicBezier,
+        part: Part,
+        most: f64,
+    ) -> Result<Self, CurveError> {
+        if let Err(error) = opening.check_finite(part) {
+            return Err(error);
+        }
+        if let Err(error) = closing.check_finite(Part::Closing) {
+            return Err(error);
+        }
+        let [start, _, _, open] = opening.times();
+        let [close, _, _, end] = closing.times();
+        if !(start <= open && open <= close && close <= end) {
+            return Err(CurveError::TimesOutOfOrder);
+        }
+        const LONGEST: f64 = 18446744073709551616.0; // 2⁶⁴
+        let length = end as f64 - start as f64;
+        if !(length >= 1.0 / LONGEST && length <= LONGEST) {
+            return Err(CurveError::IntervalOutOfRange);
+        }
+        if let Err(error) = opening.check_ramp(part, most) {
+            return Err(error);
+        }
+        if let Err(error) = closing.check_ramp(Part::Closing, most) {
+            return Err(error);
+        }
+        let plateau = close as f64 - open as f64;
+        let area = (Shape::new(opening).mass() + Shape::new(closing).mass()) + plateau;
+        if area <= 0.0 {
+            return Err(CurveError::ZeroArea);
+        }
+        if !((area as f32).is_normal() && ((1.0 / area) as f32).is_normal()) {
+            return Err(CurveError::AreaOutOfRange);
+        }
+        let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];
+        Ok(Self { ramps, plateau: Pair::from_f64(plateau / area * WHOLE as f64), area })
+    }
+
+    /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
+    #[inline(always)]
+    const fn ramp(&self, index: usize) -> &Ramp {
+        &self.ramps[index & 1]
+    }
+
+    /// The time from which a side counts.
+    pub(crate) const fn start(&self, side: usize) -> f32 {
+        self.ramp(side).time(side)
+    }
+
+    /// The time at which the plateau begins, seen from a side.
+    pub(crate) const fn plateau_start(&self, side: usize) -> f32 {
+        self.ramp(side).time(side ^ 1)
+    }
+
+    /// The fractions at which the near ramp ends, and at which the plateau ends.
+    pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
+        let near = self.ramp(side).share.to_f64();
+        [near / WHOLE as f64, (near + self.plateau.to_f64()) / WHOLE as f64]
+    }
+
+    /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
+    #[inline(always)]
+    const fn section(&self, side: usize, a: Pair) -> Section {
+        let beyond = a.minus(self.ramp(side).share);
+        if beyond.rounded() < 0.0 {
+            return Section::Ramp(side, a);
+        }
+        let behind = beyond.minus(self.plateau);
+        if behind.rounded() > 0.0 {
+            return Section::Ramp(side ^ 1, behind);
+        }
+        let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
+        let (area, exponent) = significand(self.area);
+        // WHOLE is 2¹⁰⁰.
+        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), exponent - 100))
+    }
+
+    /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
+    #[inline(always)]
+    pub(crate) fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Place {
+        match self.section(side, a) {
+            Section::Plateau(place) => place,
+            Section::Ramp(ramp, target) => self.ramp(ramp).at_mass(side, target, error * a.hi),
+        }
+    }
+
+    /// The time since a side's start at which a fraction has been collected, for a polynomial to be fitted.
+    pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
+        let a = Pair::from_f64(a * WHOLE as f64);
+        let place = match self.section(side, a) {
+            Section::Plateau(place) => place,
+            Section::Ramp(ramp, target) => {
+                self.ramp(ramp).at_mass_const(side, target, FOR_FIT * a.hi)
+            }
+        };
+        let elapsed = place.since_f64(self.start(side));
+        if side == 0 { elapsed } else { -elapsed }
+    }
+
+    /// What an error in time is relative to: the time itself, or, where the curve runs across time 0, the greater end.
+    pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
+        let (start, end) = (self.start(0) as f64, self.start(1) as f64);
+        let time = if side == 0 { start + elapsed } else { end - elapsed };
+        if start < 0.0 && end > 0.0 {
+            if end > -start { end } else { -start }
+        } else {
+            time.abs()
+        }
+    }
+
+    /// Where `t` lies.
+    #[inline]
+    fn at(&self, t: f32) -> At<'_> {
+        let [start, end] = [self.start(0), self.start(1)];
+        let [open, close] = [self.plateau_start(0), self.plateau_start(1)];
+        // A plateau without length has no instant of its own: it is the ramps' that have length.
+        let plateau = open < close;
+        if !(t >= start && t <= end) {
+            At::Outside
+        } else if t < open || (t == open && !plateau && start < open) {
+            At::Opening(self.ramps[0].at_time(t))
+        } else if plateau && t <= close {
+            At::Plateau
+        } else {
+            At::Closing(self.ramps[1].at_time(t))
+        }
+    }
+
+    /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
+    #[inline]
+    pub(crate) fn openness(&self, t: f32) -> (Pair, i32) {
+        match self.at(t) {
+            At::Outside => (Pair::ZERO, 0),
+            At::Plateau => (Pair::new(1.0), 0),
+            At::Opening(on) | At::Closing(on) => on.openness(),
+        }
+    }
+
+    /// `K f` for an openness `f` in units of `2^unit`.
+    #[inline]
+    pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
+        let (k, exponent) = self.reciprocal();
+        rounded_sum(0.0, f.times(k), unit + exponent, false)
+    }
+
+    /// `K = 1/A`, as a number in (1/2, 1] and the exponent of its unit.
+    #[inline(always)]
+    fn reciprocal(&self) -> (Pair, i32) {
+        let (area, exponent) = significand(self.area);
+        let hi = 1.0 / area.hi;
+        // What hi A lacks of 1 tells the rest: Newton's step.
+        let product = Pair::new(hi).times(area);
+        (Pair { hi, lo: ((1.0 - product.hi) - product.lo) * hi }, -exponent)
+    }
+
+    /// The fraction collected by `t`.
+    #[inline]
+    pub(crate) fn cdf(&self, t: f32) -> f32 {
+        let whole = Pair::new(WHOLE);
+        let (mass, on) = match self.at(t) {
+            At::Outside => return if t > self.start(1) { 1.0 } else { 0.0 },
+            At::Plateau => {
+                let (k, exponent) = self.reciprocal();
+                let way = Pair::sum(t, -self.plateau_start(0)).times(k);
+                (self.ramps[0].share.plus(scaled(way, exponent + 100)), None)
+            }
+            At::Opening(on) if on.side == 0 => (on.mass(), Some(on)),
+            At::Opening(on) => (self.ramps[0].share.minus(on.mass()), Some(on)),
+            At::Closing(on) if on.side == 0 => {
+                (self.ramps[0].share.plus(self.plateau).plus(on.mass()), Some(on))
+            }
+            At::Closing(on) => (whole.minus(on.mass()), Some(on)),
+        };
+        let nearest = mass.rounded();
+        // The middle between the two `f32` around the mass, to which it is rounded.
+        let rest = (mass.hi - nearest) + mass.lo;
+        let next = if rest < 0.0 { nearest.next_down() } else { nearest.next_up() };
+        let half = 0.5 * (next - nearest);
+        let nearest = if (half - rest).abs() < nearest * NEAR_MIDDLE {
+            self.settled(t, nearest, next, (half - rest).abs(), on)
+        } else {
+            nearest
+        };
+        if nearest > 0.0 { (nearest / WHOLE).min(1.0) } else { 0.0 }
+    }
+
+    /// Which of two neighbours `t` has, where its mass lies so near to their middle that pairs may not tell.
+    ///
+    /// Then it is the inverse that tells, for the middle has one time: what is before that gets the lesser neighbour, all
+    /// else the greater. So the cdf never steps back, not even where next to no light falls and neighbouring times have
+    /// the same mass but for rounding. Wherever the mass is farther from the middle than `noise`, both ways agree.
+    #[cold]
+    #[inline(never)]
+    fn settled(&self, t: f32, nearest: f32, next: f32, distance: f32, on: Option<OnRamp>) -> f32 {
+        // The search for the middle is itself not exact.
+        let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
+        if distance > noise || next < 0.0 {
+            return nearest;
+        }
+        let middle = Pair::sum(nearest, 0.5 * (next - nearest));
+        let (side, a) = if nearest < 0.5 * WHOLE {
+            (0, middle)
+        } else {
+            (1, Pair::new(WHOLE).minus(middle))
+        };
+        let is_later = t >= self.at_fraction(side, a, FOR_TICK).time();
+        if is_later == (next > nearest) { next } else { nearest }
+    }
+}
+
+/// So near to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise is
+/// 2⁻²⁹ at the most (see the text of the module `solve`).
+const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
+
+/// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.
+#[inline(always)]
+pub(crate) const fn significand(x: f64) -> (Pair, i32) {
+    const UNIT: f32 = 1.0 / (1u64 << 47) as f32;
+    let bits = x.to_bits();
+    let hi = f32::from_bits(127 << 23 | (bits >> 29) as u32 & 0x7F_FFFF);
+    let lo = (bits as u32 >> 5 & 0xFF_FFFF) as f32 * UNIT;
+    (Pair { hi, lo }, (bits >> 52) as i32 - 1023)
+}

@@ -1,0 +1,213 @@
+//! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
+//!
+//! The second number is at most a few ulp of the first. The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
+//! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good as
+//! each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to that.
+
+/// `hi + lo`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pair {
+    pub(crate) hi: f32,
+    pub(crate) lo: f32,
+}
+
+impl Pair {
+    pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
+
+    /// `x`, exactly.
+    pub(crate) const fn new(x: f32) -> Self {
+        Self { hi: x, lo: 0.0 }
+    }
+
+    /// The nearest pair.
+    pub(crate) const fn from_f64(x: f64) -> Self {
+        let hi = x as f32;
+        Self { hi, lo: (x - hi as f64) as f32 }
+    }
+
+    /// `x`, exactly.
+    pub(crate) const fn from_u32(x: u32) -> Self {
+        Self { hi: (x & !0xFF) as f32, lo: (x & 0xFF) as f32 }
+    }
+
+    pub(crate) const fn to_f64(self) -> f64 {
+        self.hi as f64 + self.lo as f64
+    }
+
+    /// `a + b`, exactly (Knuth's two-sum).
+    #[inline(always)]
+    pub(crate) const fn sum(a: f32, b: f32) -> Self {
+        let hi = a + b;
+        let added = hi - a;
+        Self { hi, lo: (a - (hi - added)) + (b - added) }
+    }
+
+    /// `self + other`, to 2⁻⁴⁶ of the greater one.
+    #[inline(always)]
+    pub(crate) const fn plus(self, other: Self) -> Self {
+        let sum = Self::sum(self.hi, other.hi);
+        Self::sum(sum.hi, sum.lo + (self.lo + other.lo))
+    }
+
+    /// `self - other`, to 2⁻⁴⁶ of the greater one.
+    #[inline(always)]
+    pub(crate) const fn minus(self, other: Self) -> Self {
+        self.plus(other.negated())
+    }
+
+    /// `self - other` in single precision, which keeps its relative accuracy where the two are near.
+    #[inline(always)]
+    pub(crate) const fn difference(self, other: Self) -> f32 {
+        (self.hi - other.hi) + (self.lo - other.lo)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn negated(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+
+    /// `x self` for a power of two `x`, exactly.
+    #[inline(always)]
+    pub(crate) const fn scaled(self, x: f32) -> Self {
+        Self { hi: self.hi * x, lo: self.lo * x }
+    }
+
+    /// `self · x`, to 2⁻⁴⁶ (Dekker).
+    #[inline(always)]
+    pub(crate) const fn times(self, x: Self) -> Self {
+        let hi = self.hi * x.hi;
+        Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
+    }
+
+    /// The nearest `f32`.
+    #[inline(always)]
+    pub(crate) const fn rounded(self) -> f32 {
+        self.hi + self.lo
+    }
+}
+
+/// `a b - product`, exactly, for the rounded `product` of `a` and `b` (Dekker).
+#[inline(always)]
+const fn lost(product: f32, a: f32, b: f32) -> f32 {
+    let (a_high, b_high) = (upper(a), upper(b));
+    let (a_low, b_low) = (a - a_high, b - b_high);
+    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+}
+
+/// The upper 12 of 24 bits. The product of two such halves is exact.
+#[inline(always)]
+const fn upper(x: f32) -> f32 {
+    f32::from_bits(x.to_bits() & 0xFFFF_F000)
+}
+
+/// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients.
+///
+/// The last one stands apart because the series from both ends of a ramp share it.
+#[derive(Clone, Copy)]
+pub(crate) struct Series<'a> {
+    pub(crate) c: &'a [Pair],
+    pub(crate) last: Pair,
+}
+
+impl Series<'_> {
+    /// The value at `x`, by Horner's rule with what each sum and each product loses carried along.
+    ///
+    /// It is within 2⁻⁴¹ Σ |c_k| |x|^k: of N = 6 products and 5 sums each loses at most 2⁻²⁴ of that sum, so what is
+    /// carried along is at most 12 · 2⁻²⁴ of it, and is itself known to 12 roundings (Graillat, Langlois and Louvet 2005).
+    #[inline(always)]
+    pub(crate) const fn at(self, x: f32) -> Pair {
+        let x_high = upper(x);
+        let x_low = x - x_high;
+        let Pair { mut hi, mut lo } = self.last;
+        // Unknown to the compiler, which would unroll the loop to several times its bytes.
+        let mut k = core::hint::black_box(self.c.len());
+        loop {
+            let product = hi * x;
+            let high = upper(hi);
+            let low = hi - high;
+            let lost = ((high * x_high - product) + high * x_low + low * x_high) + low * x_low;
+            lo = lo * x + lost;
+            k = k.wrapping_sub(1);
+            if k >= self.c.len() {
+                return Pair { hi: product, lo };
+            }
+            let sum = Pair::sum(self.c[k].hi, product);
+            hi = sum.hi;
+            lo += self.c[k].lo + sum.lo;
+        }
+    }
+
+    /// The slope at `x`, in single precision.
+    #[inline(always)]
+    pub(crate) const fn slope(self, x: f32) -> f32 {
+        let mut k = self.c.len();
+        let mut slope = (k + 1) as f32 * self.last.hi;
+        while k > 0 {
+            slope = slope * x + k as f32 * self.c[k - 1].hi;
+            k -= 1;
+        }
+        slope
+    }
+}
+
+/// `2^n`, a normal number.
+#[inline(always)]
+pub(crate) const fn power_of_two(n: i32) -> f32 {
+    f32::from_bits(((n + 127) as u32) << 23)
+}
+
+/// The exponent of the power of two at or below a normal `x`; -127 for what is less.
+#[inline(always)]
+pub(crate) const fn exponent(x: f32) -> i32 {
+    (x.to_bits() >> 23 & 0xFF) as i32 - 127
+}
+
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁰ and a `unit` in
+/// [-252, 26].
+#[inline(always)]
+pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
+    // The power of two by halves, for it may not be a normal number itself.
+    let half = unit >> 1;
+    let (first, second) = (power_of_two(unit - half), power_of_two(half));
+    let second = if back { -second } else { second };
+    let hi = way.hi * first * second;
+    // Less may be subnormal, or have a subnormal second half.
+    if base.abs() + hi.abs() < power_of_two(-78) {
+        return small_sum(base, way, unit, back);
+    }
+    let sum = Pair::sum(base, hi);
+    sum.hi + odd_sum(sum.lo, way.lo * first * second)
+}
+
+/// The same near 0.
+#[cold]
+#[inline(never)]
+const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
+    // In a greater unit both halves are normal numbers.
+    let half = unit >> 1;
+    let (first, second) = (power_of_two(unit - half), power_of_two(half + 48));
+    let second = if back { -second } else { second };
+    let (base, hi, lo) = (base * power_of_two(48), way.hi * first * second, way.lo * first * second);
+    // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
+    let (rough, least) = (base + hi, power_of_two(48 - 126));
+    let places = if rough.abs() >= least {
+        0.0
+    } else if rough < 0.0 {
+        -least
+    } else {
+        least
+    };
+    let sum = Pair::sum(places + base, hi);
+    ((sum.hi + odd_sum(sum.lo, lo)) - places) * power_of_two(-48)
+}
+
+/// `a + b`, or of its two neighbours the one whose last bit is set: to round that once more is to round once.
+#[inline(always)]
+const fn odd_sum(a: f32, b: f32) -> f32 {
+    let sum = Pair::sum(a, b);
+    let bits = sum.hi.to_bits();
+    if sum.lo == 0.0 || bits & 1 == 1 {
+        return sum.hi;
+    }
+    f32::from_bits(if (sum.lo < 0.0) == (sum.hi < 0.0) { bits + 1 } else { bits - 1 })
+}

@@ -1,0 +1,254 @@
+//! A plan: what answers most questions without a search. The plateau's line and the octaves' polynomials give the time as
+//! a 64-bit integer; it is rounded once. Both public curves are one.
+//!
+//! The way of a `u` through [`Plan::inverse_cdf`]:
+//!
+//! 1. On the plateau: the line `t = base + A u`, and 10.
+//! 2. The side from which `u` is counted, and how far: `a = min(u, 1 - u)`.
+//! 3. The octave of `a` ([`octave`](crate::octave)): its polynomial, and 10.
+//! 4. Else `a` as a pair ([`pair`](crate::pair)).
+//! 5. What is to be collected on which ramp ([`exposure`](crate::exposure)).
+//! 6. That ramp seen from the end that faces the side ([`ramp`](crate::ramp)).
+//! 7. The nearest of its four anchors.
+//! 8. A root as the first guess ([`seed`](crate::seed)).
+//! 9. Halley's steps, the residual in pairs, one verified step ([`solve`](crate::solve)), and the time at that place.
+//! 10. One rounding.
+
+use crate::bezier::CubicBezier;
+use crate::error::{CurveError, Ramp as Part};
+use crate::exposure::{Exposure, FOR_FRACTION};
+use crate::octave::{LEAST, Octave, Unit, floor_bits, top};
+use crate::pair::Pair;
+use crate::ramp::{Shape, WHOLE};
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Plan<const CELLS: usize> {
+    pub(crate) exposure: Exposure,
+    /// The exponent of the unit in which the curve's times count at most 2⁶¹.
+    unit: i32,
+    /// The bits of the `f32` around the plateau: every `u` above the first and up to the second is on its line.
+    plateau: [u32; 2],
+    /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
+    base: i64,
+    slope: i64,
+    /// For each side, the octaves of `a`, the widest first.
+    octaves: [[Octave; CELLS]; 2],
+}
+
+/// Does the processor have doubles? Those of 64 bits do.
+pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
+
+/// From here on a `u` loses no bit when counted in 2⁻³².
+const FINE: u32 = (1.0f32 / 512.0).to_bits();
+
+impl<const CELLS: usize> Plan<CELLS> {
+    /// The plan of two ramps with an openness of at most `most`; errors name the first one `part`.
+    pub(crate) const fn new(
+        opening: &CubicBezier,
+        closing: &CubicBezier,
+        part: Part,
+        most: f64,
+    ) -> Result<Self, CurveError> {
+        // Beyond, less than 2⁻⁶⁴ of all `u` would be left to serve.
+        const { assert!(CELLS <= 64, "at most 64 octaves a side") };
+        let exposure = match Exposure::new(opening, closing, part, most) {
+            Ok(exposure) => exposure,
+            Err(error) => return Err(error),
+        };
+        let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
+        let unit = exponent_of_greater(exposure.start(0), exposure.start(1)) - 60;
+        let starts = [in_units(exposure.start(0) as f64, unit), in_units(exposure.start(1) as f64, unit)];
+        let (mut base, mut slope, mut plateau) = (0, 0, [0; 2]);
+        let mut serves = true;
+        if open < close {
+            let masses = [Shape::new(opening).mass(), Shape::new(closing).mass()];
+            base = in_units(open as f64, unit) - in_units(masses[0], unit);
+            slope = in_units(close as f64, unit) + in_units(masses[1], unit) - base;
+            // Where the curve lies too far from time 0 for its unit, all is searched for.
+            serves = slope >> 40 != 0;
+            if serves {
+                let [from, to] = exposure.joins(0);
+                let from = floor_bits(from);
+                plateau = [if from < FINE { FINE } else { from }, floor_bits(to)];
+            }
+        }
+        let mut octaves = [[Octave::NONE; CELLS]; 2];
+        let mut side = 0;
+        while side < 2 {
+            let mut top = if serves { top(&exposure, side) } else { 0 };
+            let mut index = 0;
+            while index < CELLS && top >= LEAST {
+                octaves[side][index] =
+                    Octave::fit(&exposure, &Unit { exponent: unit, starts }, side, top);
+                top -= 1 << 23;
+                index += 1;
+            }
+            side += 1;
+        }
+        Ok(Self { exposure, unit, plateau, base, slope, octaves })
+    }
+
+    /// The exponent of the unit of time.
+    pub(crate) const fn unit(&self) -> i32 {
+        self.unit
+    }
+
+    pub(crate) const fn unit_of_time(&self) -> f32 {
+        f32::from_bits(((127 + self.unit) as u32) << 23)
+    }
+
+    /// The time from which a side counts, in units.
+    pub(crate) const fn start_in_units(&self, side: usize) -> i64 {
+        in_units(self.exposure.start(side) as f64, self.unit)
+    }
+
+    /// The plateau's line in doubles: its time at `u = 0`, its slope, and the `u` that it serves.
+    #[inline(always)]
+    pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
+        let base = self.base as f64 * self.unit_of_time() as f64;
+        (base, self.exposure.area, self.plateau.map(f32::from_bits))
+    }
+
+    /// The side from which `u` is counted and how far: the lesser of `u` and `1 - u`. Branchless, for the side is
+    /// unpredictable. Below 0 and above 1 it is negative.
+    #[inline(always)]
+    fn count(u: f32) -> (usize, f32) {
+        let late = 1.0 - u;
+        if late < u { (1, late) } else { (0, u) }
+    }
+
+    /// The time on the plateau, in units, at a `u` that counts 2⁻³².
+    #[inline(always)]
+    pub(crate) fn on_line(&self, u: u32) -> i64 {
+        let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+        let way = high * u as u64 + ((low * u as u64) >> 32);
+        self.base.wrapping_add(way as i64)
+    }
+
+    /// The time by an octave's polynomial, in units, or `None` where none serves: for `a` with this significand, between the
+    /// `f32` with the bits `floor` and `ceil`. What is no fraction above 0 has none.
+    #[inline(always)]
+    pub(crate) fn by_octave(&self, side: usize, floor: u32, ceil: u32, significand: u32) -> Option<i64> {
+        let side = &self.octaves[side & 1];
+        let top = side.first()?.top;
+        let octave = side.get((top.wrapping_sub(ceil) >> 23) as usize)?;
+        if !octave.exists() {
+            return None;
+        }
+        let down = (octave.top >> 23).wrapping_sub(floor >> 23);
+        Some(octave.time(Octave::offset(top, significand, down)))
+    }
+
+    /// The time by which the fraction `u` of the exposure has been collected, without doubles.
+    #[inline(always)]
+    pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
+        let bits = u.to_bits();
+        if bits > self.plateau[0] && bits <= self.plateau[1] {
+            let u = (bits << 8 | 1 << 31) >> (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+            return self.rounded(self.on_line(u));
+        }
+        let (side, a) = Self::count(u);
+        match self.direct(side, a) {
+            Some(time) => self.rounded(time),
+            None => self.searched(side, a),
+        }
+    }
+
+    #[inline(always)]
+    fn direct(&self, side: usize, a: f32) -> Option<i64> {
+        let bits = a.to_bits();
+        self.by_octave(side, bits, bits, bits << 8 | 1 << 31)
+    }
+
+    /// A time in units, rounded once.
+    #[inline(always)]
+    fn rounded(&self, time: i64) -> f32 {
+        if DOUBLES {
+            return time as f32 * self.unit_of_time();
+        }
+        // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
+        // upper word, the lower one only has to say whether it is 0.
+        let high = (time >> 32) as i32;
+        if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
+            return self.rounded_small(time);
+        }
+        let odd = high | (time as u32 != 0) as i32;
+        odd as f32 * f32::from_bits(((127 + 32 + self.unit) as u32) << 23)
+    }
+
+    /// The same for a time near 0.
+    #[cold]
+    #[inline(never)]
+    fn rounded_small(&self, time: i64) -> f32 {
+        let up = (time ^ time >> 63).leading_zeros().saturating_sub(1);
+        let time = time << up;
+        let odd = (time >> 32) as i32 | (time as u32 != 0) as i32;
+        // By halves, for the unit may not be a normal number.
+        odd as f32 * f32::from_bits((127 + 32 - up) << 23) * self.unit_of_time()
+    }
+
+    /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start or the end for what is no fraction.
+    ///
+    /// Out of line, so that the direct way saves no registers for it.
+    #[cold]
+    #[inline(never)]
+    fn searched(&self, side: usize, a: f32) -> f32 {
+        if a > 0.0 {
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).time()
+        } else {
+            self.exposure.start(side)
+        }
+    }
+
+    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
+    pub(crate) fn evaluations(&self, u: f32) -> u32 {
+        let (side, a) = Self::count(u);
+        let bits = u.to_bits();
+        let is_on_line = bits > self.plateau[0] && bits <= self.plateau[1];
+        if a > 0.0 && !is_on_line && self.direct(side, a).is_none() {
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
+        } else {
+            0
+        }
+    }
+
+    /// The plateau in `u` that counts 2⁻⁶⁴: its line serves what is above the first and below the second.
+    pub(crate) fn plateau_in_words(&self) -> [u64; 2] {
+        let [from, to] = self.plateau.map(f32::from_bits);
+        let [near, far] = self.exposure.joins(0);
+        // A cast saturates.
+        let word = |u: f64| (u * 18446744073709551616.0) as u64;
+        if to > from { [word(near.max(from as f64)), word(far)] } else { [u64::MAX, 0] }
+    }
+
+    /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
+    #[inline(always)]
+    pub(crate) fn direct_in_words(&self, u: u64, plateau: [u64; 2]) -> Option<i64> {
+        if u > plateau[0] && u < plateau[1] {
+            return Some(self.on_line((u >> 32) as u32));
+        }
+        let side = (u >> 63) as usize;
+        let a = if side == 0 { u } else { u.wrapping_neg() };
+        let (high, low) = ((a >> 32) as u32, a as u32);
+        let zeros = high.leading_zeros();
+        if high == 0 {
+            return None;
+        }
+        let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
+        let floor = ((126 - zeros) << 23) + (significand << 1 >> 9);
+        let ceil = floor + (significand & 0xFF != 0) as u32;
+        self.by_octave(side, floor, ceil, significand)
+    }
+}
+
+/// The exponent of the greater magnitude; that of the least `f32` where both are 0.
+const fn exponent_of_greater(a: f32, b: f32) -> i32 {
+    let most = if a.abs() > b.abs() { a.abs() } else { b.abs() };
+    let most = if most > 0.0 { most } else { f32::from_bits(1) };
+    ((most as f64).to_bits() >> 52) as i32 - 1023
+}
+
+/// A time in units of `2^e`, rounded to one.
+const fn in_units(time: f64, e: i32) -> i64 {
+    (time * f64::from_bits(((1023 - e) as u64) << 52)) as i64
+}

@@ -1,0 +1,215 @@
+//! The search: where a series reaches a target, and the proof that it does.
+//!
+//! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and in
+//! single precision from an [`Anchor`] near the target, to search by. One search is
+//!
+//! 1. Halley's steps in single precision, inside a bracket, until next to nothing is missing;
+//! 2. what is missing, measured in pairs;
+//! 3. one more step for that, and a computed bound of what it leaves. Only that bound accepts an answer.
+//!
+//! Where it is too great, 2 and 3 are repeated from the place that was reached.
+//!
+//! **The bound.** Let `c` be the anchor's coefficients, `x` the distance from it, `d_k` the Taylor coefficients there, and
+//! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`. With `Y = |x| + |s|` the terms from the
+//! third on are together at most `T |s|³`, `T = |c_3| + 4 |c_4| Y + 10 |c_5| Y² + 20 |c_6| Y³`, because the k-th is
+//! `Σ_j C(j,k) c_j x^(j-k) s^k`, and `Σ_{k>=3} C(j,k) x^(j-k) s^k <= C(j,3) |s|³ Y^(j-3)`. In single precision the first two
+//! terms are wrong by at most 2⁻¹⁸ `|s| Σ j |c_j| Y^(j-1)`: each `d_k` by 12 roundings of 2⁻²⁴ in Horner's rule, and by 5 times
+//! [`MOVED`] for `x`. That sum is at most `|c_1| + 2 |c_2| Y + 3 T Y²`. So what is left is at most
+//!
+//! `|r - s (d_1 + d_2 s)| + |s| (2⁻¹⁸ (|c_1| + (2 |c_2| + 3 T Y) Y) + T s²)`
+//!
+//! and what measuring `r` missed: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A non-negative
+//! polynomial's increasing integral bounds that sum (Markov): it exceeds the series by a factor that depends on the degree
+//! alone, below 2¹² for degree 6. So measuring misses at most 2⁻²⁹ of the target, a quarter of 2⁻²⁷; a search for a smaller
+//! error is as exact as pairs are, which is 2⁻³⁷ wherever the terms do not cancel so much.
+//!
+//! **The end.** From `NEWTON` evaluations on a bracket of measured, hence certain signs shrinks at least as bisection
+//! would shrink it. When it is as narrow as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and the bound's
+//! terms without `r` are below 2⁻²⁷ of the series: then Halley's step, which solves the first two terms, is accepted.
+//! Hence [`MAX_EVALUATIONS`]; searches aimed at the hardest inputs take 8 at most.
+
+use crate::pair::{Pair, Series};
+
+/// How far a ramp goes: places along it count from 0 at one end to this at the other.
+///
+/// The least `f32` u then still leads to a place that is a normal number, and the last coefficient's second half is one.
+pub(crate) const ONE: f32 = (1 << 28) as f32;
+
+/// Evaluations before all of them are measured in pairs and the bracket has to keep up with what bisection would make of it.
+const NEWTON: u32 = 10;
+/// Bisections that bring any bracket between 0 and [`ONE`] down to neighbours, taken by their bits; each takes two
+/// evaluations.
+const BISECTION: u32 = 31;
+/// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
+pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
+
+/// Where less than this share of what is sought is missing, it is measured in pairs. Halley's step leaves some tenth of the
+/// cube: 2⁻³⁹.
+const NEAR: f32 = 1.0 / 4096.0;
+
+/// A step leads at most this many times as far from the anchor: Newton overshoots where the density dips ahead.
+const FARTHER: f32 = 2.5;
+
+/// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
+const ROUNDING: f32 = 1.0 / (1 << 18) as f32;
+
+/// The distance from the anchor may be rounded by this share of it.
+const MOVED: f32 = 1.0 / (1 << 21) as f32;
+
+/// Where a search starts: a place on the ramp, and the series from there.
+pub(crate) struct Anchor<const N: usize> {
+    pub(crate) place: Pair,
+    /// Does the search lead back, to smaller places?
+    pub(crate) back: bool,
+    /// How far it may lead: to the end of the ramp. Beyond it the series need not increase.
+    pub(crate) limit: f32,
+    /// What is collected on the way, by powers of the distance.
+    pub(crate) c: [f32; N],
+    /// What is to be collected on the way.
+    pub(crate) sought: f32,
+}
+
+impl<const N: usize> Anchor<N> {
+    /// The `f32` place next to the distance `x`, for only such a place can be measured, and its own distance.
+    #[inline(always)]
+    const fn measurable(&self, x: f32) -> (f32, f32) {
+        let sign = if self.back { -1.0 } else { 1.0 };
+        let p = self.place.hi + sign * x;
+        (p, sign * ((p - self.place.hi) - self.place.lo))
+    }
+}
+
+/// Where a search ended: at the place `x + rest`.
+#[derive(Clone, Copy)]
+pub(crate) struct Offset {
+    pub(crate) x: f32,
+    pub(crate) rest: f32,
+    pub(crate) evaluations: u32,
+}
+
+impl Offset {
+    /// The series' value there. The second term is at most 2⁻²³ of the first, so single precision is enough for it.
+    #[inline(always)]
+    pub(crate) const fn value(&self, series: Series) -> Pair {
+        let Pair { hi, lo } = series.at(self.x);
+        Pair { hi, lo: lo + series.slope(self.x) * self.rest }
+    }
+}
+
+/// The first Taylor coefficients around a place.
+struct Taylor {
+    value: f32,
+    d1: f32,
+    d2: f32,
+}
+
+impl Taylor {
+    /// Of `c[0] x + c[1] x² + ...`, by synthetic division: each pass leaves one more coefficient.
+    #[inline(always)]
+    const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {
+        let mut c = *c;
+        divide(&mut c, x, 0);
+        let value = c[0] * x;
+        divide(&mut c, x, 0);
+        divide(&mut c, x, 1);
+        Self { value, d1: c[0], d2: c[1] }
+    }
+
+    /// Halley's step to make up for `missing`.
+    #[inline(always)]
+    const fn step(&self, missing: f32) -> f32 {
+        missing / (self.d1 + self.d2 * (missing / self.d1))
+    }
+}
+
+/// Horner's rule at `x`, down to the coefficient `to`, with all that it passes kept.
+#[inline(always)]
+const fn divide<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
+    let mut k = N - 1;
+    while k > to {
+        k -= 1;
+        c[k] += c[k + 1] * x;
+    }
+}
+
+/// The bound of what is missing after the step `s`: see the module's text.
+#[inline(always)]
+const fn left<const N: usize>(c: &[f32; N], x: f32, local: &Taylor, missing: f32, s: f32) -> f32 {
+    /// `C(j, 3)`
+    const CHOOSE: [f32; 7] = [0.0, 0.0, 0.0, 1.0, 4.0, 10.0, 20.0];
+    let size = s.abs();
+    let y = x.abs() + size;
+    let mut t = 0.0;
+    let mut j = N;
+    while j > 2 {
+        t = t * y + CHOOSE[j] * c[j - 1].abs();
+        j -= 1;
+    }
+    let slopes = c[0].abs() + (2.0 * c[1].abs() + 3.0 * t * y) * y;
+    (missing - s * (local.d1 + local.d2 * s)).abs() + size * (ROUNDING * slopes + t * (s * s))
+}
+
+/// The place where `series` reaches `target`, but for an `error`, of which a quarter is for measuring.
+#[inline(always)]
+pub(crate) const fn solve<const N: usize>(
+    series: Series,
+    target: Pair,
+    anchor: &Anchor<N>,
+    seed: f32,
+    error: f32,
+) -> Offset {
+    let Anchor { place, back, limit, ref c, sought } = *anchor;
+    // The anchor itself, whose mass is known as well as any is measured.
+    if sought <= 0.5 * error {
+        return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
+    }
+    let sign = if back { -1.0 } else { 1.0 };
+    let near = NEAR * sought + error;
+    let (mut low, mut high) = (0.0f32, limit);
+    let (mut is_near, mut p) = (false, 0.0);
+    let mut evaluations = 0;
+    // At the end of the ramp the density may be 0.
+    let mut x = if seed > 0.75 * limit { 0.75 * limit } else { seed };
+    loop {
+        let local = Taylor::new(c, x);
+        evaluations += 1;
+        let mut missing = sought - local.value;
+        if !is_near && (missing.abs() <= near || evaluations >= NEWTON) {
+            is_near = true;
+            // What the bracket was made of may have been rounding; from here on signs are certain.
+            (low, high) = (0.0, limit);
+            let distance;
+            (p, distance) = anchor.measurable(x);
+            if (distance - x).abs() > MOVED * x {
+                x = distance;
+                continue;
+            }
+        }
+        if is_near {
+            missing = sign * target.difference(series.at(p));
+            evaluations += 1;
+        }
+        *(if missing > 0.0 { &mut low } else { &mut high }) = x;
+        let far = if is_near || high < FARTHER * x { high } else { FARTHER * x };
+        let mut step = local.step(missing);
+        // Written so that a NaN is no step.
+        if !(x + step >= low && x + step <= far) {
+            step = 0.5 * (low + far) - x;
+        }
+        if is_near {
+            let is_last = evaluations >= MAX_EVALUATIONS - 1;
+            if is_last || left(c, x, &local, missing, step) <= 0.75 * error {
+                return Offset { x: p, rest: sign * step, evaluations };
+            }
+            // As many as there are `f32` in the bracket; it must shrink, on average, as bisection would shrink it.
+            let width = high.to_bits().wrapping_sub(low.to_bits());
+            if evaluations >= NEWTON && width > 1 << 30 >> ((evaluations + 1 - NEWTON) / 2) {
+                step = f32::from_bits(low.to_bits().wrapping_add(width / 2)) - x;
+            }
+        }
+        x += step;
+        if is_near {
+            (p, x) = anchor.measurable(x);
+        }
+    }
+}
