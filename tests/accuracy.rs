@@ -2,13 +2,12 @@
 //!
 //! `cargo test --test accuracy -- --nocapture` prints the figures.
 
-mod cases;
-mod oracle;
+mod support;
 
-use cases::shutter;
-use oracle::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
-use oracle::{Curve, Exact};
 use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
+use support::cases::{self, shutter};
+use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
+use support::oracle::{self, Curve, Exact};
 
 /// The promises, as the README prints them.
 const FORWARD: f64 = 0.8;

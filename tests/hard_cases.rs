@@ -1,26 +1,18 @@
 //! Every hard case that is known, ours and those on which others fail.
 
-mod cases;
-mod oracle;
+mod support;
 
-#[allow(dead_code)]
-#[path = "../benches/baseline/mod.rs"]
-mod baseline;
-#[allow(dead_code)]
-#[path = "../benches/baseline/peers.rs"]
-mod peers;
-
-use baseline::InverseTable;
-use cases::{
+use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
+use support::baseline::InverseTable;
+use support::cases::{
     ANIMATION, CASES, NO_ROOT, S_RAMP, case, evenly, exact, is_one_ramp, judge, shutter, worst,
 };
-use oracle::curves::hard_us;
-use oracle::{Curve, Exact};
-use peers::{
+use support::curves::hard_us;
+use support::oracle::{Curve, Exact};
+use support::peers::{
     CellTable, Parts, PowerRamp, animation, bracketed, eleven_entries, fixed_point, renderer,
     tolerant,
 };
-use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
 
 /// For one `u` of a case here: what a close look found at most on the worst of 450 000 curves that a search bred.
 const MOST_EVALUATIONS: u32 = 5;

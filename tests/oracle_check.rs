@@ -1,11 +1,11 @@
 //! Holds the oracle against values from elsewhere, against closed forms and against itself.
 
-mod oracle;
+mod support;
 
-use oracle::curves::{
+use support::curves::{
     Kind, Rng, hard_us, is_valid, named, random_hard, random_single, random_typical,
 };
-use oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32, value_ulp};
+use support::oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32, value_ulp};
 
 /// `|a - b|` relative to `scale`.
 fn relative(a: Dd, b: Dd, scale: Dd) -> f64 {

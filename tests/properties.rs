@@ -1,11 +1,11 @@
 //! Random bit patterns: an error, or a curve that keeps its promises.
 
-mod oracle;
+mod support;
 
-use oracle::{Curve, Exact};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
+use support::oracle::{Curve, Exact};
 
 type Points = [(f32, f32); 4];
 

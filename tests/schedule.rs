@@ -1,12 +1,11 @@
 //! Triggers: evenly spread exposure, ticks, and the checked schedule.
 
-mod cases;
-mod oracle;
+mod support;
 
-use cases::shutter;
-use oracle::curves::random_hard;
-use oracle::{Curve, Dd, Exact, Points};
 use shutter_curve::{CubicBezier, ShutterCurve, valid};
+use support::cases::shutter;
+use support::curves::random_hard;
+use support::oracle::{Curve, Dd, Exact, Points};
 
 const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
     [0.0, 0.25, 0.75, 1.0],

@@ -1,15 +1,14 @@
 //! The hard cases: curves on which solvers are known to fail, one a reason.
 //!
 //! `tests/hard_cases.rs` judges them all; `benches/speed_vs_error` prints them beside the baselines.
-#![allow(dead_code)] // Each user needs a part.
 
 mod found;
 
 use found::FOUND;
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::oracle::curves::hard_us;
-use crate::oracle::{Curve, Exact, Points};
+use crate::support::curves::hard_us;
+use crate::support::oracle::{Curve, Exact, Points};
 
 #[derive(Clone, Copy)]
 pub struct Case {

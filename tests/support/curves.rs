@@ -1,7 +1,7 @@
 //! The curves and the `u` that the tests judge: the named ones of `tests/data/curves.csv`, and fresh
 //! ones drawn at random from a fixed seed.
 
-use super::{Curve, Dd, Exact, Points, exp2};
+use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

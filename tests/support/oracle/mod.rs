@@ -3,9 +3,7 @@
 //! It shares no code with the library and takes the `f32` inputs as exact numbers. Every ramp is
 //! expanded in powers of the distance `x` from each of its two ends, so that times, openness and mass
 //! near an end are accurate relative to their distance from it, however flat the curve is there.
-#![allow(dead_code)] // Each test binary uses a part.
 
-pub mod curves;
 pub mod dd;
 
 pub use dd::Dd;
