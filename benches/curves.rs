@@ -1,6 +1,6 @@
 //! The curves that are timed.
 
-use crate::baseline::Ramp;
+use crate::support::baseline::Ramp;
 
 /// About a third of the mass in ramps; all of it; none.
 pub const CURVES: [(&str, Ramp, Ramp); 3] = [

@@ -1,19 +1,16 @@
 //! Host timing of the public calls beside the usual ways: `cargo bench --bench host`.
 
-#[allow(dead_code)]
-mod baseline;
 mod curves;
-#[allow(dead_code)]
-#[path = "baseline/peers.rs"]
-mod peers;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
 use std::hint::black_box;
 
-use baseline::{InverseTable, TextbookNewton};
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use curves::CURVES;
-use peers::{Parts, animation};
 use shutter_curve::{CubicBezier, ShutterCurve};
+use support::baseline::{InverseTable, TextbookNewton};
+use support::peers::{Parts, animation};
 
 /// So many that no branch predictor learns their order from one round to the next.
 const COUNT: usize = 1 << 16;

@@ -3,14 +3,13 @@
 //! Every scene of the main example is judged. With fixed seeds a test at 0.1 % either passes for ever or
 //! is wrong; that it can fail, the document's own slip shows.
 
-mod cases;
-mod oracle;
-mod rendering;
+mod support;
 
-use oracle::curves::Rng;
-use oracle::{Curve, Dd, Exact};
-use rendering::{PULSES, Picture};
 use shutter_curve::CubicBezier;
+use support::cases;
+use support::curves::Rng;
+use support::oracle::{Curve, Dd, Exact};
+use support::rendering::{PULSES, Picture};
 
 const SEED: u64 = 2024;
 const SAMPLES: usize = 100_000;

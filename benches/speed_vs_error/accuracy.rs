@@ -1,8 +1,8 @@
 //! The error of every method, on the typical curves.
 
 use crate::methods::METHODS;
-use crate::oracle::curves::{Kind, Rng, named, random_typical};
-use crate::oracle::{Curve, Exact};
+use crate::support::curves::{Kind, Rng, named, random_typical};
+use crate::support::oracle::{Curve, Exact};
 
 const SEED: u64 = 4;
 

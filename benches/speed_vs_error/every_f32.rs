@@ -8,9 +8,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
-use crate::cases::{CASES, shutter};
-use crate::oracle::curves::named;
-use crate::oracle::{Curve, Exact, Points, rounding_cell, ulp_f32};
+use crate::support::cases::{CASES, shutter};
+use crate::support::curves::named;
+use crate::support::oracle::{Curve, Exact, Points, rounding_cell, ulp_f32};
 
 /// The bits of 1: those of the `f32` in [0, 1] are at most these.
 const LAST: u32 = 1.0f32.to_bits();

@@ -5,29 +5,19 @@
 //! last two leave tables in `docs`, which the next report takes in.
 
 mod accuracy;
-#[allow(dead_code)] // Shared; each user needs a part.
-#[path = "../baseline/mod.rs"]
-mod baseline;
-#[path = "../../tests/cases/mod.rs"]
-mod cases;
 mod cost;
 #[path = "../curves.rs"]
 mod curves;
 mod every_f32;
 mod methods;
-#[path = "../../tests/oracle/mod.rs"]
-mod oracle;
 mod others;
-#[allow(dead_code)]
-#[path = "../baseline/peers.rs"]
-mod peers;
 mod pictures;
-#[path = "../../tests/rendering/mod.rs"]
-mod rendering;
 mod report;
 mod search;
 mod seeds;
 mod style;
+#[path = "../../tests/support/mod.rs"]
+mod support;
 mod timing;
 
 use accuracy::Amount;
@@ -35,8 +25,8 @@ use clap::Parser;
 use curves::CURVES;
 use indicatif::{ProgressBar, ProgressStyle};
 use methods::METHODS;
-use rendering::{PULSES, Picture, Pulses};
 use report::Measured;
+use support::rendering::{PULSES, Picture, Pulses};
 
 #[derive(Parser)]
 #[command(about = "Speed against error")]

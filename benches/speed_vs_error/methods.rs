@@ -4,10 +4,10 @@ use std::hint::black_box;
 
 use shutter_curve::ShutterCurve;
 
-use crate::baseline::{InverseTable, TextbookNewton};
-use crate::cases::shutter;
-use crate::oracle::Curve;
-use crate::peers::{MonotoneCubicTable, Parts, bracketed, doubles};
+use crate::support::baseline::{InverseTable, TextbookNewton};
+use crate::support::cases::shutter;
+use crate::support::oracle::Curve;
+use crate::support::peers::{MonotoneCubicTable, Parts, bracketed, doubles};
 
 pub trait Inverse {
     fn inverse_cdf(&self, u: f32) -> f32;

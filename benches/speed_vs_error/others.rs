@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::cases::{ANIMATION, NO_ROOT, S_RAMP, case, evenly, exact, shutter, worst};
-use crate::oracle::Exact;
-use crate::peers::{
+use crate::report::number;
+use crate::support::cases::{ANIMATION, NO_ROOT, S_RAMP, case, evenly, exact, shutter, worst};
+use crate::support::oracle::Exact;
+use crate::support::peers::{
     CellTable, Parts, PowerRamp, animation, bracketed, eleven_entries, fixed_point, renderer,
     tolerant,
 };
-use crate::report::number;
 
 pub const COUNT: u32 = 10_000;
 

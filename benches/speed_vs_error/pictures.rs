@@ -4,12 +4,12 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use crate::accuracy::Figures;
-use crate::cases::{judge, shutter};
 use crate::methods::{DEFAULT, METHODS, TABLE, TEXTBOOK};
-use crate::oracle::curves::{random_hard, random_typical};
-use crate::oracle::{Curve, Exact, Points};
-use crate::rendering::{PIXELS, PULSES, Picture, Pulses};
 use crate::style::{Axis, BLUE, Chart, GREY, INK, ORANGE, SCALE, chart, legend, picture, text};
+use crate::support::cases::{judge, shutter};
+use crate::support::curves::{random_hard, random_typical};
+use crate::support::oracle::{Curve, Exact, Points};
+use crate::support::rendering::{PIXELS, PULSES, Picture, Pulses};
 use crate::timing;
 
 /// Error against time: the greatest (full) and the mean error (ring) of each method, over what a sample

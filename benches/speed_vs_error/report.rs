@@ -3,18 +3,18 @@
 use std::fmt::Write as _;
 
 use crate::accuracy::Figures;
-use crate::baseline::InverseTable;
-use crate::cases::{CASES, Case, Verdict, judge, shutter};
 use crate::cost::Cost;
 use crate::curves::CURVES;
 use crate::every_f32::Row;
 use crate::methods::{METHODS, Method, TEXTBOOK};
-use crate::oracle::Exact;
-use crate::oracle::curves::hard_us;
 use crate::pictures::name;
-use crate::rendering::Pulses;
 use crate::search::Find;
 use crate::seeds::SeedRow;
+use crate::support::baseline::InverseTable;
+use crate::support::cases::{CASES, Case, Verdict, judge, shutter};
+use crate::support::curves::hard_us;
+use crate::support::oracle::Exact;
+use crate::support::rendering::Pulses;
 use crate::timing::{FORWARDS, Time};
 
 /// Everything measured.

@@ -3,12 +3,12 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::cases::shutter;
 use crate::curves::CURVES;
 use crate::methods::METHODS;
-use crate::oracle::curves::Rng;
-use crate::oracle::{Curve, Exact};
-use crate::peers::{Parts, animation};
+use crate::support::cases::shutter;
+use crate::support::curves::Rng;
+use crate::support::oracle::{Curve, Exact};
+use crate::support::peers::{Parts, animation};
 
 pub fn curve(index: usize) -> Curve {
     let (_, opening, closing) = CURVES[index];

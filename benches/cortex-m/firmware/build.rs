@@ -1,5 +1,5 @@
 //! The curves of `tests/data/curves.csv` with the inputs of `tests/data/inverse_cdf.csv`, and those of
-//! `tests/cases/found.rs`, as Rust, each with the inputs that a search finds hardest; and the folder of the
+//! `tests/support/cases/found.rs`, as Rust, each with the inputs that a search finds hardest; and the folder of the
 //! board's `memory.x`, which is the crate's.
 
 use std::collections::HashSet;
@@ -7,7 +7,7 @@ use std::{array, cmp::Reverse, env, fmt::Write, fs, path::PathBuf};
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-#[path = "../../../tests/cases/found.rs"]
+#[path = "../../../tests/support/cases/found.rs"]
 mod found;
 
 type Ramp = [(f32, f32); 4];
@@ -25,7 +25,7 @@ fn main() {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     watched("memory.x");
-    watched("tests/cases/found.rs");
+    watched("tests/support/cases/found.rs");
 
     // Eight lines a curve, four a ramp: its name, its kind, the ramp, the point's number, t and f.
     let points = read("tests/data/curves.csv");

@@ -4,7 +4,7 @@
 use shutter_curve::CubicBezier;
 
 pub mod answers;
-#[path = "../../../baseline/mod.rs"]
+#[path = "../../../../tests/support/baseline.rs"]
 pub mod baseline;
 
 /// A curve of the reference data or found by search, with the inputs that the reference has for it and those

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Div, Mul, Sub};
 
-use super::baseline::Ramp;
+use crate::support::baseline::Ramp;
 
 pub trait Float:
     Copy

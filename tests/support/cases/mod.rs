@@ -1,15 +1,14 @@
 //! The hard cases: curves on which solvers are known to fail, one a reason.
 //!
 //! `tests/hard_cases.rs` judges them all; `benches/speed_vs_error` prints them beside the baselines.
-#![allow(dead_code)] // Each user needs a part.
 
 mod found;
 
 use found::FOUND;
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::oracle::curves::hard_us;
-use crate::oracle::{Curve, Exact, Points};
+use crate::support::curves::hard_us;
+use crate::support::oracle::{Curve, Exact, Points};
 
 #[derive(Clone, Copy)]
 pub struct Case {
@@ -39,14 +38,6 @@ impl Case {
 pub fn shutter<const CELLS: usize>(curve: &Curve) -> ShutterCurve<CELLS> {
     let [opening, closing] = [curve.opening, curve.closing].map(CubicBezier::new);
     ShutterCurve::with_cells(opening, closing).expect("a good curve")
-}
-
-/// Has one ramp nearly all of the exposure? Its start is then what is counted from, since `u` is finer near 0 than near 1,
-/// and a mirrored curve's answers may differ by their error.
-pub fn is_one_ramp<const CELLS: usize>(shutter: &ShutterCurve<CELLS>) -> bool {
-    let first = shutter.cdf(shutter.open_end());
-    let last = 1.0 - shutter.cdf(shutter.close_start());
-    first.max(last) > 1.0 - 1.0 / 4000.0
 }
 
 /// What an inverse does on a curve.

@@ -1,7 +1,7 @@
 //! The two usual ways to invert a shutter's cdf, written from their public descriptions, as baselines:
 //! Newton's method in `f32` on sextics in powers of the Bezier's parameter, and a table of the inverse.
 //!
-//! Included with `#[path]` by every benchmark, on the host and on the microcontroller; hence only `core`.
+//! The microcontroller's benchmark takes this file in by its path; hence only `core`.
 
 /// A ramp's control points `P0..P3`, each as (t, f).
 pub type Ramp = [(f32, f32); 4];

@@ -1,10 +1,9 @@
 //! What the crate is for: a bright bar that moves while the shutter is open, exposed in pulses of light.
-#![allow(dead_code)] // Each user needs a part.
 
 use shutter_curve::ShutterCurve;
 
-use crate::oracle::curves::Rng;
-use crate::oracle::{Curve, Dd, Exact};
+use crate::support::curves::Rng;
+use crate::support::oracle::{Curve, Dd, Exact};
 
 pub const PIXELS: usize = 660;
 /// Where the bar's rear edge starts and ends, and its width, in widths of the picture.
@@ -48,7 +47,7 @@ impl Picture {
             .map(|window| window.map(|t| oracle.cdf_dd(Dd::from(t))))
             .map(|[from, to]| (to - from).hi)
             .collect();
-        Self { exact, windows, curve: *curve, ours: crate::cases::shutter(curve) }
+        Self { exact, windows, curve: *curve, ours: crate::support::cases::shutter(curve) }
     }
 
     /// The exact integral over the exposure.
