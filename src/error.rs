@@ -119,12 +119,21 @@ pub enum ScheduleError {
 
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(match self {
-            ScheduleError::TickRateZero => "the tick rate is 0 Hz",
-            ScheduleError::TickRateTooHigh => "the interval is longer than 2^31 ticks",
-            ScheduleError::CapacityExceeded => "more triggers than the schedule can hold",
-            ScheduleError::GapTooSmall { .. } => "triggers closer than the minimum gap",
-        })
+        match self {
+            ScheduleError::TickRateZero => out.write_str("the tick rate is 0 Hz"),
+            ScheduleError::TickRateTooHigh => {
+                out.write_str("the interval is longer than 2^31 ticks")
+            }
+            ScheduleError::CapacityExceeded => {
+                out.write_str("more triggers than the schedule can hold")
+            }
+            ScheduleError::GapTooSmall { most: 1 } => {
+                out.write_str("triggers closer than the minimum gap; 1 trigger keeps it")
+            }
+            ScheduleError::GapTooSmall { most } => {
+                write!(out, "triggers closer than the minimum gap; up to {most} triggers keep it")
+            }
+        }
     }
 }
 

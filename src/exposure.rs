@@ -8,7 +8,7 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::pair::{Pair, rounded_sum};
-use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, scaled};
+use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, WHOLE_EXPONENT, scaled};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
 /// these keep their order.
@@ -119,8 +119,7 @@ impl Exposure {
         }
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
         let (area, exponent) = significand(self.area);
-        // WHOLE is 2¹⁰⁰.
-        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), exponent - 100))
+        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), exponent - WHOLE_EXPONENT))
     }
 
     /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
@@ -210,7 +209,7 @@ impl Exposure {
             At::Plateau => {
                 let (k, exponent) = self.reciprocal();
                 let way = Pair::sum(t, -self.plateau_start(0)).times(k);
-                (self.ramps[0].share.plus(scaled(way, exponent + 100)), None)
+                (self.ramps[0].share.plus(scaled(way, exponent + WHOLE_EXPONENT)), None)
             }
             At::Opening(on) if on.side == 0 => (on.mass(), Some(on)),
             At::Opening(on) => (self.ramps[0].share.minus(on.mass()), Some(on)),

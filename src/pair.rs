@@ -27,7 +27,7 @@ impl Pair {
 
     /// `x`, exactly.
     pub(crate) const fn from_u32(x: u32) -> Self {
-        Self { hi: (x & !0xFF) as f32, lo: (x & 0xFF) as f32 }
+        Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32)
     }
 
     pub(crate) const fn to_f64(self) -> f64 {
@@ -162,8 +162,8 @@ pub(crate) const fn exponent(x: f32) -> i32 {
     (x.to_bits() >> 23 & 0xFF) as i32 - 127
 }
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁰ and a `unit` in
-/// [-252, 26].
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
+/// [-252, 22].
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     // The power of two by halves, for it may not be a normal number itself.

@@ -68,8 +68,10 @@ impl<const CELLS: usize> Plan<CELLS> {
             serves = slope >> 40 != 0;
             if serves {
                 let [from, to] = exposure.joins(0);
-                let from = floor_bits(from);
-                plateau = [if from < FINE { FINE } else { from }, floor_bits(to)];
+                let (from, to) = (floor_bits(from), floor_bits(to));
+                // At 1 the end is exact.
+                let last = 1.0f32.to_bits() - 1;
+                plateau = [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
             }
         }
         let mut octaves = [[Octave::NONE; CELLS]; 2];

@@ -17,7 +17,8 @@ use crate::seed::{seed, seed_by_bits};
 use crate::solve::{Anchor, ONE, Offset, solve};
 
 /// Fractions of the exposure count so many to the whole: the least `f32` and its rounding errors are then normal numbers.
-pub(crate) const WHOLE: f32 = (1u128 << 100) as f32;
+pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
+pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
 /// An error in time, relative to the way from the ramp's end: a quarter of the least distance between neighbours, so that
 /// these keep their order.
@@ -175,9 +176,10 @@ impl Ramp {
         let times = curve.times();
         let seen = Shape::new(curve);
         let seen = [seen, seen.reversed()];
-        // A ramp with less than 2⁻¹⁵⁵ of the exposure is dark: no `f32` u is reached on it.
-        let share = seen[0].mass() / area * WHOLE as f64;
-        let share = Pair::from_f64(if share < power_of_two(-55) as f64 { 0.0 } else { share });
+        // A ramp with less than 2⁻¹⁵⁰ of the exposure is dark: no `f32` u is reached on it.
+        let share = seen[0].mass() / area;
+        let is_dark = share < 0.5 * f32::from_bits(1) as f64;
+        let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
         let unit = unit_of_time(times[0], times[3]);
         let per_unit = f64::from_bits(((1023 - unit) as u64) << 52);
         let per_mass = unit_of_mass(share) as f64 * WHOLE as f64 / area;
@@ -376,12 +378,12 @@ impl End {
     }
 }
 
-/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁷⁰ to 2⁷¹, so that all
+/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁸⁰ to 2⁸¹, so that all
 /// coefficients keep their bits.
 #[inline(always)]
 const fn unit_of_mass(share: Pair) -> f32 {
     let exponent = exponent(share.hi);
-    power_of_two(70 - if exponent < -56 { -56 } else { exponent })
+    power_of_two(80 - if exponent < -46 { -46 } else { exponent })
 }
 
 /// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that.

@@ -33,7 +33,7 @@ use crate::pair::{Pair, Series};
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
 /// The least `f32` u then still leads to a place that is a normal number, and the last coefficient's second half is one.
-pub(crate) const ONE: f32 = (1 << 28) as f32;
+pub(crate) const ONE: f32 = (1 << 30) as f32;
 
 /// Evaluations before all of them are measured in pairs and the bracket has to keep up with what bisection would make of it.
 const NEWTON: u32 = 10;
