@@ -5,9 +5,7 @@ mod support;
 use shutter_curve::{BezierPdf, CubicBezier, ScheduleError};
 use support::cases::shutter;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-
-/// More evaluations of the mass than this, and a search has lost its way.
-const MOST_EVALUATIONS: u32 = 8;
+use support::promise::{BACKWARD, EVALUATIONS, TICKS, tick_error};
 
 /// A ramp without length.
 const fn instant(t: f32, f: f32) -> Points {
@@ -28,26 +26,13 @@ fn judge_inverse(curve: &Curve, us: impl Iterator<Item = f32>) {
         let times = [direct.inverse_cdf(u), searched.inverse_cdf(u)];
         for (time, last) in times.into_iter().zip(last) {
             let errors = exact.judge(u, time);
-            assert!(errors.backward <= 1.0, "{time:e} at {u:e}: {errors:?}");
+            assert!(errors.backward <= BACKWARD, "{time:e} at {u:e}: {errors:?}");
             assert!(time >= last, "back to {time:e} from {last:e} at {u:e}");
         }
         let evaluations = direct.evaluations(u).max(searched.evaluations(u));
-        assert!(evaluations <= MOST_EVALUATIONS, "{evaluations} evaluations at {u:e}");
+        assert!(evaluations <= EVALUATIONS, "{evaluations} evaluations at {u:e}");
         last = times;
     }
-}
-
-/// How far a tick is from the exact time of trigger `i` of `n`, once 2⁻³⁸ of `min(u, 1 - u)` is forgiven.
-fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
-    let fraction = |odd: f64| Dd::from(odd) / Dd::from(2.0 * f64::from(n));
-    let u = fraction(2.0 * f64::from(i) + 1.0);
-    let forgiven = u.min(Dd::ONE - u).scale(exp2(-38));
-    let [early, late] = [u - forgiven, u + forgiven].map(|u| {
-        let delay = exact.inverse_cdf_dd(u) - Dd::from(exact.curve().open_start());
-        (delay * f64::from(hz)).hi
-    });
-    let tick = f64::from(tick);
-    (early - tick).max(tick - late).max(0.0)
 }
 
 #[test]
@@ -155,7 +140,7 @@ fn ticks_of_a_billion_triggers() {
     let exact = Exact::new(&soft_like());
     for (i, tick) in (first..).zip(ticks) {
         let error = tick_error(&exact, tick, [i, n], hz);
-        assert!(error <= 0.75, "trigger {i} is {error} ticks off");
+        assert!(error <= TICKS[0], "trigger {i} is {error} ticks off");
     }
 }
 
@@ -166,7 +151,7 @@ fn late_ticks_where_hardly_any_light_precedes_the_closing_ramp() {
     let curve = Curve::shutter(opening, closing);
     let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
     for (n, hz, most) in
-        [(1 << 20, 1 << 31, 0.501), (1 << 22, 1 << 31, 0.501), (1 << 22, 1 << 24, 0.75)]
+        [(1 << 20, 1 << 31, TICKS[1]), (1 << 22, 1 << 31, TICKS[1]), (1 << 22, 1 << 24, TICKS[0])]
     {
         let first = n - 2000;
         let ticks = ours.trigger_ticks(n, hz).unwrap().skip(first as usize);

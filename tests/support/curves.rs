@@ -90,7 +90,7 @@ impl Rng {
     }
 
     /// As far as rounding may take a curve past a bound, or any power of ten less.
-    fn graze(&mut self) -> f64 {
+    pub fn graze(&mut self) -> f64 {
         GRAZE * self.power_of_ten(-9.0, 0.0)
     }
 
@@ -230,7 +230,7 @@ fn double_root(root: f64) -> [f64; 3] {
     [root * root, -root * rest, rest * rest]
 }
 
-fn hard_times(rng: &mut Rng) -> [f64; 4] {
+pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
     match rng.below(13) {
         // Control times together at an end: the mass starts with a higher power.
@@ -269,7 +269,7 @@ fn hard_times(rng: &mut Rng) -> [f64; 4] {
     }
 }
 
-fn hard_openness(rng: &mut Rng) -> [f64; 4] {
+pub fn hard_openness(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
     match rng.below(15) {
         // Flat at the outer end, exactly and nearly.

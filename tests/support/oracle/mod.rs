@@ -563,6 +563,17 @@ impl Exact {
         }
         masses.into_iter().map(|mass| mass / self.area).collect()
     }
+
+    /// The times of the same.
+    pub fn landmark_times(&self) -> Vec<Dd> {
+        let curve = &self.curve;
+        let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+        let mut times = joins.map(Dd::from).to_vec();
+        for ramp in [&self.opening, &self.closing] {
+            times.extend(ramp.flat_points().into_iter().map(|p| ramp.time(ramp.spot(p))));
+        }
+        times
+    }
 }
 
 fn clamped(u: f32) -> f32 {
