@@ -11,7 +11,8 @@ pub(crate) struct Cubic {
 impl Cubic {
     /// From its value at 0 and the differences of its Bernstein coefficients.
     pub(crate) const fn new(value: f64, [d0, d1, d2]: [f64; 3]) -> Self {
-        Self { value, c: [3.0 * d0, 3.0 * (d1 - d0), d0 - 2.0 * d1 + d2] }
+        // The last one is the same seen from the other end, to the bit.
+        Self { value, c: [3.0 * d0, 3.0 * (d1 - d0), (d0 + d2) - 2.0 * d1] }
     }
 
     /// The same around `p`.
@@ -72,7 +73,8 @@ pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
     if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
 }
 
-/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis.
+/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. A minimum inside that is 0 but for
+/// rounding is 0.
 pub(crate) const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
     let (mut low, mut high) = if f[0] < f[3] { (f[0], f[3]) } else { (f[3], f[0]) };
     // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
@@ -89,8 +91,11 @@ pub(crate) const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
             // False for the NaN of 0/0.
             if p > 0.0 && p < 1.0 {
                 let r = 1.0 - p;
-                let value =
-                    r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3]);
+                let [a, b, c, d] =
+                    [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
+                let noise = (a.abs() + b.abs() + c.abs() + d.abs()) / (1u64 << 48) as f64;
+                let value = (a + b) + (c + d);
+                let value = if value.abs() <= noise { 0.0 } else { value };
                 low = if value < low { value } else { low };
                 high = if value > high { value } else { high };
             }

@@ -16,7 +16,7 @@ pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
 /// To fit a polynomial by: 1/16 of an ulp.
 const FOR_FIT: f32 = 1.0 / (1 << 28) as f32;
 /// For a fraction with more bits.
-pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 37) as f32;
+pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
@@ -127,7 +127,7 @@ impl Exposure {
     pub(crate) fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Place {
         match self.section(side, a) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, target) => self.ramp(ramp).at_mass(side, target, error * a.hi),
+            Section::Ramp(ramp, target) => self.ramp(ramp).at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi]),
         }
     }
 
@@ -137,7 +137,7 @@ impl Exposure {
         let place = match self.section(side, a) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, target) => {
-                self.ramp(ramp).at_mass_const(side, target, FOR_FIT * a.hi)
+                self.ramp(ramp).at_mass_const(side, target, [FOR_FIT * a.hi, FOR_FRACTION * a.hi])
             }
         };
         let elapsed = place.since_f64(self.start(side));

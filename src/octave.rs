@@ -160,10 +160,12 @@ impl Octave {
             let x = part.offset(PEAKS[i]);
             let exact = part.exact(exposure, x);
             let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
+            // What `f64` cannot tell of a time so far from the side's start counts, too.
+            let error = error.abs() + exact / (1u64 << 51) as f64;
             let size = exposure.size_of_time(part.side, exact);
             // Written so that a NaN fails.
-            if !(error.abs() <= TIME_ERROR * size
-                && error.abs() + NOISE * scale <= ULP_ERROR * self.slope(x) * scale * ulp)
+            if !(error <= TIME_ERROR * size
+                && error + NOISE * scale <= ULP_ERROR * self.slope(x) * scale * ulp)
             {
                 return false;
             }

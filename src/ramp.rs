@@ -297,21 +297,21 @@ impl Ramp {
     /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
     /// [`WHOLE`].
     #[inline(always)]
-    pub(crate) fn at_mass(&self, side: usize, target: Pair, error: f32) -> Place {
+    pub(crate) fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Place {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed(&anchor.c, anchor.sought);
-        self.place(side, solve(self.collected(side), target, &anchor, seed, error * unit))
+        self.place(side, solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]))
     }
 
     /// The same, seeded as a constant can.
-    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: f32) -> Place {
+    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: [f32; 2]) -> Place {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed_by_bits(&anchor.c, anchor.sought);
-        self.place(side, solve(self.collected(side), target, &anchor, seed, error * unit))
+        self.place(side, solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]))
     }
 
     #[inline(always)]
@@ -368,7 +368,7 @@ impl Ramp {
             }
         }
         let seed = seed(&anchor.c, anchor.sought);
-        solve(series, target, &anchor, seed, TIME_ERROR * target.hi)
+        solve(series, target, &anchor, seed, [TIME_ERROR * target.hi; 2])
     }
 }
 

@@ -147,7 +147,8 @@ impl Fractions {
         let word = |word: u64, unit: f32| Pair::from_u32(word as u32).scaled(unit);
         const WORD: f32 = (1u64 << 32) as f32;
         let upper = word(high >> 32, WHOLE).plus(word(high, WHOLE / WORD));
-        (side, upper.plus(word(middle, WHOLE / WORD / WORD)))
+        let lower = word(middle, 1.0).plus(word(low, 1.0 / WORD));
+        (side, upper.plus(lower.scaled(WHOLE / WORD / WORD)))
     }
 }
 

@@ -13,10 +13,10 @@
 //! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`. With `Y = |x| + |s|` the terms from the
 //! third on are together at most `T |s|³`, `T = |c_3| + 4 |c_4| Y + 10 |c_5| Y² + 20 |c_6| Y³`, because the k-th is
 //! `Σ_j C(j,k) c_j x^(j-k) s^k`, and `Σ_{k>=3} C(j,k) x^(j-k) s^k <= C(j,3) |s|³ Y^(j-3)`. In single precision the first two
-//! terms are wrong by at most 2⁻¹⁸ `|s| Σ j |c_j| Y^(j-1)`: each `d_k` by 12 roundings of 2⁻²⁴ in Horner's rule, and by 5 times
+//! terms are wrong by at most 2⁻¹⁹ `|s| Σ j |c_j| Y^(j-1)`: each `d_k` by 12 roundings of 2⁻²⁴ in Horner's rule, and by 5 times
 //! [`MOVED`] for `x`. That sum is at most `|c_1| + 2 |c_2| Y + 3 T Y²`. So what is left is at most
 //!
-//! `|r - s (d_1 + d_2 s)| + |s| (2⁻¹⁸ (|c_1| + (2 |c_2| + 3 T Y) Y) + T s²)`
+//! `|r - s (d_1 + d_2 s)| + |s| (2⁻¹⁹ (|c_1| + (2 |c_2| + 3 T Y) Y) + T s²)`
 //!
 //! and what measuring `r` missed: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A non-negative
 //! polynomial's increasing integral bounds that sum (Markov): it exceeds the series by a factor that depends on the degree
@@ -51,10 +51,13 @@ const NEAR: f32 = 1.0 / 4096.0;
 const FARTHER: f32 = 2.5;
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
-const ROUNDING: f32 = 1.0 / (1 << 18) as f32;
+const ROUNDING: f32 = 1.0 / (1 << 19) as f32;
 
 /// The distance from the anchor may be rounded by this share of it.
-const MOVED: f32 = 1.0 / (1 << 21) as f32;
+const MOVED: f32 = 1.0 / (1 << 23) as f32;
+
+/// The distance between neighbours, relative to them, at most.
+const ULP: f32 = f32::EPSILON;
 
 /// Where a search starts: a place on the ramp, and the series from there.
 pub(crate) struct Anchor<const N: usize> {
@@ -70,12 +73,11 @@ pub(crate) struct Anchor<const N: usize> {
 }
 
 impl<const N: usize> Anchor<N> {
-    /// The `f32` place next to the distance `x`, for only such a place can be measured, and its own distance.
+    /// How far from the anchor a place is.
     #[inline(always)]
-    const fn measurable(&self, x: f32) -> (f32, f32) {
-        let sign = if self.back { -1.0 } else { 1.0 };
-        let p = self.place.hi + sign * x;
-        (p, sign * ((p - self.place.hi) - self.place.lo))
+    const fn distance(&self, p: f32) -> f32 {
+        let distance = (p - self.place.hi) - self.place.lo;
+        if self.back { -distance } else { distance }
     }
 }
 
@@ -156,7 +158,7 @@ pub(crate) const fn solve<const N: usize>(
     target: Pair,
     anchor: &Anchor<N>,
     seed: f32,
-    error: f32,
+    [error, most]: [f32; 2],
 ) -> Offset {
     let Anchor { place, back, limit, ref c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
@@ -178,8 +180,9 @@ pub(crate) const fn solve<const N: usize>(
             is_near = true;
             // What the bracket was made of may have been rounding; from here on signs are certain.
             (low, high) = (0.0, limit);
-            let distance;
-            (p, distance) = anchor.measurable(x);
+            // Only a place that is an `f32` can be measured.
+            p = place.hi + sign * x;
+            let distance = anchor.distance(p);
             if (distance - x).abs() > MOVED * x {
                 x = distance;
                 continue;
@@ -189,7 +192,7 @@ pub(crate) const fn solve<const N: usize>(
             missing = sign * target.difference(series.at(p));
             evaluations += 1;
         }
-        *(if missing > 0.0 { &mut low } else { &mut high }) = x;
+        *(if missing > 0.0 { &mut low } else { &mut high }) = if x > 0.0 { x } else { 0.0 };
         let far = if is_near || high < FARTHER * x { high } else { FARTHER * x };
         let mut step = local.step(missing);
         // Written so that a NaN is no step.
@@ -198,8 +201,10 @@ pub(crate) const fn solve<const N: usize>(
         }
         if is_near {
             let is_last = evaluations >= MAX_EVALUATIONS - 1;
+            let error = if step.abs() <= ULP * p { most } else { error };
             if is_last || left(c, x, &local, missing, step) <= 0.75 * error {
-                return Offset { x: p, rest: sign * step, evaluations };
+                let Pair { hi, lo } = Pair::sum(p, sign * step);
+                return Offset { x: hi, rest: lo, evaluations };
             }
             // As many as there are `f32` in the bracket; it must shrink, on average, as bisection would shrink it.
             let width = high.to_bits().wrapping_sub(low.to_bits());
@@ -207,9 +212,11 @@ pub(crate) const fn solve<const N: usize>(
                 step = f32::from_bits(low.to_bits().wrapping_add(width / 2)) - x;
             }
         }
-        x += step;
         if is_near {
-            (p, x) = anchor.measurable(x);
+            p += sign * step;
+            x = anchor.distance(p);
+        } else {
+            x += step;
         }
     }
 }

@@ -76,7 +76,8 @@ fn lifted_openness(f: [f32; 4], is_late: bool) -> Option<[f32; 4]> {
         from_outside.reverse();
     }
     let [low, high] = range(from_outside);
-    let by = high.max(-low) * exp2(-50) - low;
+    let size = high.max(-low);
+    let by = size * exp2(-50) - low;
     (low < 0.0).then(|| f.map(|value| rounded_up(value as f64 + by)))
 }
 
@@ -98,7 +99,10 @@ pub fn range(f: [f64; 4]) -> [f64; 2] {
     let inside = [q / square, a / q].into_iter().filter(|p| *p > 0.0 && *p < 1.0);
     let value = |p: f64| {
         let r = 1.0 - p;
-        r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3])
+        let terms = [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
+        let value = (terms[0] + terms[1]) + (terms[2] + terms[3]);
+        // A minimum that is 0 but for rounding is 0.
+        if value.abs() <= terms.iter().map(|t| t.abs()).sum::<f64>() * exp2(-48) { 0.0 } else { value }
     };
     let mut range = [f[0].min(f[3]), f[0].max(f[3])];
     for value in inside.map(value) {
