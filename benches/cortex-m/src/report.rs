@@ -52,7 +52,11 @@ fn m4f(seed: &str) -> Result<Measured, String> {
     let some = |cells: &[usize], functions: &[Function], hard| Selection {
         cells: cells.to_vec(),
         functions: functions.to_vec(),
-        hard,
+        inputs: if hard {
+            ::firmware::ON_ROWS | ::firmware::ON_TYPICAL | ::firmware::ON_HARD
+        } else {
+            ::firmware::ON_ROWS
+        },
     };
     let mut selections = vec![
         some(&CELLS, &[InverseCdf, Cdf, Opening, TickStep, Schedule, Newton, Table], false),
@@ -73,7 +77,11 @@ fn m0(seed: &str) -> Result<Measured, String> {
     if seed == SEEDS[0] {
         functions.extend([Newton, Table, Construct]);
     }
-    Measured::new(M0, seed, &[Selection { cells: CELLS.to_vec(), functions, hard: false }])
+    Measured::new(
+        M0,
+        seed,
+        &[Selection { cells: CELLS.to_vec(), functions, inputs: ::firmware::ON_ROWS }],
+    )
 }
 
 fn key(function: Function, row: usize, cells: usize) -> Key {

@@ -6,7 +6,7 @@ use core::arch::asm;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, frames, uniform};
+use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, uniform};
 use semihosting::{print, println, process::ExitCode};
 use shutter_curve::ShutterCurve;
 
@@ -78,7 +78,7 @@ fn run<const C: usize>() {
         for inputs in [Inputs::Hard, Inputs::Solved] {
             let (opening, closing) = data.scaled(SCALES[inputs.scale()]);
             let curve = black_box(ShutterCurve::<C>::with_cells(opening, closing).unwrap());
-            for (n, steps) in frames(inputs, data.hard_u(ends)) {
+            for (n, steps) in inputs.frames(data, ends) {
                 let mut ticks = curve.trigger_ticks(n, TICK_HZ).unwrap();
                 let step = |_| {
                     black_box(measured_tick_step(&mut ticks));
