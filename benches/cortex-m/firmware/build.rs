@@ -63,11 +63,19 @@ fn write_curve(
     hard.sort_by(f32::total_cmp);
     hard.dedup();
     let ramps = format!("opening: {opening:?}, closing: {closing:?}");
+    let ends = ends(opening, closing);
     writeln!(
         out,
-        "Curve {{ name: {name:?}, is_typical: {is_typical}, {ramps}, hard: &{hard:?} }},"
+        "Curve {{ name: {name:?}, is_typical: {is_typical}, {ramps}, ends: {ends:?}, hard: &{hard:?} }},"
     )
     .unwrap();
+}
+
+/// The fractions at which the curve's sections meet.
+fn ends(opening: Ramp, closing: Ramp) -> [f32; 2] {
+    let [opening, closing] = [opening, closing].map(CubicBezier::new);
+    let curve = ShutterCurve::new(opening, closing).expect("a good curve");
+    [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())]
 }
 
 /// The `u` for which the mass is evaluated most often: the first few of 20 000, and of those around them, ever

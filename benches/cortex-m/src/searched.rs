@@ -26,16 +26,15 @@ pub fn asked(key: &Key) -> Vec<Asked> {
 
 fn series<const CELLS: usize>(key: &Key) -> Vec<Asked> {
     let data = &CURVES[key.curve];
-    let ends = ::firmware::ends(&built(key.curve, None));
     match key.function {
         Function::InverseCdf => {
             let curve = built::<CELLS>(key.curve, None);
             let asked = |u: f32| Asked { u: u.into(), searched: Some(curve.evaluations(u) > 0) };
-            key.inputs.us(data, ends).map(asked).collect()
+            key.inputs.us(data).map(asked).collect()
         }
         Function::TickStep => {
             let curve = built::<CELLS>(key.curve, SCALES[key.inputs.scale()]);
-            let frames = key.inputs.frames(data, ends);
+            let frames = key.inputs.frames(data);
             let triggers = frames.flat_map(|(n, steps)| (0..steps).map(move |i| (n, i)));
             triggers.map(|(n, i)| trigger(&curve, n, i)).collect()
         }

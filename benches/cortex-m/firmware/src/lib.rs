@@ -1,7 +1,7 @@
 //! What the firmware measures and the host reports: the curves, the inputs and their order.
 #![no_std]
 
-use shutter_curve::{CubicBezier, ShutterCurve};
+use shutter_curve::CubicBezier;
 
 pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
@@ -15,6 +15,8 @@ pub struct Curve {
     pub is_typical: bool,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
+    /// The fractions at which its sections meet.
+    pub ends: [f32; 2],
     pub hard: &'static [f32],
 }
 
@@ -52,8 +54,8 @@ impl Curve {
 
     /// The hard inputs: those of the reference and of the search, the ends of the sections with six neighbours
     /// on either side, every power of two from either end, and fractions that are uniform on a logarithmic scale.
-    pub fn hard_u(&self, ends: [f32; 2]) -> impl Iterator<Item = f32> {
-        let near_ends = ends.into_iter().flat_map(|end| {
+    pub fn hard_u(&self) -> impl Iterator<Item = f32> {
+        let near_ends = self.ends.into_iter().flat_map(|end| {
             (0..=12u32).map(move |i| f32::from_bits((end.to_bits() + i).saturating_sub(6)).min(1.0))
         });
         let powers = (0..150)
@@ -67,11 +69,6 @@ impl Curve {
         });
         self.hard.iter().copied().chain(near_ends).chain(powers).chain(mirrored).chain(spread)
     }
-}
-
-/// The fractions at which a curve's sections meet.
-pub fn ends(curve: &ShutterCurve<0>) -> [f32; 2] {
-    [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())]
 }
 
 const SPREAD: u32 = 128;
@@ -163,22 +160,22 @@ impl Inputs {
     }
 
     /// Are they those that are likely to cost most?
-    fn are_hard(self) -> bool {
+    pub fn are_hard(self) -> bool {
         matches!(self, Self::Hard | Self::Solved)
     }
 
-    /// The inputs on a curve, in order; `ends` are the fractions at which its sections meet.
-    pub fn us(self, curve: &Curve, ends: [f32; 2]) -> impl Iterator<Item = f32> {
+    /// The inputs on a curve, in order.
+    pub fn us(self, curve: &Curve) -> impl Iterator<Item = f32> {
         let count = if self.are_hard() { 0 } else { UNIFORM };
-        let hard = self.are_hard().then(|| curve.hard_u(ends));
+        let hard = self.are_hard().then(|| curve.hard_u());
         (0..count).map(uniform).chain(hard.into_iter().flatten())
     }
 
     /// The frames whose first steps are measured on a curve, as how many triggers and how many steps: one
     /// of [`UNIFORM`], or one of [`TRIGGERS`] and for each hard input the one that starts nearest to it.
-    pub fn frames(self, curve: &Curve, ends: [f32; 2]) -> impl Iterator<Item = (u32, u32)> {
+    pub fn frames(self, curve: &Curve) -> impl Iterator<Item = (u32, u32)> {
         let whole = if self.are_hard() { TRIGGERS } else { UNIFORM };
-        let hard = self.are_hard().then(|| curve.hard_u(ends)).into_iter().flatten();
+        let hard = self.are_hard().then(|| curve.hard_u()).into_iter().flatten();
         let first = hard.filter(|u| *u > 1.0 / u32::MAX as f32 && *u < 0.5);
         [(whole, whole)].into_iter().chain(first.map(|u| ((0.5 / u) as u32, 1)))
     }
@@ -217,7 +214,7 @@ pub fn series() -> impl Iterator<Item = (Function, Inputs)> {
     let rows =
         calls.into_iter().flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))));
     let rows = rows.chain([(Construct, Inputs::Row(0))]);
-    let typical = [InverseCdf, TickStep].into_iter().map(|call| (call, Inputs::Typical));
+    let typical = calls.into_iter().map(|call| (call, Inputs::Typical));
     let hard = calls.into_iter().map(|call| (call, Inputs::Hard));
     rows.chain(typical)
         .chain(hard)
@@ -230,7 +227,8 @@ pub fn baselines() -> impl Iterator<Item = (Function, Inputs)> {
     [Newton, Table]
         .into_iter()
         .flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))))
-        .chain([(Newton, Inputs::Hard), (Table, Inputs::Hard)])
+        .chain([Newton, Table].into_iter().map(|call| (call, Inputs::Typical)))
+        .chain([Newton, Table].into_iter().map(|call| (call, Inputs::Hard)))
 }
 
 /// The numbers of cells measured.

@@ -6,7 +6,7 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use firmware::baseline::{InverseTable, TextbookNewton};
-use firmware::{CELLS, CURVES, Function, Inputs, TICK_HZ, baselines, ends, selected, series};
+use firmware::{CELLS, CURVES, Function, TICK_HZ, baselines, selected, series};
 use semihosting::process::ExitCode;
 
 #[path = "../measured.rs"]
@@ -38,7 +38,7 @@ fn run<const C: usize>() {
             };
             let curve = black_box(&prebuilt::<C>(scale)[index]);
             let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-            let us = inputs.us(&CURVES[index], ends(&prebuilt::<0>(0)[index]));
+            let us = inputs.us(&CURVES[index]);
             match function {
                 Function::InverseCdf => us.for_each(|u| {
                     black_box(measured_inverse_cdf(curve, black_box(u)));
@@ -50,8 +50,7 @@ fn run<const C: usize>() {
                     black_box(measured_opening(curve, black_box(start + length * u)));
                 }),
                 Function::TickStep => {
-                    for (n, steps) in inputs.frames(&CURVES[index], ends(&prebuilt::<0>(0)[index]))
-                    {
+                    for (n, steps) in inputs.frames(&CURVES[index]) {
                         let mut ticks =
                             curve.trigger_ticks(black_box(n), black_box(TICK_HZ)).unwrap();
                         for _ in 0..steps {
@@ -61,7 +60,7 @@ fn run<const C: usize>() {
                 }
                 Function::Schedule => {
                     // On hard curves triggers may share a tick.
-                    let gap = u32::from(matches!(inputs, Inputs::Row(_)));
+                    let gap = u32::from(!inputs.are_hard());
                     let _ = black_box(measured_schedule(curve, black_box(gap)));
                 }
                 Function::Construct => {
@@ -92,7 +91,7 @@ fn main() -> ! {
             let curve = &CURVES[index];
             let newton = TextbookNewton::new(curve.opening, curve.closing);
             let table = InverseTable::new(|u| prebuilt::<8>(0)[index].inverse_cdf(u));
-            inputs.us(curve, ends(&prebuilt::<0>(0)[index])).for_each(|u| {
+            inputs.us(curve).for_each(|u| {
                 if function == Function::Newton {
                     black_box(measured_newton(black_box(&newton), black_box(u)));
                 } else {
