@@ -5,7 +5,7 @@
 mod support;
 
 use shutter_curve::{BezierPdf, CubicBezier, MAX_EVALUATIONS, ShutterCurve};
-use support::cases::{self, shutter};
+use support::cases::shutter;
 use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
 use support::oracle::{self, Curve, Exact};
 
@@ -15,7 +15,7 @@ const FORWARD_MEAN: f64 = 0.25;
 const BACKWARD: f64 = 1.0;
 /// Of an octave's polynomial, so that neighbours can't change places.
 const DIRECT: f64 = 0.4;
-const VALUE: f64 = 2.0;
+const VALUE: f64 = 1.0;
 const SCALAR: f64 = 1.0;
 const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
 
@@ -239,8 +239,8 @@ fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 4]) {
         let (opening, pdf) = (curve.opening(t), curve.pdf(t));
         let errors = [
             exact.cdf_ulp(cdf, t, CDF_FLOOR),
-            exact.openness_ulp(opening, t, 0.0),
-            exact.pdf_ulp(pdf, t, 0.0),
+            exact.openness_ulp(opening, t),
+            exact.pdf_ulp(pdf, t),
         ];
         for (error, worst) in errors.into_iter().zip(&mut *worst) {
             assert!(
@@ -298,11 +298,9 @@ fn openness_in_a_deep_dip() {
         ],
     );
     let (exact, shutter) = (Exact::new(&curve), shutter::<8>(&curve));
-    // 2 ulp of this are 2⁻⁴⁷ of the plateau's openness.
-    let floor = 1.0 / (1 << 25) as f64;
     for bits in 0..20_000 {
         let t = f32::from_bits(3.6740906e-7f32.to_bits() + bits);
-        assert!(exact.openness_ulp(shutter.opening(t), t, floor) <= VALUE, "{t:e}");
+        assert!(exact.openness_ulp(shutter.opening(t), t) <= VALUE, "{t:e}");
     }
 }
 
@@ -324,7 +322,7 @@ fn single_curves() {
             backward = backward.max(exact.judge(u, t).backward);
             assert!(backward <= BACKWARD, "{u:e} {t:e} {curve:?}");
             assert!(exact.cdf_ulp(pdf.cdf(t), t, CDF_FLOOR) <= VALUE);
-            let error = exact.pdf_ulp(pdf.pdf(t), t, 0.0);
+            let error = exact.pdf_ulp(pdf.pdf(t), t);
             assert!(error <= VALUE, "{error} ulp: pdf({t:e}) = {:e} of {curve:?}", pdf.pdf(t));
         }
         let error = (pdf.area() as f64 - exact.area().hi).abs() / oracle::ulp_f32(exact.area().hi);
@@ -390,13 +388,7 @@ fn a_mirrored_curve_gives_mirrored_times() {
     let mut compared = 0;
     for i in 0..500 {
         let curve = if i < 36 { named()[i].curve } else { random_hard(10, i as u64) };
-        if Exact::new(&curve).grazes() {
-            continue;
-        }
         let (a, b) = (shutter::<8>(&curve), shutter::<8>(&curve.mirrored()));
-        if cases::is_one_ramp(&a) {
-            continue;
-        }
         for k in 1..=1000 {
             // A u whose complement is exact too.
             let u = (k * 16_777) as f32 / (1 << 24) as f32;
@@ -470,14 +462,14 @@ fn extremes() {
         for t in ts.into_iter().filter(|t| *t <= curve.close_end()) {
             let (cdf, pdf) = if curve.is_shutter {
                 let curve = ShutterCurve::<0>::with_cells(opening, closing).unwrap();
-                let error = exact.openness_ulp(curve.opening(t), t, 0.0);
+                let error = exact.openness_ulp(curve.opening(t), t);
                 assert!(error <= VALUE, "opening({t:e}) {error} ulp of {curve:?}");
                 (curve.cdf(t), curve.pdf(t))
             } else {
                 let pdf = BezierPdf::<0>::with_cells(opening).unwrap();
                 (pdf.cdf(t), pdf.pdf(t))
             };
-            let errors = [exact.cdf_ulp(cdf, t, CDF_FLOOR), exact.pdf_ulp(pdf, t, 0.0)];
+            let errors = [exact.cdf_ulp(cdf, t, CDF_FLOOR), exact.pdf_ulp(pdf, t)];
             assert!(errors.iter().all(|e| *e <= VALUE), "{errors:?} ulp at {t:e} of {curve:?}");
         }
         checked += 1;

@@ -40,14 +40,6 @@ pub fn shutter<const CELLS: usize>(curve: &Curve) -> ShutterCurve<CELLS> {
     ShutterCurve::with_cells(opening, closing).expect("a good curve")
 }
 
-/// Has one ramp nearly all of the exposure? Its start is then what is counted from, since `u` is finer near 0 than near 1,
-/// and a mirrored curve's answers may differ by their error.
-pub fn is_one_ramp<const CELLS: usize>(shutter: &ShutterCurve<CELLS>) -> bool {
-    let first = shutter.cdf(shutter.open_end());
-    let last = 1.0 - shutter.cdf(shutter.close_start());
-    first.max(last) > 1.0 - 1.0 / 4000.0
-}
-
 /// What an inverse does on a curve.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verdict {

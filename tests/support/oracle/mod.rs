@@ -1,12 +1,16 @@
 //! The tests' oracle: a shutter curve, its cdf and its inverse in double-double arithmetic.
 //!
-//! It shares no code with the library and takes the `f32` inputs as exact numbers. Every ramp is
-//! expanded in powers of the distance `x` from each of its two ends, so that times, openness and mass
-//! near an end are accurate relative to their distance from it, however flat the curve is there.
+//! It shares no code with the library and takes the `f32` inputs as exact numbers. A curve that rounding takes below
+//! a bound is lifted onto it first, as the library's documentation says ([`lift`]); from then on openness and t' are
+//! nowhere below 0, and every promise is about that curve. Every ramp is expanded in powers of the distance `x` from
+//! each of its two ends, so that times, openness and mass near an end are accurate relative to their distance from
+//! it, however flat the curve is there.
 
 pub mod dd;
+pub mod lift;
 
 pub use dd::Dd;
+use lift::Lifted;
 
 /// A cubic Bezier's control points as (time, openness).
 pub type Points = [(f32, f32); 4];
@@ -180,10 +184,11 @@ struct End {
 }
 
 impl End {
-    fn new(points: Points, sign: f64) -> Self {
-        let way = cubic(points.map(|p| p.0)).map(|c| c.scale(sign));
-        let rise = cubic(points.map(|p| p.1));
-        let openness = [Dd::from(points[0].1), rise[0], rise[1], rise[2]];
+    fn new(ramp: &Lifted, sign: f64) -> Self {
+        let way = cubic(ramp.steps);
+        let f = ramp.openness.map(Dd::from);
+        let rise = cubic([f[1] - f[0], f[2] - f[1], f[3] - f[2]]);
+        let openness = [f[0], rise[0], rise[1], rise[2]];
         let mut mass = [Dd::ZERO; 6];
         for (i, &f) in openness.iter().enumerate() {
             for (j, &t) in way.iter().enumerate() {
@@ -196,8 +201,8 @@ impl End {
         let (way, rise, mass) = (Poly { c: way }, Poly { c: rise }, Poly { c: mass });
         let half = Dd::from(0.5);
         Self {
-            time: points[0].0 as f64,
-            openness: points[0].1 as f64,
+            time: ramp.ends[0] as f64,
+            openness: ramp.openness[0] as f64,
             sign,
             way,
             rise,
@@ -208,9 +213,8 @@ impl End {
     }
 }
 
-/// A cubic Bezier in powers of x, without the constant. The differences of neighbours are exact.
-fn cubic(b: [f32; 4]) -> [Dd; 3] {
-    let d = [0, 1, 2].map(|i| Dd::from(b[i + 1]) - Dd::from(b[i]));
+/// A cubic Bezier in powers of x, without the constant, from the differences of its control values.
+fn cubic(d: [Dd; 3]) -> [Dd; 3] {
     let second = [d[1] - d[0], d[2] - d[1]];
     [d[0] * 3.0, second[0] * 3.0, second[1] - second[0]]
 }
@@ -219,9 +223,11 @@ fn cubic(b: [f32; 4]) -> [Dd; 3] {
 struct Ramp {
     ends: [End; 2],
     mass: Dd,
-    /// Where rounding makes f or t' graze below 0, the mass falls by a trace as p runs on. Then: all
-    /// turning points of the mass, as (p, mass). Otherwise nothing.
-    turns: Vec<(f64, Dd)>,
+    is_lifted: bool,
+    /// The greatest openness on the ramp.
+    greatest: f64,
+    /// The times at which the openness has an extremum inside.
+    extrema: Vec<Dd>,
 }
 
 /// A place on a ramp: the end from which it counts, and the distance.
@@ -232,20 +238,15 @@ struct Spot {
 }
 
 impl Ramp {
-    fn new(points: Points) -> Self {
-        let [a, b, c, d] = points;
-        let ends = [End::new(points, 1.0), End::new([d, c, b, a], -1.0)];
+    fn new(lifted: Lifted) -> Self {
+        let ends = [End::new(&lifted, 1.0), End::new(&lifted.reversed(), -1.0)];
         let mass = ends[0].mass.at(Dd::ONE);
-        let mut ramp = Self { ends, mass, turns: Vec::new() };
-        let turns: Vec<_> = ramp
-            .turning_points()
-            .into_iter()
-            .map(|p| (p, ramp.mass_from(0, ramp.spot(p))))
-            .collect();
-        let rises = turns.windows(2).all(|pair| pair[0].1 <= pair[1].1);
-        if !rises {
-            ramp.turns = turns;
-        }
+        let is_lifted = lifted.is_lifted;
+        let mut ramp = Self { ends, mass, is_lifted, greatest: 0.0, extrema: Vec::new() };
+        let places = ramp.extrema_of_openness();
+        let heights = places.iter().map(|p| ramp.openness(ramp.spot(*p)).hi);
+        ramp.greatest = heights.chain(ends.map(|end| end.openness)).fold(0.0, f64::max);
+        ramp.extrema = places.iter().map(|p| ramp.time(ramp.spot(*p))).collect();
         ramp
     }
 
@@ -256,11 +257,6 @@ impl Ramp {
     fn spot(&self, p: f64) -> Spot {
         let end = (p > 0.5) as usize;
         Spot { end, x: Dd::from(if end == 0 { p } else { 1.0 - p }) }
-    }
-
-    /// The parameter, in order along the ramp.
-    fn parameter(&self, spot: Spot) -> f64 {
-        if spot.end == 0 { spot.x.hi } else { 1.0 - spot.x.hi }
     }
 
     fn at_mass(&self, end: usize, mass: Dd) -> Spot {
@@ -292,55 +288,21 @@ impl Ramp {
         Dd::from(end.openness) + end.rise.at(spot.x)
     }
 
-    /// The masses between which all count as collected at the spot, where the mass grazes downwards.
-    fn band(&self, spot: Spot) -> [Dd; 2] {
-        let (mass, p) = (self.mass_from(0, spot), self.parameter(spot));
-        let mut band = [mass, mass];
-        for &(turn, mass) in &self.turns {
-            if turn <= p {
-                band[1] = band[1].max(mass);
-            }
-            if turn >= p {
-                band[0] = band[0].min(mass);
-            }
-        }
-        band
-    }
-
-    /// The parameters of f's interior extrema, and of that of t'.
-    fn flat_points(&self) -> Vec<f64> {
-        let (rise, way) = (&self.ends[0].rise.c, &self.ends[0].way.c);
+    /// The parameters of the interior extrema of f.
+    fn extrema_of_openness(&self) -> Vec<f64> {
+        let rise = &self.ends[0].rise.c;
         let mut points = roots(rise[0].hi, 2.0 * rise[1].hi, 3.0 * rise[2].hi);
-        if way[2].hi != 0.0 {
-            points.push(-way[1].hi / (3.0 * way[2].hi));
-        }
         points.retain(|p| *p > 0.0 && *p < 1.0);
         points
     }
 
-    /// 0, 1, and all p between where f or t' changes sign.
-    fn turning_points(&self) -> Vec<f64> {
-        let openness = |p| self.openness(self.spot(p)).hi;
-        let mut cuts = self.flat_points();
-        cuts.extend([0.0, 1.0]);
-        cuts.sort_by(f64::total_cmp);
+    /// The parameters of the interior extrema of f and t'.
+    fn flat_points(&self) -> Vec<f64> {
         let way = &self.ends[0].way.c;
-        let mut turns = roots(way[0].hi, 2.0 * way[1].hi, 3.0 * way[2].hi);
-        turns.retain(|p| *p > 0.0 && *p < 1.0);
-        for pair in cuts.windows(2) {
-            let (mut from, mut to) = (pair[0], pair[1]);
-            if openness(from) * openness(to) < 0.0 {
-                for _ in 0..60 {
-                    let middle = 0.5 * (from + to);
-                    let same = openness(from) * openness(middle) > 0.0;
-                    *(if same { &mut from } else { &mut to }) = middle;
-                }
-                turns.push(from);
-            }
-        }
-        turns.extend([0.0, 1.0]);
-        turns.sort_by(f64::total_cmp);
-        turns
+        let slowest = -way[1].hi / (3.0 * way[2].hi);
+        let mut points = self.extrema_of_openness();
+        points.extend(Some(slowest).filter(|p| *p > 0.0 && *p < 1.0));
+        points
     }
 }
 
@@ -375,8 +337,19 @@ pub struct Exact {
 }
 
 impl Exact {
+    /// The curve, lifted where rounding takes it below a bound.
     pub fn new(curve: &Curve) -> Self {
-        let (opening, closing) = (Ramp::new(curve.opening), Ramp::new(curve.closing));
+        Self::of(curve, Lifted::new)
+    }
+
+    /// The curve as it is, for comparison with what others computed for it.
+    pub fn as_given(curve: &Curve) -> Self {
+        Self::of(curve, Lifted::as_given)
+    }
+
+    fn of(curve: &Curve, ramp: impl Fn(Points, bool) -> Lifted) -> Self {
+        let opening = Ramp::new(ramp(curve.opening, false));
+        let closing = Ramp::new(ramp(curve.closing, true));
         let plateau = Dd::from(curve.close_start()) - Dd::from(curve.open_end());
         let area = opening.mass + plateau + closing.mass;
         Self { curve: *curve, opening, closing, plateau, area }
@@ -386,9 +359,9 @@ impl Exact {
         &self.curve
     }
 
-    /// Does rounding make the mass fall by a trace somewhere? Then a few times near have no single `u`.
-    pub fn grazes(&self) -> bool {
-        !self.opening.turns.is_empty() || !self.closing.turns.is_empty()
+    /// Does rounding take the curve below a bound, so that it is lifted?
+    pub fn is_lifted(&self) -> bool {
+        self.opening.is_lifted || self.closing.is_lifted
     }
 
     /// `∫ f dt`; on a shutter the exposure.
@@ -409,10 +382,7 @@ impl Exact {
         self.inverse_cdf_dd(Dd::from(clamped(u)))
     }
 
-    /// `u` in [0, 1].
-    ///
-    /// Where no time is the only right one (no density over a stretch, or the mass grazing downwards), it is
-    /// one of the right ones.
+    /// `u` in [0, 1]. Where there is no density over a stretch, it is one of the right times.
     pub fn inverse_cdf_dd(&self, u: Dd) -> Dd {
         let curve = &self.curve;
         if u <= Dd::ZERO {
@@ -473,20 +443,6 @@ impl Exact {
         }
     }
 
-    /// The masses between which all count as collected by `t`: one number twice, but for grazing.
-    fn band(&self, t: Dd) -> [Dd; 2] {
-        let curve = &self.curve;
-        let (start, end) = (Dd::from(curve.open_start()), Dd::from(curve.close_end()));
-        if !self.opening.turns.is_empty() && t > start && t < Dd::from(curve.open_end()) {
-            self.opening.band(self.opening.at_time(t))
-        } else if !self.closing.turns.is_empty() && t < end && t > Dd::from(curve.close_start()) {
-            let begun = self.closing.band(self.closing.at_time(t));
-            begun.map(|mass| self.opening.mass + self.plateau + mass)
-        } else {
-            [self.masses(t)[0]; 2]
-        }
-    }
-
     /// The openness at `t`: 0 outside the interval and for NaN.
     pub fn openness(&self, t: f32) -> Dd {
         if t.is_nan() { Dd::ZERO } else { self.openness_dd(Dd::from(t)) }
@@ -500,12 +456,18 @@ impl Exact {
         if t < start || t > end {
             Dd::ZERO
         } else if t < open || (t == open && open == close && !self.opening.is_empty()) {
-            self.opening.openness(self.opening.at_time(t))
+            self.bounded(self.opening.openness(self.opening.at_time(t)))
         } else if t <= close && open < close {
             Dd::ONE
         } else {
-            self.closing.openness(self.closing.at_time(t))
+            self.bounded(self.closing.openness(self.closing.at_time(t)))
         }
+    }
+
+    /// Rounding may let a shutter's openness pass 1 by a trace, and the oracle's own may miss 0 by less.
+    fn bounded(&self, f: Dd) -> Dd {
+        let most = if self.curve.is_shutter { Dd::ONE } else { f };
+        f.min(most).max(Dd::ZERO)
     }
 
     pub fn pdf(&self, t: f32) -> Dd {
@@ -552,37 +514,41 @@ impl Exact {
         let u = clamped(u);
         let [low, high] = rounding_cell(t).map(Dd::from);
         let target = Dd::from(u) * self.area;
-        let (least, most) = (self.band(low)[0], self.band(high)[1]);
+        let (least, most) = (self.masses(low)[0], self.masses(high)[0]);
         let miss = (least - target).max(target - most).max(Dd::ZERO);
-        // Mass at the later end is a difference with the whole area, and so good to 2⁻¹⁰⁰ of it.
-        let miss = if miss.hi <= exp2(-100) * target.hi { Dd::ZERO } else { miss };
         (miss / self.area).hi / ulp_f32(u as f64)
     }
 
-    /// The error of a cdf of `got` at `t`, see [`value_ulp`].
+    /// The error of a cdf of `got` at `t`, see [`value_ulp`]; an ulp is at least that of `floor`.
     pub fn cdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
-        value_ulp(got, t, |t| self.cdf_dd(t), floor)
+        value_ulp(got, self.times_near(t), |t| self.cdf_dd(t), |value| ulp_f32(value.max(floor)))
     }
 
     /// The error of an openness of `got` at `t`, see [`value_ulp`].
-    pub fn openness_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
-        self.density_ulp(got, t, Dd::ONE, floor)
+    pub fn openness_ulp(&self, got: f32, t: f32) -> f64 {
+        self.density_ulp(got, t, Dd::ONE)
     }
 
     /// The error of a pdf of `got` at `t`, see [`value_ulp`].
-    pub fn pdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
-        self.density_ulp(got, t, self.normalization(), floor)
+    pub fn pdf_ulp(&self, got: f32, t: f32) -> f64 {
+        self.density_ulp(got, t, self.normalization())
     }
 
-    /// Where the curve grazes its bounds by rounding, the bound is as right as the curve.
-    fn density_ulp(&self, got: f32, t: f32, scale: Dd, floor: f64) -> f64 {
-        let most = if self.curve.is_shutter { Dd::ONE } else { Dd::from(f64::MAX) };
-        let raw = value_ulp(got, t, |t| self.openness_dd(t) * scale, floor);
-        if raw == 0.0 {
-            return raw;
-        }
-        let bounded = |t| self.openness_dd(t).max(Dd::ZERO).min(most) * scale;
-        raw.min(value_ulp(got, t, bounded, floor))
+    /// An ulp is at least 2⁻⁴⁷ of the ramp's greatest openness, which is what is promised in a deep dip.
+    fn density_ulp(&self, got: f32, t: f32, scale: Dd) -> f64 {
+        let ramp = if t < self.curve.open_end() { &self.opening } else { &self.closing };
+        let least = exp2(-47) * ramp.greatest * scale.hi;
+        let reach = self.ulp_of_time(Dd::from(t));
+        let is_near = |extremum: &&Dd| (**extremum - Dd::from(t)).hi.abs() <= reach;
+        let extrema = [&self.opening.extrema, &self.closing.extrema].into_iter().flatten();
+        let times = self.times_near(t).chain(extrema.filter(is_near).copied());
+        value_ulp(got, times, |t| self.openness_dd(t) * scale, |value| ulp_f32(value).max(least))
+    }
+
+    /// Times within an ulp of `t`, from the middle outwards: most answers are settled after few.
+    fn times_near(&self, t: f32) -> impl Iterator<Item = Dd> + use<> {
+        let (middle, ulp) = (Dd::from(t), self.ulp_of_time(Dd::from(t)));
+        [0.0, -1.0, 1.0, -0.5, 0.5].into_iter().map(move |part| middle + Dd::from(part * ulp))
     }
 
     /// The u at which something changes: the sections' boundaries, and where the density or t' has an
@@ -596,6 +562,17 @@ impl Exact {
             }
         }
         masses.into_iter().map(|mass| mass / self.area).collect()
+    }
+
+    /// The times of the same.
+    pub fn landmark_times(&self) -> Vec<Dd> {
+        let curve = &self.curve;
+        let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+        let mut times = joins.map(Dd::from).to_vec();
+        for ramp in [&self.opening, &self.closing] {
+            times.extend(ramp.flat_points().into_iter().map(|p| ramp.time(ramp.spot(p))));
+        }
+        times
     }
 }
 
@@ -615,18 +592,20 @@ pub fn rounding_cell(t: f32) -> [f64; 2] {
     [t.next_down(), t.next_up()].map(|neighbour| 0.5 * (neighbour as f64 + t as f64))
 }
 
-/// The least error of `got`, in ulp, against `g` at some time within 1 ulp of `t`.
+/// How far `got` is, in ulp, from what `g` takes on between `times`.
 ///
-/// A function without a jump takes every value between two of its own, so all between the least and the
-/// greatest of five samples is right. `floor` bounds the ulp from below: it is that of values from `floor` on.
-/// Infinite if `got` is no number.
-pub fn value_ulp(got: f32, t: f32, g: impl Fn(Dd) -> Dd, floor: f64) -> f64 {
-    let (center, ulp, got) = (Dd::from(t), ulp_f32(t as f64), got as f64);
-    let ulp_of = |value: f64| ulp_f32(value.abs().max(floor));
+/// A function without a jump takes every value between two of its own, so all between the least and the greatest at
+/// `times` is right. Infinite if `got` is no number.
+pub fn value_ulp(
+    got: f32,
+    times: impl Iterator<Item = Dd>,
+    g: impl Fn(Dd) -> Dd,
+    ulp: impl Fn(f64) -> f64,
+) -> f64 {
+    let got = got as f64;
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    // From the middle outwards: most answers are settled after few samples.
-    for offset in [0.0, -1.0, 1.0, -0.5, 0.5] {
-        let value = g(center + Dd::from(offset * ulp)).hi;
+    for time in times {
+        let value = g(time).hi;
         range = [range[0].min(value), range[1].max(value)];
         if got >= range[0] && got <= range[1] {
             return 0.0;
@@ -635,8 +614,8 @@ pub fn value_ulp(got: f32, t: f32, g: impl Fn(Dd) -> Dd, floor: f64) -> f64 {
     if !got.is_finite() {
         f64::INFINITY
     } else if got < range[0] {
-        (range[0] - got) / ulp_of(range[0])
+        (range[0] - got) / ulp(range[0])
     } else {
-        (got - range[1]) / ulp_of(range[1])
+        (got - range[1]) / ulp(range[1])
     }
 }

@@ -1,0 +1,230 @@
+//! Faults of version 0.1.0, each with the input that showed it.
+
+mod support;
+
+use shutter_curve::{BezierPdf, CubicBezier, ScheduleError};
+use support::cases::shutter;
+use support::oracle::{Curve, Dd, Exact, Points, exp2};
+use support::promise::{BACKWARD, EVALUATIONS, TICKS, tick_error};
+
+/// A ramp without length.
+const fn instant(t: f32, f: f32) -> Points {
+    [(t, f); 4]
+}
+
+/// So many neighbours of `x` on either side, and `x`.
+fn around(x: f32, neighbours: u32) -> impl Iterator<Item = f32> {
+    let first = x.to_bits() - neighbours;
+    (first..=first + 2 * neighbours).map(f32::from_bits)
+}
+
+/// The inverse at `us`, in order: the right times, none a step back, none with a long search.
+fn judge_inverse(curve: &Curve, us: impl Iterator<Item = f32>) {
+    let (exact, direct, searched) = (Exact::new(curve), shutter::<8>(curve), shutter::<0>(curve));
+    let mut last = [f32::NEG_INFINITY; 2];
+    for u in us {
+        let times = [direct.inverse_cdf(u), searched.inverse_cdf(u)];
+        for (time, last) in times.into_iter().zip(last) {
+            let errors = exact.judge(u, time);
+            assert!(errors.backward <= BACKWARD, "{time:e} at {u:e}: {errors:?}");
+            assert!(time >= last, "back to {time:e} from {last:e} at {u:e}");
+        }
+        let evaluations = direct.evaluations(u).max(searched.evaluations(u));
+        assert!(evaluations <= EVALUATIONS, "{evaluations} evaluations at {u:e}");
+        last = times;
+    }
+}
+
+#[test]
+fn a_dip_while_time_stands_still() {
+    let dip = [(0.0, 1.0), (3.0, -0.33333328), (0.0, -0.33333328), (3.0, 1.0)];
+    judge_inverse(&Curve::shutter(dip, instant(3.0, 1.0)), around(0.5, 40));
+
+    let dip = [(0.0, 0.39811182), (1.0, -0.13270363), (0.0, -0.13270363), (1.0, 0.39811182)];
+    let twice = Curve::shutter(dip, dip.map(|(t, f)| (t + 1.0, f)));
+    judge_inverse(&twice, around(0.25, 40).chain(around(0.75, 40)));
+
+    let dip = [(0.0, 0.9471645), (1.0, -0.31572148), (0.0, -0.31572148), (1.0, 0.9471645)];
+    let curve = shutter::<8>(&Curve::shutter(dip, instant(1.0, 1.0)));
+    assert!(curve.trigger_ticks(1, 10_000_000).unwrap().eq([5_000_000]));
+}
+
+#[test]
+fn a_plateau_from_zero_to_minus_zero() {
+    let third = 1.0 / 3.0;
+    let closing =
+        |start: f32| [(start, 1.0), (third, 2.0 * third), (2.0 * third, third), (1.0, 0.0)];
+    for [open, close] in [[0.0, -0.0], [-0.0, 0.0], [-0.0, -0.0], [0.0, 0.0]] {
+        let curve = Curve::shutter(instant(open, 1.0), closing(close));
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        assert!(exact.cdf_ulp(ours.cdf(0.1), 0.1, 0.0) <= 1.0, "{}", ours.cdf(0.1));
+        assert!((ours.inverse_cdf(0.25) - 0.1339746).abs() < 1e-7, "{}", ours.inverse_cdf(0.25));
+        judge_inverse(&curve, around(0.25, 40));
+    }
+}
+
+#[test]
+fn a_plateau_of_1e_36_and_no_other_light() {
+    let closing = [(1e-36, 0.0), (0.3, 0.0), (0.6, 0.0), (1.0, 0.0)];
+    let curve = Curve::shutter(instant(0.0, 0.0), closing);
+    judge_inverse(&curve, [1e-45, 1e-44, 1e-43, 1e-42, 1e-41, 1e-40, 1e-38, 1e-30].into_iter());
+}
+
+#[test]
+fn the_cdf_beside_an_inner_end_at_time_0() {
+    let opening = [(-0.25, 0.0), (-0.16, 0.0), (-0.09, 1.0), (0.0, 1.0)];
+    let closing = [(0.0, 1.0), (0.095, 1.0), (0.155, 0.0), (0.25, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    for (scale, times) in
+        [(1.0, [1e-45, 1e-38]), (4e7, [1e-45, 4e-31]), (2f32.powi(65), [1e-38, 2e-19])]
+    {
+        let scaled = |points: Points| points.map(|(t, f)| (scale * t, f));
+        let curve = Curve::shutter(scaled(curve.opening), scaled(curve.closing));
+        let exact = Exact::new(&curve);
+        let density = BezierPdf::new(CubicBezier::new(curve.opening)).unwrap();
+        for t in times {
+            for t in [-t, t] {
+                let cdf = shutter::<8>(&curve).cdf(t);
+                assert!(
+                    exact.cdf_ulp(cdf, t, 0.0) <= 1.0,
+                    "cdf({t:e}) = {cdf} with times of {scale}"
+                );
+            }
+            assert_eq!(density.cdf(-t), 1.0, "at {:e} with times of {scale}", -t);
+        }
+    }
+}
+
+#[test]
+fn a_minimum_within_a_millionth_of_the_end() {
+    let opening = [
+        (0.0, 4.267577e-13),
+        (0.33333334, -4.3551086e-7),
+        (0.6666667, 0.33333245),
+        (1.0, 0.9999987),
+    ];
+    judge_inverse(&Curve::shutter(opening, instant(1.0, 1.0)), around(2.7878835e-19, 400));
+}
+
+#[test]
+fn curves_that_graze() {
+    let opening = [
+        (0.0, 0.9999998),
+        (0.0013366778, 0.5084915),
+        (0.0026733556, 0.0013091149),
+        (0.03123285, 0.0013231464),
+    ];
+    let closing = [
+        (0.054455247, 1.0022207e-7),
+        (0.054456588, 1.00237e-7),
+        (0.0397689, 5.5676655e-6),
+        (160.5523, 0.9999998),
+    ];
+    judge_inverse(&Curve::shutter(opening, closing), around(3.51307e-4, 400));
+}
+
+fn soft_like() -> Curve {
+    Curve::shutter(
+        [(0.0, 0.0), (0.2, 0.0), (0.25, 0.4), (0.3, 1.0)],
+        [(0.6, 1.0), (0.65, 0.4), (0.7, 0.0), (1.0, 0.0)],
+    )
+}
+
+#[test]
+fn ticks_of_a_billion_triggers() {
+    let curve = shutter::<8>(&soft_like());
+    let (n, hz, first) = (1 << 30, 7_163_368, 165_007_120 - 50);
+    let ticks: Vec<u32> =
+        curve.trigger_ticks(n, hz).unwrap().skip(first as usize).take(100).collect();
+    assert!(ticks.is_sorted(), "{ticks:?}");
+    let exact = Exact::new(&soft_like());
+    for (i, tick) in (first..).zip(ticks) {
+        let error = tick_error(&exact, tick, [i, n], hz);
+        assert!(error <= TICKS[0], "trigger {i} is {error} ticks off");
+    }
+}
+
+#[test]
+fn late_ticks_where_hardly_any_light_precedes_the_closing_ramp() {
+    let opening = [(0.0, 0.0), (3e-5, 0.3), (6e-5, 0.6), (1e-4, 1.0)];
+    let closing = [(1e-4, 1.0), (0.33, 0.0), (0.66, 0.0), (1.0, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    for (n, hz, most) in
+        [(1 << 20, 1 << 31, TICKS[1]), (1 << 22, 1 << 31, TICKS[1]), (1 << 22, 1 << 24, TICKS[0])]
+    {
+        let first = n - 2000;
+        let ticks = ours.trigger_ticks(n, hz).unwrap().skip(first as usize);
+        for (i, tick) in (first..).zip(ticks) {
+            let error = tick_error(&exact, tick, [i, n], hz);
+            assert!(error <= most, "trigger {i} of {n} at {hz} Hz is {error} ticks off");
+        }
+    }
+}
+
+#[test]
+fn searches_that_lost_their_way() {
+    let opening = [
+        (-2.71683e-7, 0.00017516818),
+        (1.0039916e-5, 5.818074e-6),
+        (7.07793e-6, 4.9936727e-5),
+        (3.3364995e-5, 0.46133545),
+    ];
+    let closing = [
+        (3.3365028e-5, 0.25172412),
+        (3.343443e-5, -0.01441935),
+        (0.5748188, 0.0006186791),
+        (0.5748188, 2.7659848e-7),
+    ];
+    judge_inverse(&Curve::shutter(opening, closing), around(0.9999961, 60));
+
+    let opening =
+        [(-4e-45, 0.15040798), (-1e-45, 0.019838786), (-3e-45, 0.14087537), (-0.0, 0.020776268)];
+    let closing = [
+        (4e-45, 0.9997022),
+        (0.26292956, -0.11040781),
+        (0.22830494, 0.009214157),
+        (0.24204205, 3.8321763e-5),
+    ];
+    judge_inverse(&Curve::shutter(opening, closing), around(0.99998724, 200));
+}
+
+#[test]
+fn values_at_time_0_where_time_stands_still() {
+    let opening = [(-1.0, 0.0), (1.0, 0.0), (-1.0, 1.0), (1.0, 1.0)];
+    let closing = [(1.0, 1.0), (1.25, 1.0), (1.5, 0.0), (2.0, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    let times = [-1e-7, -1e-18, -1e-38, -1e-45, -0.0, 0.0, 1e-45, 1e-38, 1e-18, 1e-7];
+    for t in times {
+        let (opening, pdf) = (ours.opening(t), ours.pdf(t));
+        assert!(exact.openness_ulp(opening, t) <= 1.0, "opening({t:e}) = {opening}");
+        assert!(exact.pdf_ulp(pdf, t) <= 1.0, "pdf({t:e}) = {pdf}");
+    }
+    assert!(times.map(|t| ours.opening(t)).is_sorted());
+    assert_eq!([-0.0, 0.0].map(|t| ours.opening(t)), [0.5; 2]);
+}
+
+#[test]
+fn more_triggers_than_f32_has_fractions() {
+    let curve = soft_like();
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    for n in [1u32 << 24, (1 << 24) + 1, 1 << 26] {
+        let times: Vec<f32> = ours.trigger_times(n).skip(n as usize - 1000).collect();
+        assert_eq!(times.len(), 1000);
+        assert!(times.is_sorted());
+        for (i, t) in (n - 1000..n).zip(times) {
+            assert!(t < ours.close_end(), "trigger {i} of {n} is at the end");
+            let u = (2.0 * f64::from(i) + 1.0) / (2.0 * f64::from(n));
+            let off = (exact.cdf(t) - Dd::from(u)).hi.abs();
+            // An ulp of u; there is next to no light here, so that the rounding of t is none of it.
+            assert!(off <= exp2(-24), "trigger {i} of {n}: the cdf is {off:e} off");
+        }
+    }
+}
+
+#[test]
+fn a_gap_too_small_tells_how_many_would_keep_it() {
+    let text = ScheduleError::GapTooSmall { most: 4711 }.to_string();
+    assert!(text.contains("4711"), "{text}");
+}

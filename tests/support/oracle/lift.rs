@@ -1,0 +1,117 @@
+//! The curve that is judged, where rounding takes the one that was asked for below a bound.
+//!
+//! A control value of -1/3 rounds, and with it an openness that touches 0 may dip below, or time may run back by a
+//! trace. The library accepts that up to 2⁻²² and lifts the curve onto its bound. How is part of its promise.
+
+use super::{Dd, Points, exp2};
+
+/// A ramp with `f >= 0` and `t' >= 0`.
+#[derive(Clone, Copy, Debug)]
+pub struct Lifted {
+    /// The first and the last time.
+    pub ends: [f32; 2],
+    /// The differences of neighbouring control times.
+    pub steps: [Dd; 3],
+    pub openness: [f32; 4],
+    pub is_lifted: bool,
+}
+
+impl Lifted {
+    /// The ramp with these points, which is the closing one if it `is_late`.
+    pub fn new(points: Points, is_late: bool) -> Self {
+        let given = Self::as_given(points, is_late);
+        let steps = lifted_steps(points.map(|p| p.0));
+        let openness = lifted_openness(given.openness, is_late);
+        Self {
+            ends: given.ends,
+            steps: steps.unwrap_or(given.steps),
+            openness: openness.unwrap_or(given.openness),
+            is_lifted: steps.is_some() || openness.is_some(),
+        }
+    }
+
+    /// The ramp as it is, for comparison with what others computed for it.
+    pub fn as_given(points: Points, _is_late: bool) -> Self {
+        let (t, openness) = (points.map(|p| p.0), points.map(|p| p.1));
+        Self { ends: [t[0], t[3]], steps: differences(t), openness, is_lifted: false }
+    }
+
+    /// The same, told from its last point.
+    pub fn reversed(&self) -> Self {
+        let mut other = *self;
+        other.ends.reverse();
+        other.steps.reverse();
+        other.openness.reverse();
+        other
+    }
+}
+
+/// Each is exact.
+fn differences(t: [f32; 4]) -> [Dd; 3] {
+    [0, 1, 2].map(|i| Dd::from(t[i + 1]) - Dd::from(t[i]))
+}
+
+/// `t'` is three times a quadratic with these differences as its Bernstein coefficients. It is nowhere below 0
+/// where the outer ones are not, and the middle one is not below `-sqrt(d0 d2)`.
+fn lifted_steps(t: [f32; 4]) -> Option<[Dd; 3]> {
+    let length = Dd::from(t[3]) - Dd::from(t[0]);
+    let [d0, d1, d2] = differences(t);
+    let turns_back = d1 < Dd::ZERO && d0 * d2 < d1 * d1;
+    if length.hi == 0.0 || !(d0 < Dd::ZERO || d2 < Dd::ZERO || turns_back) {
+        return None;
+    }
+    let (first, last) = (d0.max(Dd::ZERO), d2.max(Dd::ZERO));
+    let middle = d1.max(-(first * last).sqrt());
+    // The last time is kept.
+    let stretch = length / (first + middle + last);
+    Some([first, middle, last].map(|d| d * stretch))
+}
+
+/// The control values rise alike, as a Bezier curve is affine in them, by what the curve dips below 0 and a trace more:
+/// then by what rounds them up to `f32`.
+fn lifted_openness(f: [f32; 4], is_late: bool) -> Option<[f32; 4]> {
+    // From the curve's outer end, so that the mirrored curve is lifted by the same to the bit.
+    let mut from_outside = f.map(f64::from);
+    if is_late {
+        from_outside.reverse();
+    }
+    let [low, high] = range(from_outside);
+    let by = high.max(-low) * exp2(-50) - low;
+    (low < 0.0).then(|| f.map(|value| rounded_up(value as f64 + by)))
+}
+
+/// The least `f32` that is not below `x`.
+fn rounded_up(x: f64) -> f32 {
+    let near = x as f32;
+    if (near as f64) < x { near.next_up() } else { near }
+}
+
+/// The least and the greatest value of a cubic on [0, 1], from its Bernstein coefficients.
+///
+/// In plain `f64`, and to the bit as the library has it: where a curve touches 0, its least value is nothing but
+/// rounding, and that decides whether the curve is lifted.
+pub fn range(f: [f64; 4]) -> [f64; 2] {
+    let (a, b, c) = (f[1] - f[0], f[2] - f[1], f[3] - f[2]);
+    let (half, square) = (b - a, a - 2.0 * b + c);
+    let root = square_root(half * half - a * square);
+    let q = if half < 0.0 { -half + root } else { -half - root };
+    let inside = [q / square, a / q].into_iter().filter(|p| *p > 0.0 && *p < 1.0);
+    let value = |p: f64| {
+        let r = 1.0 - p;
+        r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3])
+    };
+    let mut range = [f[0].min(f[3]), f[0].max(f[3])];
+    for value in inside.map(value) {
+        range = [range[0].min(value), range[1].max(value)];
+    }
+    range
+}
+
+/// Five steps of Newton's method, again to the bit; NaN below 0.
+fn square_root(x: f64) -> f64 {
+    if x <= 0.0 {
+        return if x == 0.0 { 0.0 } else { f64::NAN };
+    }
+    let start = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
+    (0..5).fold(start, |y, _| 0.5 * (y + x / y))
+}
