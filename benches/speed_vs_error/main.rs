@@ -10,6 +10,7 @@ mod cost;
 mod curves;
 mod every_f32;
 mod methods;
+mod number;
 mod others;
 mod pictures;
 mod report;
@@ -63,13 +64,13 @@ fn main() -> Result {
     let mut measured = measure(args.quick)?;
     if args.seed_rows {
         let mut out = csv::Writer::from_writer(std::io::stdout());
-        for row in seeds::rows(&measured) {
+        for row in seeds::rows(&measured.figures, &measured.times) {
             out.serialize(row)?;
         }
         return Ok(out.flush()?);
     }
     if !args.quick {
-        measured.seeds = seeds::rows(&measured);
+        measured.seeds = seeds::rows(&measured.figures, &measured.times);
         for features in ["libm", "micromath"] {
             measured.seeds.extend(seeds::others(features)?);
         }
@@ -80,6 +81,7 @@ fn main() -> Result {
     draw(&measured, curves, folder);
     let report = format!("{folder}/speed-vs-error.md");
     std::fs::write(&report, report::write(&measured))?;
+    println!("{}", report::ratios(&measured.times));
     println!("wrote {report} and its pictures");
     Ok(())
 }

@@ -7,9 +7,10 @@ use crate::cost::Cost;
 use crate::curves::CURVES;
 use crate::every_f32::Row;
 use crate::methods::{METHODS, Method, TEXTBOOK};
+use crate::number::number;
 use crate::pictures::name;
 use crate::search::Find;
-use crate::seeds::SeedRow;
+use crate::seeds::{SEED, SeedRow};
 use crate::support::baseline::InverseTable;
 use crate::support::cases::{CASES, Case, Verdict, judge, shutter};
 use crate::support::curves::hard_us;
@@ -32,31 +33,6 @@ pub struct Measured {
     pub finds: Vec<Find>,
     pub every_f32: Vec<Row>,
 }
-
-/// A figure as one reads it.
-pub fn number(x: f64) -> String {
-    match x.abs() {
-        _ if !x.is_finite() => "∞".into(),
-        0.0 => "0".into(),
-        ..0.01 | 1e6.. => {
-            let text = format!("{x:.1e}");
-            let (digits, exponent) = text.split_once('e').expect("an exponent");
-            format!("{digits}·10<sup>{exponent}</sup>")
-        }
-        ..0.1 => format!("{x:.3}"),
-        ..10.0 => format!("{x:.2}"),
-        ..100.0 => format!("{x:.1}"),
-        _ => format!("{x:.0}"),
-    }
-}
-
-pub const SEED: &str = if cfg!(feature = "libm") {
-    "libm"
-} else if cfg!(feature = "micromath") {
-    "micromath"
-} else {
-    "none"
-};
 
 pub fn write(measured: &Measured) -> String {
     let mut out = String::new();
@@ -93,6 +69,10 @@ octaves, since that is where tables and absolute tolerances fail.
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
 
+The time of `inverse_cdf` as a share of the textbook Newton's, both times its single calls:
+
+{}
+
 ![Error against cost](frontier.svg)
 
 Full dots are the greatest error, rings the mean.
@@ -101,7 +81,25 @@ Full dots are the greatest error, rings the mean.
         std::env::consts::ARCH,
         measured.curves,
         measured.samples,
+        ratios(&measured.times),
     )
+}
+
+/// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's single calls.
+pub fn ratios(times: &[Vec<Time>]) -> String {
+    let [soft, all_ramp] = [CURVES[0].0, CURVES[1].0];
+    let mut out = format!(
+        "| | {soft}: single | slice | {all_ramp}: single | slice |\n|---|---:|---:|---:|---:|"
+    );
+    for (index, method) in METHODS.iter().enumerate().filter(|(_, method)| method.is_ours) {
+        let shares = times[..2].iter().map(|times| {
+            let (time, textbook) = (times[index], times[TEXTBOOK].single);
+            format!("{:.2} | {:.2}", time.single / textbook, time.slice / textbook)
+        });
+        let shares: Vec<_> = shares.collect();
+        out += &format!("\n| {} | {} |", method.name, shares.join(" | "));
+    }
+    out
 }
 
 fn methods(out: &mut String, measured: &Measured) -> std::fmt::Result {
@@ -206,17 +204,19 @@ fn seeds(out: &mut String, measured: &Measured) -> std::fmt::Result {
 What the features `libm` and `micromath` change: the first guess of the solver, and so its steps, not its promise.
 Times are ratios to the textbook Newton in the same run.
 
-| seed | cells | soft: single | all ramp: single | forward, max | backward, ulp(u) | evaluations: mean | worst |
-|---|---|---:|---:|---:|---:|---:|---:|"
+| seed | cells | soft: single | slice | all ramp: single | slice | forward, max | backward, ulp(u) | evaluations: mean | worst |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"
     )?;
     for row in &measured.seeds {
         writeln!(
             out,
-            "| {} | {} | {:.2} | {:.2} | {} | {} | {} | {} |",
+            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} | {} |",
             row.seed,
             row.cells,
-            row.soft,
-            row.all_ramp,
+            row.soft_single,
+            row.soft_slice,
+            row.all_ramp_single,
+            row.all_ramp_slice,
             number(row.forward),
             number(row.backward),
             number(row.mean),
@@ -246,7 +246,7 @@ fraction of the exposure.
     writeln!(
         out,
         "
-Both need `p` for a `t`, which no table gives: this crate solves in 64-bit integers, to the promised 2 ulp.
+Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp.
 "
     )
 }
