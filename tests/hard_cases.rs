@@ -13,9 +13,7 @@ use support::peers::{
     CellTable, Parts, PowerRamp, animation, bracketed, eleven_entries, fixed_point, renderer,
     tolerant,
 };
-
-/// For one `u` of a case here: what a close look found at most on the worst of 450 000 curves that a search bred.
-const MOST_EVALUATIONS: u32 = 5;
+use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
 /// What of the promise an inverse breaks on a curve, any curve whatsoever.
 fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
@@ -30,21 +28,21 @@ fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
     let most = us.iter().map(|u| shutter.evaluations(*u)).max().unwrap_or(0);
     let (mut cdf, mut openness) = (0.0f64, 0.0f64);
     for t in us.iter().map(|u| shutter.inverse_cdf(*u)) {
-        cdf = cdf.max(exact.cdf_ulp(shutter.cdf(t), t, 2f64.powi(-24)));
+        cdf = cdf.max(exact.cdf_ulp(shutter.cdf(t), t, CDF_FLOOR));
         openness = openness.max(exact.openness_ulp(shutter.opening(t), t));
     }
     println!(
         "    CELLS = {CELLS:2}: {verdict:?}, cdf {cdf:.2} ulp, openness {openness:.2} ulp, evaluations {most}"
     );
     let checks = [
-        ("backward error above 1 ulp(u)", verdict.backward > 1.0),
+        ("backward error above 1 ulp(u)", verdict.backward > BACKWARD),
         ("a step back", verdict.steps_back > 0),
         ("a failure", verdict.failures > 0),
         ("an end not exact", !ends),
         // What takes more has wandered.
-        ("too many evaluations", most > MOST_EVALUATIONS),
-        ("cdf off by more than 1 ulp", cdf > 1.0),
-        ("openness off by more than 1 ulp", openness > 1.0),
+        ("too many evaluations", most > EVALUATIONS),
+        ("cdf off by more than 1 ulp", cdf > VALUE),
+        ("openness off by more than 1 ulp", openness > VALUE),
     ];
     let broken = checks.into_iter().filter(|check| check.1);
     broken.map(|(what, _)| format!("CELLS = {CELLS}: {what}")).collect()
@@ -149,7 +147,7 @@ fn others_an_animation_solver_hangs() {
     // A tolerance below the rounding of t(p) is never met, and the bracket stops shrinking.
     assert!(evenly(20_000).any(|t| animation(&ramp, t, 1e-7).is_none()));
     let ours = shutter::<8>(&case.curve());
-    assert!(evenly(20_000).all(|u| ours.evaluations(u) <= MOST_EVALUATIONS));
+    assert!(evenly(20_000).all(|u| ours.evaluations(u) <= EVALUATIONS));
 }
 
 #[test]

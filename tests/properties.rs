@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
 use support::oracle::{Curve, Exact};
+use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
 type Points = [(f32, f32); 4];
 
@@ -63,7 +64,8 @@ proptest! {
                 prop_assert!(t >= last, "back to {} from {} at {:e}", t, last, u);
                 last = t;
                 let error = exact.judge(u, t);
-                prop_assert!(error.backward <= 1.0, "{:?} at {:e}", error, u);
+                prop_assert!(error.backward <= BACKWARD, "{:?} at {:e}", error, u);
+                prop_assert!(curve.evaluations(u) <= EVALUATIONS, "{} at {:e}", curve.evaluations(u), u);
             }
         }
         let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
@@ -72,9 +74,9 @@ proptest! {
                 let (cdf, f, pdf) = (curve.cdf(t), curve.opening(t), curve.pdf(t));
                 prop_assert!((0.0..=1.0).contains(&cdf) && (0.0..=1.0).contains(&f) && pdf >= 0.0);
                 if t >= curve.open_start() && t <= curve.close_end() {
-                    prop_assert!(exact.cdf_ulp(cdf, t, 2f64.powi(-24)) <= 1.0, "cdf({:e}) = {:e}", t, cdf);
-                    prop_assert!(exact.openness_ulp(f, t) <= 1.0, "opening({:e}) = {:e}", t, f);
-                    prop_assert!(exact.pdf_ulp(pdf, t) <= 1.0, "pdf({:e}) = {:e}", t, pdf);
+                    prop_assert!(exact.cdf_ulp(cdf, t, CDF_FLOOR) <= VALUE, "cdf({:e}) = {:e}", t, cdf);
+                    prop_assert!(exact.openness_ulp(f, t) <= VALUE, "opening({:e}) = {:e}", t, f);
+                    prop_assert!(exact.pdf_ulp(pdf, t) <= VALUE, "pdf({:e}) = {:e}", t, pdf);
                 }
             }
         }
@@ -93,13 +95,48 @@ proptest! {
         let time = pdf.inverse_cdf(u);
         prop_assert!(time >= points[0].0 && time <= points[3].0);
         if !u.is_nan() {
-            prop_assert!(exact.judge(u, time).backward <= 1.0);
+            prop_assert!(exact.judge(u, time).backward <= BACKWARD);
         }
         prop_assert!((0.0..=1.0).contains(&pdf.cdf(t)) && pdf.pdf(t) >= 0.0);
         if t >= points[0].0 && t <= points[3].0 {
-            prop_assert!(exact.cdf_ulp(pdf.cdf(t), t, 2f64.powi(-24)) <= 1.0, "cdf({:e}) = {:e}", t, pdf.cdf(t));
-            prop_assert!(exact.pdf_ulp(pdf.pdf(t), t) <= 1.0, "pdf({:e}) = {:e}", t, pdf.pdf(t));
+            prop_assert!(exact.cdf_ulp(pdf.cdf(t), t, CDF_FLOOR) <= VALUE, "cdf({:e}) = {:e}", t, pdf.cdf(t));
+            prop_assert!(exact.pdf_ulp(pdf.pdf(t), t) <= VALUE, "pdf({:e}) = {:e}", t, pdf.pdf(t));
         }
+    }
+
+    /// Wherever it stands: in a curve, as a fraction, as a time.
+    #[test]
+    fn minus_zero_is_zero(
+        (opening, closing) in ramps(),
+        signs in any::<u16>(),
+        u in number(),
+        t in number(),
+    ) {
+        let build = |opening, closing| {
+            ShutterCurve::<4>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing))
+        };
+        let signed = |points: Points, signs: u16| {
+            let sign = |x: f32, bit: usize| match signs >> bit & 1 {
+                _ if x != 0.0 => x,
+                0 => 0.0,
+                _ => -0.0,
+            };
+            [0, 1, 2, 3].map(|i| (sign(points[i].0, 2 * i), sign(points[i].1, 2 * i + 1)))
+        };
+        let made = build(opening, closing);
+        let other = build(signed(opening, signs), signed(closing, signs >> 8));
+        prop_assert_eq!(made.err(), other.err());
+        let (Ok(curve), Ok(other)) = (made, other) else { return Ok(()) };
+        prop_assert_eq!(curve.inverse_cdf(u), other.inverse_cdf(u));
+        prop_assert_eq!(curve.inverse_cdf(-0.0), curve.inverse_cdf(0.0));
+        let values = |curve: &ShutterCurve<4>, t| [curve.cdf(t), curve.opening(t), curve.pdf(t)];
+        let length = curve.close_end() - curve.open_start();
+        for t in [t, curve.open_start() + t * length, 0.0, 1e-45, curve.open_end()] {
+            prop_assert_eq!(values(&curve, t), values(&other, t), "at {:e}", t);
+            prop_assert_eq!(values(&curve, -0.0), values(&curve, 0.0));
+        }
+        prop_assert!(curve.trigger_times(5).eq(other.trigger_times(5)));
+        prop_assert_eq!(curve.max_triggers(-0.0), u32::MAX);
     }
 
     #[test]

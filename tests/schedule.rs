@@ -4,8 +4,9 @@ mod support;
 
 use shutter_curve::{CubicBezier, ShutterCurve, valid};
 use support::cases::shutter;
-use support::curves::random_hard;
+use support::curves::{Kind, named, random_hard};
 use support::oracle::{Curve, Dd, Exact, Points};
+use support::promise::{DIRECT_TICKS, TICKS, tick_error};
 
 const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
     [0.0, 0.25, 0.75, 1.0],
@@ -59,6 +60,15 @@ fn worst(curve: &Curve, n: u32, hz: u32) -> f64 {
         ((time - start) * hz as f64 - Dd::from(*tick as f64)).hi.abs()
     };
     ticks.iter().enumerate().map(error).fold(0.0, f64::max)
+}
+
+/// The same on a curve of any kind, where a u-error of 2⁻³⁸ is forgiven.
+fn worst_but_for_u(curve: &Curve, n: u32, hz: u32) -> f64 {
+    let exact = Exact::new(curve);
+    let ticks: Vec<u32> = shutter::<8>(curve).trigger_ticks(n, hz).unwrap().collect();
+    assert!(ticks.is_sorted());
+    let error = |(i, tick)| tick_error(&exact, tick, [i, n], hz);
+    (0..).zip(ticks).map(error).fold(0.0, f64::max)
 }
 
 /// Every interval is 1 long, so the rate is its length in ticks.
@@ -116,6 +126,29 @@ fn many_triggers() {
     assert_eq!(ticks.len(), n as usize);
     assert!(ticks.next().unwrap() < ticks.nth(1000).unwrap());
     assert!(SOFT.trigger_times(n).nth(1000).unwrap() < 0.01);
+}
+
+/// Triggers so dense that many share a tick, from either end of the curve.
+#[test]
+fn dense_ticks_never_step_back() {
+    for one in named().iter().filter(|one| one.kind == Kind::Typical) {
+        for curve in [one.curve, one.curve.mirrored()] {
+            let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+            let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+            for ticks in [(1 << 24) as f64, (1u32 << 31) as f64] {
+                let hz = ((0.999 * ticks / length) as u32).max(1);
+                for n in [1 << 20, 1 << 28, 1 << 30, u32::MAX] {
+                    let ticks: Vec<u32> = ours.trigger_ticks(n, hz).unwrap().take(4000).collect();
+                    assert!(ticks.is_sorted(), "{}: {n} triggers at {hz} Hz", one.name);
+                    for (i, tick) in (0..).zip(ticks).step_by(97) {
+                        let error = tick_error(&exact, tick, [i, n], hz);
+                        let most = TICKS[usize::from(length * f64::from(hz) > DIRECT_TICKS)];
+                        assert!(error <= most, "{}: trigger {i} of {n} at {hz} Hz", one.name);
+                    }
+                }
+            }
+        }
+    }
 }
 
 #[cfg(feature = "heapless-v0_9")]
@@ -183,7 +216,7 @@ fn a_large_curve_is_a_constant_too() {
     assert_eq!(LARGE.inverse_cdf(0.5), 0.5);
 }
 
-/// Any curve, at the most ticks there may be.
+/// Any curve, at 2²⁴ ticks and at the most that there may be.
 #[test]
 fn ticks_of_random_hard_curves() {
     let mut checked = 0;
@@ -194,8 +227,11 @@ fn ticks_of_random_hard_curves() {
         if !(rate > 4096.0 && rate < u32::MAX as f64) {
             continue;
         }
-        let error = worst(&curve, 301, rate as u32);
-        assert!(error <= 0.501, "{error} ticks at {rate} Hz: {curve:?}");
+        let few = (rate / 128.0) as u32;
+        for (hz, most) in [(few, TICKS[0]), (rate as u32, TICKS[1])] {
+            let error = worst_but_for_u(&curve, 301, hz);
+            assert!(error <= most, "{error} ticks at {hz} Hz: {curve:?}");
+        }
         checked += 1;
     }
     assert!(checked > 300, "{checked}");

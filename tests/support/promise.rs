@@ -64,7 +64,7 @@ impl Figures {
     }
 
     fn expect(&mut self, what: &'static str, holds: bool, curve: &Curve) {
-        self.expect_at(what, holds, || String::new(), curve);
+        self.expect_at(what, holds, String::new, curve);
     }
 
     fn expect_at(
