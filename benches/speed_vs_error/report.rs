@@ -336,7 +336,7 @@ spaced inputs.
 fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
     let (bred, aimed): (Vec<&Find>, Vec<&Find>) =
         measured.finds.iter().partition(|find| find.is_bred);
-    let (Some(first), Some(family)) = (bred.first(), aimed.first()) else { return Ok(()) };
+    let Some(first) = bred.first() else { return Ok(()) };
     writeln!(
         out,
         "### Found by search
@@ -355,6 +355,7 @@ in ulp(t), the evaluations and the round trip are those of every seventh of thes
         let worst = figures.chain(whole.map(|worst| worst as f64)).next().unwrap_or(0.0);
         writeln!(out, "| {} | {} | {} |", find.what, number(worst), find.at)?;
     }
+    let Some(family) = aimed.first() else { return writeln!(out) };
     writeln!(
         out,
         "
