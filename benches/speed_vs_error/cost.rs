@@ -26,7 +26,9 @@ pub fn read(path: &str) -> Vec<Cost> {
             else {
                 continue;
             };
-            let seed = cell("seed").unwrap_or_default();
+            // The tables without that column are of the default; the baselines have none.
+            let default = if cell("CELLS").is_some() { "none" } else { "" };
+            let seed = cell("seed").unwrap_or(default);
             if let (Ok(mean), Ok(max)) = (mean.parse(), max.parse()) {
                 costs.push(Cost { method: method.into(), seed: seed.into(), mean, max });
             }

@@ -1,15 +1,18 @@
 //! Speed against error: the report `docs/speed-vs-error.md` and its pictures, from one run.
 //!
 //! `cargo bench --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
-//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every `f32` on twelve curves. The
+//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every `f32` on a dozen curves. The
 //! last two leave tables in `docs`, which the next report takes in.
 
 mod accuracy;
+mod aimed;
 mod cost;
 #[path = "../curves.rs"]
 mod curves;
 mod every_f32;
+mod follower;
 mod methods;
+mod number;
 mod others;
 mod pictures;
 mod report;
@@ -18,6 +21,9 @@ mod seeds;
 mod style;
 #[path = "../../tests/support/mod.rs"]
 mod support;
+mod sweep;
+mod sweep_t;
+mod sweep_u;
 mod timing;
 
 use accuracy::Amount;
@@ -34,10 +40,10 @@ struct Args {
     /// Seconds instead of minutes, rougher figures, and the report in target/speed-vs-error.
     #[arg(long)]
     quick: bool,
-    /// Look for the worst of so many curves, and write docs/search.csv.
+    /// Look for the worst of so many curves that are bred and as many that are aimed, and write docs/search.csv.
     #[arg(long, value_name = "N")]
     search: Option<u64>,
-    /// Try every f32 in [0, 1] on twelve curves, and write docs/every-f32.csv.
+    /// Try every f32 on a dozen curves, and write docs/every-f32.csv.
     #[arg(long)]
     every_f32: bool,
     /// Print only the rows of this crate, for a run with other features.
@@ -53,8 +59,10 @@ type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 fn main() -> Result {
     let args = Args::parse();
     if let Some(curves) = args.search {
-        let bar = progress("search", curves);
-        return save("docs/search.csv", &search::search(curves, || bar.inc(1)));
+        let bar = progress("search", 2 * curves);
+        let mut finds = search::search(curves, || bar.inc(1));
+        finds.extend(aimed::search(curves, || bar.inc(1)));
+        return save("docs/search.csv", &finds);
     }
     if args.every_f32 {
         let bar = progress("every f32", 1);
@@ -63,13 +71,13 @@ fn main() -> Result {
     let mut measured = measure(args.quick)?;
     if args.seed_rows {
         let mut out = csv::Writer::from_writer(std::io::stdout());
-        for row in seeds::rows(&measured) {
+        for row in seeds::rows(&measured.figures, &measured.times) {
             out.serialize(row)?;
         }
         return Ok(out.flush()?);
     }
     if !args.quick {
-        measured.seeds = seeds::rows(&measured);
+        measured.seeds = seeds::rows(&measured.figures, &measured.times);
         for features in ["libm", "micromath"] {
             measured.seeds.extend(seeds::others(features)?);
         }
@@ -80,6 +88,7 @@ fn main() -> Result {
     draw(&measured, curves, folder);
     let report = format!("{folder}/speed-vs-error.md");
     std::fs::write(&report, report::write(&measured))?;
+    println!("{}", report::ratios(&measured.times));
     println!("wrote {report} and its pictures");
     Ok(())
 }

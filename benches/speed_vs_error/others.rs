@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::report::number;
+use crate::number::number;
 use crate::support::cases::{ANIMATION, NO_ROOT, S_RAMP, case, evenly, exact, shutter, worst};
 use crate::support::oracle::Exact;
 use crate::support::peers::{

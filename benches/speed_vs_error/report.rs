@@ -5,11 +5,12 @@ use std::fmt::Write as _;
 use crate::accuracy::Figures;
 use crate::cost::Cost;
 use crate::curves::CURVES;
-use crate::every_f32::Row;
+use crate::every_f32::{INVERSE, Row};
 use crate::methods::{METHODS, Method, TEXTBOOK};
+use crate::number::number;
 use crate::pictures::name;
 use crate::search::Find;
-use crate::seeds::SeedRow;
+use crate::seeds::{SEED, SeedRow};
 use crate::support::baseline::InverseTable;
 use crate::support::cases::{CASES, Case, Verdict, judge, shutter};
 use crate::support::curves::hard_us;
@@ -32,31 +33,6 @@ pub struct Measured {
     pub finds: Vec<Find>,
     pub every_f32: Vec<Row>,
 }
-
-/// A figure as one reads it.
-pub fn number(x: f64) -> String {
-    match x.abs() {
-        _ if !x.is_finite() => "∞".into(),
-        0.0 => "0".into(),
-        ..0.01 | 1e6.. => {
-            let text = format!("{x:.1e}");
-            let (digits, exponent) = text.split_once('e').expect("an exponent");
-            format!("{digits}·10<sup>{exponent}</sup>")
-        }
-        ..0.1 => format!("{x:.3}"),
-        ..10.0 => format!("{x:.2}"),
-        ..100.0 => format!("{x:.1}"),
-        _ => format!("{x:.0}"),
-    }
-}
-
-pub const SEED: &str = if cfg!(feature = "libm") {
-    "libm"
-} else if cfg!(feature = "micromath") {
-    "micromath"
-} else {
-    "none"
-};
 
 pub fn write(measured: &Measured) -> String {
     let mut out = String::new();
@@ -93,6 +69,10 @@ octaves, since that is where tables and absolute tolerances fail.
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
 
+The time of `inverse_cdf` as a share of the textbook Newton's, both times its single calls:
+
+{}
+
 ![Error against cost](frontier.svg)
 
 Full dots are the greatest error, rings the mean.
@@ -101,7 +81,25 @@ Full dots are the greatest error, rings the mean.
         std::env::consts::ARCH,
         measured.curves,
         measured.samples,
+        ratios(&measured.times),
     )
+}
+
+/// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's single calls.
+pub fn ratios(times: &[Vec<Time>]) -> String {
+    let [soft, all_ramp] = [CURVES[0].0, CURVES[1].0];
+    let mut out = format!(
+        "| | {soft}: single | slice | {all_ramp}: single | slice |\n|---|---:|---:|---:|---:|"
+    );
+    for (index, method) in METHODS.iter().enumerate().filter(|(_, method)| method.is_ours) {
+        let shares = times[..2].iter().map(|times| {
+            let (time, textbook) = (times[index], times[TEXTBOOK].single);
+            format!("{:.2} | {:.2}", time.single / textbook, time.slice / textbook)
+        });
+        let shares: Vec<_> = shares.collect();
+        out += &format!("\n| {} | {} |", method.name, shares.join(" | "));
+    }
+    out
 }
 
 fn methods(out: &mut String, measured: &Measured) -> std::fmt::Result {
@@ -206,17 +204,19 @@ fn seeds(out: &mut String, measured: &Measured) -> std::fmt::Result {
 What the features `libm` and `micromath` change: the first guess of the solver, and so its steps, not its promise.
 Times are ratios to the textbook Newton in the same run.
 
-| seed | cells | soft: single | all ramp: single | forward, max | backward, ulp(u) | evaluations: mean | worst |
-|---|---|---:|---:|---:|---:|---:|---:|"
+| seed | cells | soft: single | slice | all ramp: single | slice | forward, max | backward, ulp(u) | evaluations: mean | worst |
+|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"
     )?;
     for row in &measured.seeds {
         writeln!(
             out,
-            "| {} | {} | {:.2} | {:.2} | {} | {} | {} | {} |",
+            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} | {} |",
             row.seed,
             row.cells,
-            row.soft,
-            row.all_ramp,
+            row.soft_single,
+            row.soft_slice,
+            row.all_ramp_single,
+            row.all_ramp_slice,
             number(row.forward),
             number(row.backward),
             number(row.mean),
@@ -246,7 +246,7 @@ fraction of the exposure.
     writeln!(
         out,
         "
-Both need `p` for a `t`, which no table gives: this crate solves in 64-bit integers, to the promised 2 ulp.
+Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp.
 "
     )
 }
@@ -334,7 +334,9 @@ spaced inputs.
 }
 
 fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    let Some(first) = measured.finds.first() else { return Ok(()) };
+    let (bred, aimed): (Vec<&Find>, Vec<&Find>) =
+        measured.finds.iter().partition(|find| find.is_bred);
+    let Some(first) = bred.first() else { return Ok(()) };
     writeln!(
         out,
         "### Found by search
@@ -343,18 +345,44 @@ fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
 worst of them by moving control points. {} valid curves were tried, each on about 650 `u`; the errors
 in ulp(t), the evaluations and the round trip are those of every seventh of these.
 
-| aim | worst found | opening | closing |
-|---|---:|---|---|",
-        first.curves_tried
+| aim | worst found | control points of the opening; of the closing |
+|---|---:|---|",
+        first.curves
     )?;
-    for find in &measured.finds {
+    for find in bred {
+        let whole = [find.evaluations.map(u64::from), find.steps_back].into_iter().flatten();
+        let figures = [find.forward, find.backward, find.round_trip].into_iter().flatten();
+        let worst = figures.chain(whole.map(|worst| worst as f64)).next().unwrap_or(0.0);
+        writeln!(out, "| {} | {} | {} |", find.what, number(worst), find.at)?;
+    }
+    let Some(family) = aimed.first() else { return writeln!(out) };
+    writeln!(
+        out,
+        "
+Then it judges all that is promised on curves and inputs that meet difficulties exactly, {} of each family
+(`tests/support/aimed.rs`), with `CELLS` = 0 and 8.
+
+| family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp | of openness and pdf | of ticks, up to 2<sup>24</sup> | more | promises broken |
+|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
+        family.curves
+    )?;
+    for find in aimed {
+        let figure = |figure: Option<f64>| number(figure.unwrap_or(0.0));
+        let count = |count: Option<u64>| count.unwrap_or(0);
         writeln!(
             out,
-            "| {} | {} | {} | {} |",
-            find.aim.name(),
-            number(find.worst),
-            find.opening,
-            find.closing
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            find.what,
+            figure(find.backward),
+            find.evaluations.unwrap_or(0),
+            count(find.steps_back),
+            count(find.cdf_steps_back),
+            count(find.tick_steps_back),
+            figure(find.cdf),
+            figure(find.density),
+            figure(find.few_ticks),
+            figure(find.many_ticks),
+            count(find.breaches),
         )?;
     }
     writeln!(out)
@@ -370,17 +398,22 @@ fn every_f32(out: &mut String, measured: &Measured) -> std::fmt::Result {
         out,
         "## Every f32
 
-`cargo bench --bench speed_vs_error -- --every-f32` asks for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and then with
-other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. The answers are held against
-a second formulation, a solver in doubles that follows u, and samples and the worst of each 4 million against the
-double-double oracle (*judged*). These {} answers took {:.0} minutes on two busy cores, in a run of its own.
+`cargo bench --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
+and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
+`opening` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
+runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that
+follows u or t, and samples and the worst of each 4 million against the double-double oracle (*judged*). These {} answers
+took {:.0} minutes on two busy cores, in a run of its own.
 
 | curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) | judged | evaluations: worst of every 16th f32 |
 |---|---|---:|---:|---:|---:|---:|---:|---:|---:|",
         answers,
         seconds / 60.0
     )?;
-    for row in &measured.every_f32 {
+    let dash = |figure: Option<String>| figure.unwrap_or_else(|| "-".into());
+    let (of_inverse, of_values): (Vec<&Row>, Vec<&Row>) =
+        measured.every_f32.iter().partition(|row| row.function == INVERSE);
+    for row in of_inverse {
         writeln!(
             out,
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
@@ -389,19 +422,40 @@ double-double oracle (*judged*). These {} answers took {:.0} minutes on two busy
             row.cells,
             row.count,
             row.out_of_range,
-            row.steps_back,
-            number(row.forward),
-            number(row.backward),
+            dash(row.steps_back.map(|steps| steps.to_string())),
+            dash(row.forward.map(number)),
+            number(row.error),
             number(row.judged),
-            row.evaluations
+            dash(row.evaluations.map(|evaluations| evaluations.to_string())),
         )?;
     }
     writeln!(
         out,
         "
 The forward error leaves out answers where the density is so low that doubles cannot tell the time to an ulp.
-"
-    )
+
+`cdf` and `opening`: the error in ulp at some time within an ulp of the one asked for, an ulp of the cdf being at least that of
+2<sup>-24</sup>, and the same without that floor.
+
+| function | curve | kind | answers | out of range | steps back | error, ulp | judged | without the floor |
+|---|---|---|---:|---:|---:|---:|---:|---:|"
+    )?;
+    for row in of_values {
+        writeln!(
+            out,
+            "| `{}` | {} | {} | {} | {} | {} | {} | {} | {} |",
+            row.function,
+            row.curve,
+            row.kind,
+            row.count,
+            row.out_of_range,
+            dash(row.steps_back.map(|steps| steps.to_string())),
+            number(row.error),
+            number(row.judged),
+            dash(row.without_floor.map(number)),
+        )?;
+    }
+    writeln!(out)
 }
 
 fn rendering(out: &mut String, measured: &Measured) -> std::fmt::Result {

@@ -1,8 +1,9 @@
-//! A search for the worst curves: random ones, then uphill from the worst of them.
+//! A search for the worst curves: random ones, then uphill from the worst of them. The other half of `--search` is in
+//! `aimed`.
 
 use crate::support::cases::{judge_on, shutter};
 use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical};
-use crate::support::oracle::{Curve, Exact, ulp_f32};
+use crate::support::oracle::{Curve, Exact, Points, ulp_f32};
 
 const SEED: u64 = 20_240_611;
 /// How many of the worst are climbed from, for each aim.
@@ -11,8 +12,8 @@ const STARTS: usize = 4;
 const RANDOM_SHARE: f64 = 0.6;
 
 /// What is searched for.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub enum Aim {
+#[derive(Clone, Copy, PartialEq)]
+enum Aim {
     /// Error in ulp(t), where an ulp of u moves the time by no more than one.
     Forward,
     /// Error in ulp(u), once half an ulp(t) is forgiven.
@@ -27,7 +28,7 @@ const AIMS: [Aim; 5] =
     [Aim::Forward, Aim::Backward, Aim::Evaluations, Aim::StepsBack, Aim::RoundTrip];
 
 impl Aim {
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Aim::Forward => "error in ulp(t), where an ulp of u moves the time by at most one",
             Aim::Backward => "error in ulp(u)",
@@ -40,15 +41,31 @@ impl Aim {
     }
 }
 
-/// The worst found for an aim, as a line of `docs/search.csv`.
-#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+/// What was found, as a line of `docs/search.csv`: of curves that were bred for an aim, the worst in it alone; of an aimed
+/// family, the worst in all that is promised.
+#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
 pub struct Find {
-    pub aim: Aim,
-    pub curves_tried: u64,
-    pub worst: f64,
-    /// Control points, as `(t, f)` pairs of the opening and the closing ramp.
-    pub opening: String,
-    pub closing: String,
+    /// The aim, or the family.
+    pub what: String,
+    pub is_bred: bool,
+    pub curves: u64,
+    pub forward: Option<f64>,
+    pub backward: Option<f64>,
+    pub evaluations: Option<u32>,
+    pub steps_back: Option<u64>,
+    pub round_trip: Option<f64>,
+    /// Of the cdf between times, and of the ticks of a frame.
+    pub cdf_steps_back: Option<u64>,
+    pub tick_steps_back: Option<u64>,
+    /// In ulp, and in ticks of an interval of up to 2²⁴ and of more.
+    pub cdf: Option<f64>,
+    pub density: Option<f64>,
+    pub few_ticks: Option<f64>,
+    pub many_ticks: Option<f64>,
+    /// How often any promise was broken.
+    pub breaches: Option<u64>,
+    /// The worst curve of those that were bred, or the first breach of each promise.
+    pub at: String,
 }
 
 /// How bad a curve is, for each of the aims.
@@ -129,17 +146,23 @@ pub fn search(curves: u64, tick: impl Fn()) -> Vec<Find> {
         }
         worst.sort_by(|a, b| b.0.total_cmp(&a.0));
     }
-    let text = |points: crate::support::oracle::Points| {
-        points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ")
-    };
     let finds = AIMS.into_iter().zip(&worst);
-    finds
-        .map(|(aim, worst)| Find {
-            aim,
-            curves_tried: tried,
-            worst: worst[0].0,
-            opening: text(worst[0].1.opening),
-            closing: text(worst[0].1.closing),
-        })
-        .collect()
+    finds.map(|(aim, worst)| find(aim, tried, worst[0])).collect()
+}
+
+fn find(aim: Aim, curves: u64, (worst, curve): (f64, Curve)) -> Find {
+    let text = |points: Points| points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ");
+    let is = |other| (aim == other).then_some(worst);
+    Find {
+        what: aim.name().into(),
+        is_bred: true,
+        curves,
+        forward: is(Aim::Forward),
+        backward: is(Aim::Backward),
+        evaluations: is(Aim::Evaluations).map(|worst| worst as u32),
+        steps_back: is(Aim::StepsBack).map(|worst| worst as u64),
+        round_trip: is(Aim::RoundTrip),
+        at: format!("{}; {}", text(curve.opening), text(curve.closing)),
+        ..Find::default()
+    }
 }

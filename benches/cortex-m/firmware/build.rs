@@ -40,23 +40,42 @@ fn main() {
         let (opening, closing) = (array::from_fn(point), array::from_fn(|i| point(4 + i)));
         let inputs = inputs.iter().filter(|row| row[0] == name);
         let inputs = inputs.map(|row| row[1].parse().unwrap()).collect();
-        write_curve(&mut out, name, opening, closing, inputs);
+        let is_typical = rows[0][1] == "typical";
+        write_curve(&mut out, name, is_typical, [opening, closing], inputs);
     }
     for (name, opening, closing) in found::FOUND {
-        write_curve(&mut out, name, *opening, *closing, Vec::new());
+        write_curve(&mut out, name, false, [*opening, *closing], Vec::new());
     }
     out.push_str("];\n");
     let path = PathBuf::from(env::var("OUT_DIR").unwrap()).join("curves.rs");
     fs::write(path, out).unwrap();
 }
 
-fn write_curve(out: &mut String, name: &str, opening: Ramp, closing: Ramp, mut hard: Vec<f32>) {
+fn write_curve(
+    out: &mut String,
+    name: &str,
+    is_typical: bool,
+    [opening, closing]: [Ramp; 2],
+    mut hard: Vec<f32>,
+) {
     let searches = [hardest::<0>, hardest::<4>, hardest::<8>, hardest::<16>];
     hard.extend(searches.iter().flat_map(|hardest| hardest(opening, closing)));
     hard.sort_by(f32::total_cmp);
     hard.dedup();
-    let curve = format!("opening: {opening:?}, closing: {closing:?}, hard: &{hard:?}");
-    writeln!(out, "Curve {{ name: {name:?}, {curve} }},").unwrap();
+    let ramps = format!("opening: {opening:?}, closing: {closing:?}");
+    let ends = ends(opening, closing);
+    writeln!(
+        out,
+        "Curve {{ name: {name:?}, is_typical: {is_typical}, {ramps}, ends: {ends:?}, hard: &{hard:?} }},"
+    )
+    .unwrap();
+}
+
+/// The fractions at which the curve's sections meet.
+fn ends(opening: Ramp, closing: Ramp) -> [f32; 2] {
+    let [opening, closing] = [opening, closing].map(CubicBezier::new);
+    let curve = ShutterCurve::new(opening, closing).expect("a good curve");
+    [curve.cdf(curve.open_end()), curve.cdf(curve.close_start())]
 }
 
 /// The `u` for which the mass is evaluated most often: the first few of 20 000, and of those around them, ever

@@ -10,13 +10,19 @@ use std::process::{Child, Command, Stdio};
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
+    pub has_fpu: bool,
     board: &'static str,
 }
 
-pub const M4F: Core =
-    Core { name: "Cortex-M4F", target: "thumbv7em-none-eabihf", board: "mps2-an386" };
+pub const M4F: Core = Core {
+    name: "Cortex-M4F",
+    target: "thumbv7em-none-eabihf",
+    has_fpu: true,
+    board: "mps2-an386",
+};
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core = Core { name: "Cortex-M0+", target: "thumbv6m-none-eabi", board: "mps2-an385" };
+pub const M0: Core =
+    Core { name: "Cortex-M0+", target: "thumbv6m-none-eabi", has_fpu: false, board: "mps2-an385" };
 
 pub const QEMU: &str = "qemu-system-arm";
 pub const OBJDUMP: &str = "llvm-objdump";

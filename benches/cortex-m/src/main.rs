@@ -19,6 +19,7 @@ mod measure;
 mod model;
 mod quick;
 mod report;
+mod searched;
 mod trace;
 
 use std::process::ExitCode;

@@ -6,6 +6,7 @@ use ::firmware::{CELLS, CURVES, Function, Inputs};
 
 use crate::disassembly::Disassembly;
 use crate::firmware::{Core, build, output};
+use crate::searched::asked;
 use crate::trace::{Call, Key, Selection, Trace, trace};
 
 pub struct Measured {
@@ -15,6 +16,14 @@ pub struct Measured {
     /// By function and cells.
     painted: BTreeMap<(Function, usize), u32>,
     pub curve_bytes: BTreeMap<usize, u32>,
+}
+
+/// What the calls of a function cost on a typical curve, over uniform inputs.
+pub struct Typical {
+    pub name: &'static str,
+    pub cycles: Spread,
+    /// The share of the calls whose answers took a search.
+    pub searched: f64,
 }
 
 /// Of the calls of a series.
@@ -42,7 +51,8 @@ impl Spread {
 }
 
 impl Measured {
-    /// Builds for a core with a seed and traces each selection.
+    /// Builds for a core with a seed and traces each selection; the stack is looked at on a core with an FPU alone,
+    /// since in soft float that takes longer than all else.
     pub fn new(core: Core, seed: &str, selections: &[Selection]) -> Result<Self, String> {
         let elf = build(core, "cost", seed)?;
         let code = Disassembly::of(&elf)?;
@@ -53,7 +63,8 @@ impl Measured {
             calls.extend(more);
             instance.extend(and);
         }
-        let (painted, curve_bytes) = stack(core, seed)?;
+        let (painted, curve_bytes) =
+            if core.has_fpu { stack(core, seed)? } else { Default::default() };
         Ok(Self { code, calls, instance, painted, curve_bytes })
     }
 
@@ -67,6 +78,47 @@ impl Measured {
 
     pub fn instructions(&self, key: &Key) -> Option<Spread> {
         Spread::new(self.calls(key).iter().map(|call| call.instructions).collect())
+    }
+
+    /// A function's calls on each typical curve.
+    pub fn typical(&self, function: Function, cells: usize) -> Vec<Typical> {
+        let curves = Inputs::Typical.curves().filter_map(|curve| {
+            let key = Key { function, cells, inputs: Inputs::Typical, curve };
+            let cycles = self.cycles(&key)?;
+            let asked = asked(&key);
+            let searched = asked.iter().filter(|asked| asked.searched == Some(true)).count();
+            Some(Typical {
+                name: CURVES[curve].name,
+                cycles,
+                searched: searched as f64 / asked.len() as f64,
+            })
+        });
+        curves.collect()
+    }
+
+    /// The mean over all typical curves.
+    pub fn typical_mean(&self, function: Function, cells: usize) -> Option<f64> {
+        let curves = self.typical(function, cells);
+        let total: f64 = curves.iter().map(|curve| curve.cycles.mean).sum();
+        (!curves.is_empty()).then(|| total / curves.len() as f64)
+    }
+
+    /// The most cycles of a call that was not searched for, over all typical curves with uniform and with hard inputs;
+    /// with its curve and its fraction.
+    pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
+        let keys = self.calls.keys().filter(|key| {
+            key.function == function
+                && key.cells == cells
+                && CURVES[key.curve].is_typical
+                && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
+        });
+        let calls = keys.flat_map(|key| {
+            let calls = asked(key).into_iter().zip(self.calls(key));
+            calls.map(|(asked, call)| (call.cycles, key.curve, asked))
+        });
+        let direct = calls.filter(|(.., asked)| asked.searched == Some(false));
+        let (cycles, curve, asked) = direct.max_by_key(|(cycles, ..)| *cycles)?;
+        Some((cycles, format!("{}, u = {}", CURVES[curve].name, asked.u)))
     }
 
     /// The most cycles of a call over the hard curves and these inputs, and the curve.

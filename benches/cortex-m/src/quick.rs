@@ -2,7 +2,9 @@
 
 use std::cmp::Reverse;
 
-use ::firmware::{CELLS, CURVES, Curve, Function, Inputs, ROWS, series};
+use ::firmware::{
+    CELLS, CURVES, Curve, Function, Inputs, ON_HARD, ON_ROWS, ON_TYPICAL, ROWS, series,
+};
 
 use crate::disassembly::Disassembly;
 use crate::firmware::{M4F, SEEDS, build};
@@ -26,15 +28,13 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let cells = cells.ok_or_else(|| format!("CELLS is one of {CELLS:?}"))?;
     let elf = build(M4F, "cost", seed)?;
     let code = Disassembly::of(&elf)?;
-    let mut selection = Selection { cells: vec![cells], functions: vec![called], hard: false };
+    let mut selection = Selection { cells: vec![cells], functions: vec![called], inputs: ON_ROWS };
     for (row, (name, data)) in ROWS.iter().enumerate() {
         let inputs = Inputs::Row(row);
         let key = Key { function: called, cells, inputs, curve: Curve::index(data) };
-        if row == 0 {
-            selection.hard = called != Function::Construct;
-        }
+        // The row has the listing; all that is not of a row is run but once.
+        selection.inputs = if row == 0 { ON_ROWS | ON_TYPICAL | ON_HARD } else { ON_ROWS };
         let trace = trace(M4F, &elf, &code, &selection, Some(key))?;
-        selection.hard = false;
         let calls = &trace.calls[&key];
         let mut cycles: Vec<u32> = calls.iter().map(|call| call.cycles).collect();
         cycles.sort_unstable();

@@ -44,7 +44,8 @@ pub struct Trace {
 pub struct Selection {
     pub cells: Vec<usize>,
     pub functions: Vec<Function>,
-    pub hard: bool,
+    /// The kinds of inputs, as bits of the firmware's.
+    pub inputs: u32,
 }
 
 impl Selection {
@@ -53,7 +54,7 @@ impl Selection {
         let cells =
             CELLS.iter().enumerate().filter(|(_, c)| self.cells.contains(c)).map(|(i, _)| 1 << i);
         let functions = self.functions.iter().map(|f| f.bit());
-        cells.chain(functions).fold(u32::from(self.hard) * firmware::HARD, |mask, bit| mask | bit)
+        cells.chain(functions).fold(self.inputs, |mask, bit| mask | bit)
     }
 
     /// The series that then run, in order.

@@ -11,8 +11,12 @@ pub mod baseline;
 /// that a search finds hardest.
 pub struct Curve {
     pub name: &'static str,
+    /// As scenes hold it, by the reference data.
+    pub is_typical: bool,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
+    /// The fractions at which its sections meet.
+    pub ends: [f32; 2],
     pub hard: &'static [f32],
 }
 
@@ -50,8 +54,8 @@ impl Curve {
 
     /// The hard inputs: those of the reference and of the search, the ends of the sections with six neighbours
     /// on either side, every power of two from either end, and fractions that are uniform on a logarithmic scale.
-    pub fn hard_u(&self, ends: [f32; 2]) -> impl Iterator<Item = f32> {
-        let near_ends = ends.into_iter().flat_map(|end| {
+    pub fn hard_u(&self) -> impl Iterator<Item = f32> {
+        let near_ends = self.ends.into_iter().flat_map(|end| {
             (0..=12u32).map(move |i| f32::from_bits((end.to_bits() + i).saturating_sub(6)).min(1.0))
         });
         let powers = (0..150)
@@ -65,15 +69,6 @@ impl Curve {
         });
         self.hard.iter().copied().chain(near_ends).chain(powers).chain(mirrored).chain(spread)
     }
-}
-
-/// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or
-/// on the hard curves one of [`TRIGGERS`], and for each hard input the one that starts nearest to it.
-pub fn frames(inputs: Inputs, hard: impl Iterator<Item = f32>) -> impl Iterator<Item = (u32, u32)> {
-    let row = matches!(inputs, Inputs::Row(_));
-    let whole = if row { UNIFORM } else { TRIGGERS };
-    let hard = hard.filter(move |u| !row && *u > 1.0 / u32::MAX as f32 && *u < 0.5);
-    [(whole, whole)].into_iter().chain(hard.map(|u| ((0.5 / u) as u32, 1)))
 }
 
 const SPREAD: u32 = 128;
@@ -146,6 +141,8 @@ impl Function {
 pub enum Inputs {
     /// Uniform inputs, on the row of [`ROWS`].
     Row(usize),
+    /// The same on every typical curve of the reference data.
+    Typical,
     /// The hard inputs of every curve.
     Hard,
     /// The same with intervals of so many ticks that every trigger is solved.
@@ -154,13 +151,41 @@ pub enum Inputs {
 
 impl Inputs {
     /// The curves by their index in [`CURVES`].
-    pub fn curves(self) -> core::ops::Range<usize> {
+    pub fn curves(self) -> impl Iterator<Item = usize> {
+        (0..CURVES.len()).filter(move |index| match self {
+            Self::Row(row) => *index == Curve::index(ROWS[row].1),
+            Self::Typical => CURVES[*index].is_typical,
+            Self::Hard | Self::Solved => true,
+        })
+    }
+
+    /// Are they those that are likely to cost most?
+    pub fn are_hard(self) -> bool {
+        matches!(self, Self::Hard | Self::Solved)
+    }
+
+    /// The inputs on a curve, in order.
+    pub fn us(self, curve: &Curve) -> impl Iterator<Item = f32> {
+        let count = if self.are_hard() { 0 } else { UNIFORM };
+        let hard = self.are_hard().then(|| curve.hard_u());
+        (0..count).map(uniform).chain(hard.into_iter().flatten())
+    }
+
+    /// The frames whose first steps are measured on a curve, as how many triggers and how many steps: one
+    /// of [`UNIFORM`], or one of [`TRIGGERS`] and for each hard input the one that starts nearest to it.
+    pub fn frames(self, curve: &Curve) -> impl Iterator<Item = (u32, u32)> {
+        let whole = if self.are_hard() { TRIGGERS } else { UNIFORM };
+        let hard = self.are_hard().then(|| curve.hard_u()).into_iter().flatten();
+        let first = hard.filter(|u| *u > 1.0 / u32::MAX as f32 && *u < 0.5);
+        [(whole, whole)].into_iter().chain(first.map(|u| ((0.5 / u) as u32, 1)))
+    }
+
+    /// The bit in a selection of inputs of this kind.
+    const fn bit(self) -> u32 {
         match self {
-            Self::Row(row) => {
-                let curve = Curve::index(ROWS[row].1);
-                curve..curve + 1
-            }
-            Self::Hard | Self::Solved => 0..CURVES.len(),
+            Self::Row(_) => ON_ROWS,
+            Self::Typical => ON_TYPICAL,
+            Self::Hard | Self::Solved => ON_HARD,
         }
     }
 
@@ -168,7 +193,7 @@ impl Inputs {
     pub const fn scale(self) -> usize {
         match self {
             Self::Row(_) => 0,
-            Self::Hard => 1,
+            Self::Typical | Self::Hard => 1,
             Self::Solved => 2,
         }
     }
@@ -189,8 +214,11 @@ pub fn series() -> impl Iterator<Item = (Function, Inputs)> {
     let rows =
         calls.into_iter().flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))));
     let rows = rows.chain([(Construct, Inputs::Row(0))]);
+    let typical = calls.into_iter().map(|call| (call, Inputs::Typical));
     let hard = calls.into_iter().map(|call| (call, Inputs::Hard));
-    rows.chain(hard).chain([TickStep, Schedule].into_iter().map(|call| (call, Inputs::Solved)))
+    rows.chain(typical)
+        .chain(hard)
+        .chain([TickStep, Schedule].into_iter().map(|call| (call, Inputs::Solved)))
 }
 
 /// The series of the baselines, after all others.
@@ -199,18 +227,22 @@ pub fn baselines() -> impl Iterator<Item = (Function, Inputs)> {
     [Newton, Table]
         .into_iter()
         .flat_map(|call| (0..ROWS.len()).map(move |row| (call, Inputs::Row(row))))
-        .chain([(Newton, Inputs::Hard), (Table, Inputs::Hard)])
+        .chain([Newton, Table].into_iter().map(|call| (call, Inputs::Typical)))
+        .chain([Newton, Table].into_iter().map(|call| (call, Inputs::Hard)))
 }
 
 /// The numbers of cells measured.
 pub const CELLS: [usize; 4] = [0, 4, 8, 16];
 
 /// Where the host places the curves, and a selection of what to run: one bit a number of cells, one a
-/// function, and one for the hard inputs. In RAM, above the statics and far below the stack.
+/// function, and one a kind of inputs. In RAM, above the statics and far below the stack.
 pub const REGION: u32 = 0x2010_0000;
 pub const SELECTION: u32 = REGION - 8;
-pub const HARD: u32 = 1 << 31;
+/// The kinds of inputs in a selection: those of the rows, of all typical curves, and the hard ones.
+pub const ON_ROWS: u32 = 1 << 29;
+pub const ON_TYPICAL: u32 = 1 << 30;
+pub const ON_HARD: u32 = 1 << 31;
 
 pub fn selected(selection: u32, function: Function, inputs: Inputs) -> bool {
-    selection & function.bit() != 0 && (matches!(inputs, Inputs::Row(_)) || selection & HARD != 0)
+    selection & function.bit() != 0 && selection & inputs.bit() != 0
 }

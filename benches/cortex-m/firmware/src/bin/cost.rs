@@ -6,9 +6,7 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use firmware::baseline::{InverseTable, TextbookNewton};
-use firmware::{
-    CELLS, CURVES, Function, Inputs, TICK_HZ, UNIFORM, baselines, frames, selected, series, uniform,
-};
+use firmware::{CELLS, CURVES, Function, TICK_HZ, baselines, selected, series};
 use semihosting::process::ExitCode;
 
 #[path = "../measured.rs"]
@@ -23,20 +21,6 @@ use prebuilt::prebuilt;
 #[inline(never)]
 fn series_begins() {
     cortex_m::asm::nop();
-}
-
-/// The hard inputs of a curve.
-fn hard_u(index: usize) -> impl Iterator<Item = f32> {
-    let curve = &prebuilt::<0>(0)[index];
-    CURVES[index].hard_u([curve.cdf(curve.open_end()), curve.cdf(curve.close_start())])
-}
-
-/// The inputs of a series on one curve.
-fn each_input(inputs: Inputs, index: usize, mut call: impl FnMut(f32)) {
-    match inputs {
-        Inputs::Row(_) => (0..UNIFORM).for_each(|i| call(uniform(i))),
-        Inputs::Hard | Inputs::Solved => hard_u(index).for_each(call),
-    }
 }
 
 fn run<const C: usize>() {
@@ -54,18 +38,19 @@ fn run<const C: usize>() {
             };
             let curve = black_box(&prebuilt::<C>(scale)[index]);
             let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+            let us = inputs.us(&CURVES[index]);
             match function {
-                Function::InverseCdf => each_input(inputs, index, |u| {
+                Function::InverseCdf => us.for_each(|u| {
                     black_box(measured_inverse_cdf(curve, black_box(u)));
                 }),
-                Function::Cdf => each_input(inputs, index, |u| {
+                Function::Cdf => us.for_each(|u| {
                     black_box(measured_cdf(curve, black_box(start + length * u)));
                 }),
-                Function::Opening => each_input(inputs, index, |u| {
+                Function::Opening => us.for_each(|u| {
                     black_box(measured_opening(curve, black_box(start + length * u)));
                 }),
                 Function::TickStep => {
-                    for (n, steps) in frames(inputs, hard_u(index)) {
+                    for (n, steps) in inputs.frames(&CURVES[index]) {
                         let mut ticks =
                             curve.trigger_ticks(black_box(n), black_box(TICK_HZ)).unwrap();
                         for _ in 0..steps {
@@ -75,7 +60,7 @@ fn run<const C: usize>() {
                 }
                 Function::Schedule => {
                     // On hard curves triggers may share a tick.
-                    let gap = u32::from(matches!(inputs, Inputs::Row(_)));
+                    let gap = u32::from(!inputs.are_hard());
                     let _ = black_box(measured_schedule(curve, black_box(gap)));
                 }
                 Function::Construct => {
@@ -106,7 +91,7 @@ fn main() -> ! {
             let curve = &CURVES[index];
             let newton = TextbookNewton::new(curve.opening, curve.closing);
             let table = InverseTable::new(|u| prebuilt::<8>(0)[index].inverse_cdf(u));
-            each_input(inputs, index, |u| {
+            inputs.us(curve).for_each(|u| {
                 if function == Function::Newton {
                     black_box(measured_newton(black_box(&newton), black_box(u)));
                 } else {

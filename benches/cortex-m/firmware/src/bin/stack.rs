@@ -6,7 +6,7 @@ use core::arch::asm;
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, frames, uniform};
+use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, uniform};
 use semihosting::{print, println, process::ExitCode};
 use shutter_curve::ShutterCurve;
 
@@ -59,9 +59,7 @@ fn run<const C: usize>() {
         );
         let curve = black_box(built.as_ref().unwrap());
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-        // By the measured function, for another call of `cdf` would change how it is inlined there.
-        let ends = [curve.open_end(), curve.close_start()].map(|t| measured_cdf(curve, t));
-        let u = || data.hard_u(ends).chain((0..UNIFORM).map(uniform));
+        let u = || data.hard_u().chain((0..UNIFORM).map(uniform));
         let t = || u().map(|u| start + length * u);
         let inverse = |u| {
             black_box(measured_inverse_cdf(curve, u));
@@ -78,7 +76,7 @@ fn run<const C: usize>() {
         for inputs in [Inputs::Hard, Inputs::Solved] {
             let (opening, closing) = data.scaled(SCALES[inputs.scale()]);
             let curve = black_box(ShutterCurve::<C>::with_cells(opening, closing).unwrap());
-            for (n, steps) in frames(inputs, data.hard_u(ends)) {
+            for (n, steps) in inputs.frames(data) {
                 let mut ticks = curve.trigger_ticks(n, TICK_HZ).unwrap();
                 let step = |_| {
                     black_box(measured_tick_step(&mut ticks));

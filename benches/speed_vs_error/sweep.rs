@@ -1,0 +1,65 @@
+//! What the sweeps over every `f32` share: what they find, and two threads.
+
+use std::sync::atomic::{AtomicI64, Ordering};
+
+/// The numbers that one thread takes at a time.
+pub const CHUNK: i64 = 1 << 22;
+/// Every so many answers are judged by the double-double oracle too.
+pub const SAMPLED: i64 = 1 << 18;
+
+/// What a sweep of one function found; the parts of one add up.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sweep {
+    pub count: u64,
+    pub out_of_range: u64,
+    pub steps_back: u64,
+    /// The greatest error of the kind that is promised: of the inverse in ulp(u) once half an ulp(t) is forgiven, of a
+    /// value in its own ulp at some time within an ulp(t).
+    pub error: f64,
+    /// The same by the oracle, where the greatest of each part were found and on samples.
+    pub judged: f64,
+    /// Of the inverse: the greatest |t - exact| in ulp(t).
+    pub forward: f64,
+    /// Of the cdf: the error in ulp of however small a value.
+    pub without_floor: f64,
+    pub evaluations: u32,
+}
+
+impl Sweep {
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            out_of_range: self.out_of_range + other.out_of_range,
+            steps_back: self.steps_back + other.steps_back,
+            error: self.error.max(other.error),
+            judged: self.judged.max(other.judged),
+            forward: self.forward.max(other.forward),
+            without_floor: self.without_floor.max(other.without_floor),
+            evaluations: self.evaluations.max(other.evaluations),
+        }
+    }
+}
+
+/// Sweeps the numbers from `first` to `last` in parts, on two threads; each sweeps so many functions at once.
+pub fn on_two_threads<const N: usize>(
+    first: i64,
+    last: i64,
+    part: impl Fn(i64, i64) -> [Sweep; N] + Sync,
+) -> [Sweep; N] {
+    let (next, part) = (&AtomicI64::new(first), &part);
+    let both = |a: [Sweep; N], b: [Sweep; N]| std::array::from_fn(|i| a[i].and(b[i]));
+    let work = move || {
+        let mut found = [Sweep::default(); N];
+        loop {
+            let from = next.fetch_add(CHUNK, Ordering::Relaxed);
+            if from > last {
+                return found;
+            }
+            found = both(found, part(from, (from + CHUNK - 1).min(last)));
+        }
+    };
+    std::thread::scope(|scope| {
+        let other = scope.spawn(work);
+        both(work(), other.join().expect("the sweep does not panic"))
+    })
+}

@@ -1,0 +1,143 @@
+//! The cdf and the openness at every `t` of a curve.
+
+use shutter_curve::ShutterCurve;
+
+use crate::follower::Follower;
+use crate::support::cases::shutter;
+use crate::support::oracle::{Curve, Exact, exp2, ulp_f32};
+use crate::support::promise::CDF_FLOOR;
+use crate::sweep::{CHUNK, SAMPLED, Sweep, on_two_threads};
+
+/// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of so
+/// many is taken, in stretches of neighbours.
+const NEXT_TO_0: f64 = 1.0 / (1u128 << 64) as f64;
+const TAKEN_NEXT_TO_0: i64 = 16;
+
+/// How many times there are from the curve's start to its end, both counted.
+pub fn count(curve: &Curve) -> u64 {
+    (place(curve.close_end()) - place(curve.open_start())) as u64 + 1
+}
+
+/// The `f32` in order: 0 for 0, and from there up and down.
+fn place(t: f32) -> i64 {
+    let size = i64::from(t.abs().to_bits());
+    if t < 0.0 { -size } else { size }
+}
+
+fn at(place: i64) -> f32 {
+    let size = f32::from_bits(place.unsigned_abs() as u32);
+    if place < 0 { -size } else { size }
+}
+
+/// Sweeps the cdf and the openness of the curve over every `f32` in its interval; `tick` hears how many are done.
+pub fn sweep(curve: &Curve, tick: impl Fn(u64) + Sync) -> [Sweep; 2] {
+    let (shutter, exact) = (shutter::<8>(curve), Exact::new(curve));
+    let (first, last) = (place(curve.open_start()), place(curve.close_end()));
+    let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+    let still = if first < 0 && last > 0 { place((NEXT_TO_0 * length) as f32) } else { -1 };
+    on_two_threads(first, last, |from, to| {
+        let is_still = from >= -still && to <= still;
+        let taken = if is_still { from + CHUNK / TAKEN_NEXT_TO_0 - 1 } else { to };
+        tick((to - from) as u64 + 1);
+        part(&shutter, &exact, from, taken.min(to))
+    })
+}
+
+fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2] {
+    let count = (to - from) as u64 + 1;
+    let [mut cdf, mut opening] = [Sweep { count, ..Sweep::default() }; 2];
+    let mut truth = Truth::new(exact.curve(), from);
+    let mut last = if at(from) > shutter.open_start() { shutter.cdf(at(from - 1)) } else { 0.0 };
+    let mut worst = [from; 2];
+    for place in from..=to {
+        let t = at(place);
+        let got = [shutter.cdf(t), shutter.opening(t)];
+        cdf.steps_back += u64::from(got[0] < last);
+        last = got[0];
+        for (sweep, got) in [&mut cdf, &mut opening].into_iter().zip(got) {
+            sweep.out_of_range += u64::from(!(0.0..=1.0).contains(&got));
+        }
+        let [cdfs, opennesses] = truth.around(place);
+        let missed = missed(got[0], cdfs);
+        let error = missed.0 / ulp_f32(missed.1.max(CDF_FLOOR));
+        if error > cdf.error {
+            (cdf.error, worst[0]) = (error, place);
+        }
+        if missed.0 > 0.0 {
+            cdf.without_floor = cdf.without_floor.max(missed.0 / ulp_f32(missed.1));
+        }
+        let missed = self::missed(got[1], opennesses);
+        let error = missed.0 / ulp_f32(missed.1).max(truth.least_ulp);
+        if error > opening.error {
+            (opening.error, worst[1]) = (error, place);
+        }
+        if place % SAMPLED == 0 {
+            judge(&mut cdf, exact.cdf_ulp(got[0], t, CDF_FLOOR));
+            judge(&mut opening, exact.openness_ulp(got[1], t));
+        }
+    }
+    let [of_cdf, of_opening] = worst.map(at);
+    judge(&mut cdf, exact.cdf_ulp(shutter.cdf(of_cdf), of_cdf, CDF_FLOOR));
+    judge(&mut opening, exact.openness_ulp(shutter.opening(of_opening), of_opening));
+    [cdf, opening]
+}
+
+fn judge(sweep: &mut Sweep, error: f64) {
+    sweep.judged = sweep.judged.max(error);
+}
+
+/// By how much a value misses a range, and the bound that it misses.
+fn missed(got: f32, [low, high]: [f64; 2]) -> (f64, f64) {
+    let got = f64::from(got);
+    if got < low {
+        (low - got, low)
+    } else if got > high {
+        (got - high, high)
+    } else if got.is_nan() {
+        (f64::INFINITY, 1.0)
+    } else {
+        (0.0, got)
+    }
+}
+
+/// The exact values at times that follow each other.
+struct Truth {
+    follower: Follower,
+    /// The cdf and the openness at a time, the one before and the one after: an ulp away where the curve does not run
+    /// across time 0, for so far are its neighbours. Half an ulp below a power of two, which only is stricter.
+    window: [[f64; 2]; 3],
+    /// Where it does, what finds the other two; they move on their own.
+    sides: Option<[Follower; 2]>,
+    /// A deep dip's openness is promised to 2⁻⁴⁷ of the greatest, which for the curves here is near 1.
+    least_ulp: f64,
+}
+
+impl Truth {
+    fn new(curve: &Curve, first: i64) -> Self {
+        let mut follower = Follower::new(curve);
+        let sides = follower.runs_across_0().then(|| [Follower::new(curve), Follower::new(curve)]);
+        // `around` moves on by one.
+        let window = [first - 1, first - 1, first].map(|place| follower.values(at(place).into()));
+        Self { follower, window, sides, least_ulp: exp2(-47) }
+    }
+
+    /// The least and the greatest cdf and openness within an ulp of the time at the next `place`.
+    fn around(&mut self, place: i64) -> [[f64; 2]; 2] {
+        let t = f64::from(at(place));
+        let reach = self.follower.ulp(t);
+        if let Some([before, after]) = &mut self.sides {
+            let middle = self.follower.values(t);
+            self.window = [before.values(t - reach), middle, after.values(t + reach)];
+        } else {
+            let after = self.follower.values(at(place + 1).into());
+            self.window = [self.window[1], self.window[2], after];
+        }
+        let [[a, f], [b, g], [c, h]] = self.window;
+        let mut openness = [f.min(g).min(h), f.max(g).max(h)];
+        for extremum in self.follower.extrema(t, reach) {
+            openness = [openness[0].min(extremum), openness[1].max(extremum)];
+        }
+        // A shutter's openness is cut to [0, 1].
+        [[a.min(b), b.max(c)], openness.map(|f| f.clamp(0.0, 1.0))]
+    }
+}

@@ -1,0 +1,73 @@
+//! The inverse at every `u`.
+
+use shutter_curve::ShutterCurve;
+
+use crate::follower::Follower;
+use crate::support::cases::shutter;
+use crate::support::oracle::{Curve, Exact, rounding_cell, ulp_f32};
+use crate::sweep::{SAMPLED, Sweep, on_two_threads};
+
+/// Sweeps the `f32` from `first` to 1; `tick` hears how many are done.
+pub fn sweep<const CELLS: usize>(curve: &Curve, first: f32, tick: impl Fn(u64) + Sync) -> Sweep {
+    let (shutter, exact) = (shutter::<CELLS>(curve), Exact::new(curve));
+    let [found] = on_two_threads(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
+        let found = part(&shutter, &exact, from as u32, to as u32);
+        tick(found.count);
+        [found]
+    });
+    found
+}
+
+fn part<const CELLS: usize>(
+    shutter: &ShutterCurve<CELLS>,
+    exact: &Exact,
+    from: u32,
+    to: u32,
+) -> Sweep {
+    let mut found = Sweep { count: u64::from(to - from) + 1, ..Sweep::default() };
+    let mut follower = Follower::new(exact.curve());
+    let (start, end) = (shutter.open_start(), shutter.close_end());
+    // The neighbour below, so that no pair is left out between two parts.
+    let mut last = if from == 0 { start } else { shutter.inverse_cdf(f32::from_bits(from - 1)) };
+    let mut worst = [from; 2];
+    for bits in from..=to {
+        let u = f32::from_bits(bits);
+        let t = shutter.inverse_cdf(u);
+        found.out_of_range += u64::from(!(t >= start && t <= end));
+        found.steps_back += u64::from(t < last);
+        last = t;
+        if bits % 16 == 0 {
+            found.evaluations = found.evaluations.max(shutter.evaluations(u));
+        }
+        let (forward, backward) = errors(&mut follower, u, t);
+        if forward > found.forward {
+            (found.forward, worst[0]) = (forward, bits);
+        }
+        if backward > found.error {
+            (found.error, worst[1]) = (backward, bits);
+        }
+        if i64::from(bits) % SAMPLED == 0 {
+            found.judged = found.judged.max(exact.judge(u, t).backward);
+        }
+    }
+    for u in worst.map(f32::from_bits) {
+        found.judged = found.judged.max(exact.judge(u, shutter.inverse_cdf(u)).backward);
+    }
+    found
+}
+
+/// The errors of `t`: in ulp(t), and in ulp(u) once half an ulp(t) is forgiven.
+fn errors(follower: &mut Follower, u: f32, t: f32) -> (f64, f64) {
+    if u == 0.0 || u == 1.0 {
+        return (0.0, 0.0);
+    }
+    let exact = follower.inverse(u.into());
+    let error = (f64::from(t) - exact.time).abs();
+    let ulp = follower.ulp(exact.time);
+    // Where the density is next to nothing doubles cannot tell the time to an ulp.
+    let is_told = exact.noise <= exact.density * ulp * 0.002;
+    let [low, high] = rounding_cell(t);
+    let excess = (low - exact.time).max(exact.time - high).max(0.0);
+    let backward = excess * follower.slope(exact.density) / ulp_f32(u.into());
+    (if is_told { error / ulp } else { 0.0 }, backward)
+}
