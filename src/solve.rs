@@ -44,17 +44,17 @@ const BISECTION: u32 = 31;
 pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 
 /// Where less than this share of what is sought is missing, it is measured in pairs. Halley's step leaves some tenth of the
-/// cube: 2⁻³⁹.
-const NEAR: f32 = 1.0 / 4096.0;
+/// cube: 2⁻⁴².
+const NEAR: f32 = 1.0 / 8192.0;
 
 /// A step leads at most this many times as far from the anchor: Newton overshoots where the density dips ahead.
 const FARTHER: f32 = 2.5;
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
-const ROUNDING: f32 = 1.0 / (1 << 19) as f32;
+const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
 /// The distance from the anchor may be rounded by this share of it.
-const MOVED: f32 = 1.0 / (1 << 23) as f32;
+const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// The distance between neighbours, relative to them, at most.
 const ULP: f32 = f32::EPSILON;
@@ -117,10 +117,14 @@ impl Taylor {
         Self { value, d1: c[0], d2: c[1] }
     }
 
-    /// Halley's step to make up for `missing`.
+    /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`, with the quotient's series up to
+    /// `b²`. A division is dear, and where `b` is too great for the series the bracket holds.
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
-        missing / (self.d1 + self.d2 * (missing / self.d1))
+        let inverse = 1.0 / self.d1;
+        let newton = missing * inverse;
+        let bend = self.d2 * newton * inverse;
+        newton * (1.0 - bend * (1.0 - bend))
     }
 }
 
@@ -134,9 +138,15 @@ const fn divide<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
     }
 }
 
-/// The bound of what is missing after the step `s`: see the module's text.
+/// The bound of what is missing after the step `s`, where `x` is rounded by `moved`: see the module's text.
 #[inline(always)]
-const fn left<const N: usize>(c: &[f32; N], x: f32, local: &Taylor, missing: f32, s: f32) -> f32 {
+const fn left<const N: usize>(
+    c: &[f32; N],
+    [x, moved]: [f32; 2],
+    local: &Taylor,
+    missing: f32,
+    s: f32,
+) -> f32 {
     /// `C(j, 3)`
     const CHOOSE: [f32; 7] = [0.0, 0.0, 0.0, 1.0, 4.0, 10.0, 20.0];
     let size = s.abs();
@@ -147,8 +157,10 @@ const fn left<const N: usize>(c: &[f32; N], x: f32, local: &Taylor, missing: f32
         t = t * y + CHOOSE[j] * c[j - 1].abs();
         j -= 1;
     }
-    let slopes = c[0].abs() + (2.0 * c[1].abs() + 3.0 * t * y) * y;
-    (missing - s * (local.d1 + local.d2 * s)).abs() + size * (ROUNDING * slopes + t * (s * s))
+    let bends = 2.0 * c[1].abs() + 6.0 * t * y;
+    let slopes = c[0].abs() + bends * y;
+    let first = (missing - s * (local.d1 + local.d2 * s)).abs();
+    first + size * (ROUNDING * slopes + moved.abs() * bends + t * (s * s))
 }
 
 /// The place where `series` reaches `target`, but for an `error`, of which a quarter is for measuring.
@@ -168,7 +180,7 @@ pub(crate) const fn solve<const N: usize>(
     let sign = if back { -1.0 } else { 1.0 };
     let near = NEAR * sought + error;
     let (mut low, mut high) = (0.0f32, limit);
-    let (mut is_near, mut p) = (false, 0.0);
+    let (mut is_near, mut p, mut moved) = (false, 0.0, 0.0f32);
     let mut evaluations = 0;
     // At the end of the ramp the density may be 0.
     let mut x = if seed > 0.75 * limit { 0.75 * limit } else { seed };
@@ -183,8 +195,10 @@ pub(crate) const fn solve<const N: usize>(
             // Only a place that is an `f32` can be measured.
             p = place.hi + sign * x;
             let distance = anchor.distance(p);
-            if (distance - x).abs() > MOVED * x {
+            moved = distance - x;
+            if moved.abs() > MOVED * x {
                 x = distance;
+                moved = 0.0;
                 continue;
             }
         }
@@ -202,7 +216,7 @@ pub(crate) const fn solve<const N: usize>(
         if is_near {
             let is_last = evaluations >= MAX_EVALUATIONS - 1;
             let error = if step.abs() <= ULP * p { most } else { error };
-            if is_last || left(c, x, &local, missing, step) <= 0.75 * error {
+            if is_last || left(c, [x, moved], &local, missing, step) <= 0.75 * error {
                 let Pair { hi, lo } = Pair::sum(p, sign * step);
                 return Offset { x: hi, rest: lo, evaluations };
             }
@@ -214,7 +228,7 @@ pub(crate) const fn solve<const N: usize>(
         }
         if is_near {
             p += sign * step;
-            x = anchor.distance(p);
+            (x, moved) = (anchor.distance(p), 0.0);
         } else {
             x += step;
         }
