@@ -149,8 +149,8 @@ fn lifted_curves_keep_their_bounds() {
     let (mut openness, mut times) = (0, 0);
     for i in 0..3000 {
         for points in [random_hard(3, i).opening, random_single(3, i).opening] {
-            let given = Lifted::as_given(points, false);
-            let lifted = Lifted::new(points, false);
+            let given = Lifted::as_given(points);
+            let lifted = Lifted::new(points);
             let f = lifted.openness.map(Dd::from);
             let [d0, d1, d2] = lifted.steps;
             let size = f.iter().fold(0.0, |size: f64, f| size.max(f.hi.abs()));
