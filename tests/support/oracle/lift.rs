@@ -82,8 +82,8 @@ fn rounded_up(x: f64) -> f32 {
 
 /// The least and the greatest value of a cubic on [0, 1], from its Bernstein coefficients.
 ///
-/// In plain `f64`, and to the bit as the library has it: where a curve touches 0, its least value is nothing but
-/// rounding, and that decides whether the curve is lifted. From both ends, so that the mirrored curve gives the same.
+/// An extremum inside that is 0 but for rounding is 0. In plain `f64`, and to the bit as the library has it: by how much
+/// a curve is lifted decides where the least u are. From both ends, so that the mirrored curve is lifted by the same.
 pub fn range(f: [f64; 4]) -> [f64; 2] {
     let [a, b, c, d] = f;
     let (there, back) = (range_from_start(f), range_from_start([d, c, b, a]));
@@ -98,7 +98,12 @@ fn range_from_start(f: [f64; 4]) -> [f64; 2] {
     let inside = [q / square, a / q].into_iter().filter(|p| *p > 0.0 && *p < 1.0);
     let value = |p: f64| {
         let r = 1.0 - p;
-        r * r * (r * f[0] + 3.0 * p * f[1]) + p * p * (3.0 * r * f[2] + p * f[3])
+        let terms =
+            [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
+        let [a, b, c, d] = terms;
+        let value = (a + b) + (c + d);
+        let [a, b, c, d] = terms.map(f64::abs);
+        if value.abs() <= (a + b + c + d) * exp2(-48) { 0.0 } else { value }
     };
     let mut range = [f[0].min(f[3]), f[0].max(f[3])];
     for value in inside.map(value) {
