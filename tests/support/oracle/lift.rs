@@ -17,11 +17,10 @@ pub struct Lifted {
 }
 
 impl Lifted {
-    /// The ramp with these points, which is the closing one if it `is_late`.
-    pub fn new(points: Points, is_late: bool) -> Self {
-        let given = Self::as_given(points, is_late);
+    pub fn new(points: Points) -> Self {
+        let given = Self::as_given(points);
         let steps = lifted_steps(points.map(|p| p.0));
-        let openness = lifted_openness(given.openness, is_late);
+        let openness = lifted_openness(given.openness);
         Self {
             ends: given.ends,
             steps: steps.unwrap_or(given.steps),
@@ -31,7 +30,7 @@ impl Lifted {
     }
 
     /// The ramp as it is, for comparison with what others computed for it.
-    pub fn as_given(points: Points, _is_late: bool) -> Self {
+    pub fn as_given(points: Points) -> Self {
         let (t, openness) = (points.map(|p| p.0), points.map(|p| p.1));
         Self { ends: [t[0], t[3]], steps: differences(t), openness, is_lifted: false }
     }
@@ -69,15 +68,9 @@ fn lifted_steps(t: [f32; 4]) -> Option<[Dd; 3]> {
 
 /// The control values rise alike, as a Bezier curve is affine in them, by what the curve dips below 0 and a trace more:
 /// then by what rounds them up to `f32`.
-fn lifted_openness(f: [f32; 4], is_late: bool) -> Option<[f32; 4]> {
-    // From the curve's outer end, so that the mirrored curve is lifted by the same to the bit.
-    let mut from_outside = f.map(f64::from);
-    if is_late {
-        from_outside.reverse();
-    }
-    let [low, high] = range(from_outside);
-    let size = high.max(-low);
-    let by = size * exp2(-50) - low;
+fn lifted_openness(f: [f32; 4]) -> Option<[f32; 4]> {
+    let [low, high] = range(f.map(f64::from));
+    let by = high.max(-low) * exp2(-50) - low;
     (low < 0.0).then(|| f.map(|value| rounded_up(value as f64 + by)))
 }
 
@@ -89,9 +82,15 @@ fn rounded_up(x: f64) -> f32 {
 
 /// The least and the greatest value of a cubic on [0, 1], from its Bernstein coefficients.
 ///
-/// In plain `f64`, and to the bit as the library has it: where a curve touches 0, its least value is nothing but
-/// rounding, and that decides whether the curve is lifted.
+/// An extremum inside that is 0 but for rounding is 0. In plain `f64`, and to the bit as the library has it: by how much
+/// a curve is lifted decides where the least u are. From both ends, so that the mirrored curve is lifted by the same.
 pub fn range(f: [f64; 4]) -> [f64; 2] {
+    let [a, b, c, d] = f;
+    let (there, back) = (range_from_start(f), range_from_start([d, c, b, a]));
+    [there[0].min(back[0]), there[1].max(back[1])]
+}
+
+fn range_from_start(f: [f64; 4]) -> [f64; 2] {
     let (a, b, c) = (f[1] - f[0], f[2] - f[1], f[3] - f[2]);
     let (half, square) = (b - a, a - 2.0 * b + c);
     let root = square_root(half * half - a * square);
@@ -99,10 +98,12 @@ pub fn range(f: [f64; 4]) -> [f64; 2] {
     let inside = [q / square, a / q].into_iter().filter(|p| *p > 0.0 && *p < 1.0);
     let value = |p: f64| {
         let r = 1.0 - p;
-        let terms = [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
-        let value = (terms[0] + terms[1]) + (terms[2] + terms[3]);
-        // A minimum that is 0 but for rounding is 0.
-        if value.abs() <= terms.iter().map(|t| t.abs()).sum::<f64>() * exp2(-48) { 0.0 } else { value }
+        let terms =
+            [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
+        let [a, b, c, d] = terms;
+        let value = (a + b) + (c + d);
+        let [a, b, c, d] = terms.map(f64::abs);
+        if value.abs() <= (a + b + c + d) * exp2(-48) { 0.0 } else { value }
     };
     let mut range = [f[0].min(f[3]), f[0].max(f[3])];
     for value in inside.map(value) {

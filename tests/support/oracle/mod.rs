@@ -226,8 +226,6 @@ struct Ramp {
     is_lifted: bool,
     /// The greatest openness on the ramp.
     greatest: f64,
-    /// The times at which the openness has an extremum inside.
-    extrema: Vec<Dd>,
 }
 
 /// A place on a ramp: the end from which it counts, and the distance.
@@ -242,11 +240,8 @@ impl Ramp {
         let ends = [End::new(&lifted, 1.0), End::new(&lifted.reversed(), -1.0)];
         let mass = ends[0].mass.at(Dd::ONE);
         let is_lifted = lifted.is_lifted;
-        let mut ramp = Self { ends, mass, is_lifted, greatest: 0.0, extrema: Vec::new() };
-        let places = ramp.extrema_of_openness();
-        let heights = places.iter().map(|p| ramp.openness(ramp.spot(*p)).hi);
-        ramp.greatest = heights.chain(ends.map(|end| end.openness)).fold(0.0, f64::max);
-        ramp.extrema = places.iter().map(|p| ramp.time(ramp.spot(*p))).collect();
+        let mut ramp = Self { ends, mass, is_lifted, greatest: 0.0 };
+        ramp.greatest = ramp.turns().iter().fold(0.0, |most, turn| most.max(turn[1].hi));
         ramp
     }
 
@@ -296,6 +291,14 @@ impl Ramp {
         points
     }
 
+    /// Time and openness at both ends and at the extrema of f between.
+    fn turns(&self) -> Vec<[Dd; 2]> {
+        let ends = self.ends.map(|end| [Dd::from(end.time), Dd::from(end.openness)]);
+        let inside = self.extrema_of_openness().into_iter().map(|p| self.spot(p));
+        let inside = inside.map(|spot| [self.time(spot), self.openness(spot)]);
+        ends.into_iter().chain(inside).collect()
+    }
+
     /// The parameters of the interior extrema of f and t'.
     fn flat_points(&self) -> Vec<f64> {
         let way = &self.ends[0].way.c;
@@ -334,6 +337,8 @@ pub struct Exact {
     closing: Ramp,
     plateau: Dd,
     area: Dd,
+    /// Time and openness of what is greatest or least on a ramp.
+    turns: Vec<[Dd; 2]>,
 }
 
 impl Exact {
@@ -347,12 +352,18 @@ impl Exact {
         Self::of(curve, Lifted::as_given)
     }
 
-    fn of(curve: &Curve, ramp: impl Fn(Points, bool) -> Lifted) -> Self {
-        let opening = Ramp::new(ramp(curve.opening, false));
-        let closing = Ramp::new(ramp(curve.closing, true));
+    fn of(curve: &Curve, ramp: impl Fn(Points) -> Lifted) -> Self {
+        let [opening, closing] =
+            [curve.opening, curve.closing].map(|points| Ramp::new(ramp(points)));
         let plateau = Dd::from(curve.close_start()) - Dd::from(curve.open_end());
         let area = opening.mass + plateau + closing.mass;
-        Self { curve: *curve, opening, closing, plateau, area }
+        let ramps = [&opening, &closing].into_iter().filter(|ramp| !ramp.is_empty());
+        let turns = ramps.flat_map(Ramp::turns).collect();
+        let mut exact = Self { curve: *curve, opening, closing, plateau, area, turns };
+        for turn in 0..exact.turns.len() {
+            exact.turns[turn][1] = exact.bounded(exact.turns[turn][1]);
+        }
+        exact
     }
 
     pub fn curve(&self) -> &Curve {
@@ -521,7 +532,8 @@ impl Exact {
 
     /// The error of a cdf of `got` at `t`, see [`value_ulp`]; an ulp is at least that of `floor`.
     pub fn cdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
-        value_ulp(got, self.times_near(t), |t| self.cdf_dd(t), |value| ulp_f32(value.max(floor)))
+        let values = self.times_near(t).map(|t| self.cdf_dd(t));
+        value_ulp(got, values, |value| ulp_f32(value.max(floor)))
     }
 
     /// The error of an openness of `got` at `t`, see [`value_ulp`].
@@ -538,11 +550,12 @@ impl Exact {
     fn density_ulp(&self, got: f32, t: f32, scale: Dd) -> f64 {
         let ramp = if t < self.curve.open_end() { &self.opening } else { &self.closing };
         let least = exp2(-47) * ramp.greatest * scale.hi;
-        let reach = self.ulp_of_time(Dd::from(t));
-        let is_near = |extremum: &&Dd| (**extremum - Dd::from(t)).hi.abs() <= reach;
-        let extrema = [&self.opening.extrema, &self.closing.extrema].into_iter().flatten();
-        let times = self.times_near(t).chain(extrema.filter(is_near).copied());
-        value_ulp(got, times, |t| self.openness_dd(t) * scale, |value| ulp_f32(value).max(least))
+        let samples = self.times_near(t).map(|t| self.openness_dd(t));
+        // Between two samples the openness may have an extremum, or a ramp its end.
+        let (t, reach) = (Dd::from(t), self.ulp_of_time(Dd::from(t)));
+        let turns = self.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
+        let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
+        value_ulp(got, values, |value| ulp_f32(value).max(least))
     }
 
     /// Times within an ulp of `t`, from the middle outwards: most answers are settled after few.
@@ -592,21 +605,15 @@ pub fn rounding_cell(t: f32) -> [f64; 2] {
     [t.next_down(), t.next_up()].map(|neighbour| 0.5 * (neighbour as f64 + t as f64))
 }
 
-/// How far `got` is, in ulp, from what `g` takes on between `times`.
+/// How far `got` is, in ulp, from the least and the greatest of `values`.
 ///
-/// A function without a jump takes every value between two of its own, so all between the least and the greatest at
-/// `times` is right. Infinite if `got` is no number.
-pub fn value_ulp(
-    got: f32,
-    times: impl Iterator<Item = Dd>,
-    g: impl Fn(Dd) -> Dd,
-    ulp: impl Fn(f64) -> f64,
-) -> f64 {
+/// These are what a function takes on in a neighbourhood; without a jump it takes every value in between, too.
+/// Infinite if `got` is no number.
+pub fn value_ulp(got: f32, values: impl Iterator<Item = Dd>, ulp: impl Fn(f64) -> f64) -> f64 {
     let got = got as f64;
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for time in times {
-        let value = g(time).hi;
-        range = [range[0].min(value), range[1].max(value)];
+    for value in values {
+        range = [range[0].min(value.hi), range[1].max(value.hi)];
         if got >= range[0] && got <= range[1] {
             return 0.0;
         }
