@@ -103,13 +103,16 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset of a significand, whose top bit is set, from the octave's middle; `down` is 1 where its exponent is below
-    /// that of the octave's top, or else 0.
+    /// The offset of a significand from its octave's middle, where it is that of the `f32` with these bits, or between
+    /// that and the next.
     #[inline(always)]
-    pub(crate) const fn offset(top: u32, significand: u32, down: u32) -> i32 {
+    pub(crate) const fn offset(top: u32, bits: u32, significand: u32) -> i32 {
+        const FRACTION: u32 = (1 << 23) - 1;
+        // 1 where the exponent is below that of the octave's top.
+        let down = (top & FRACTION).wrapping_sub(bits & FRACTION) >> 31;
         let top = top << 8 | 1 << 31;
         // Doubled, so that the offset fills the word; what passes its end comes back.
-        (significand >> (down & 31) << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
+        (significand >> down << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
     }
 
     /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one

@@ -18,14 +18,14 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::octave::{LEAST, Octave, Unit, floor_bits, top};
-use crate::pair::Pair;
+use crate::pair::{Pair, exponent, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
-    /// The exponent of the unit in which the curve's times count at most 2⁶¹.
-    unit: i32,
+    /// 2³² units, in which the curve's times count at most 2⁶², as a power of two.
+    scale: f32,
     /// The bits of the `f32` around the plateau: every `u` above the first and up to the second is on its line.
     plateau: [u32; 2],
     /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
@@ -56,7 +56,7 @@ impl<const CELLS: usize> Plan<CELLS> {
             Err(error) => return Err(error),
         };
         let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
-        let unit = exponent_of_greater(exposure.start(0), exposure.start(1)) - 60;
+        let unit = exponent_of_greater(exposure.start(0), exposure.start(1)) - 61;
         let starts = [in_units(exposure.start(0) as f64, unit), in_units(exposure.start(1) as f64, unit)];
         let (mut base, mut slope, mut plateau) = (0, 0, [0; 2]);
         let mut serves = true;
@@ -87,21 +87,21 @@ impl<const CELLS: usize> Plan<CELLS> {
             }
             side += 1;
         }
-        Ok(Self { exposure, unit, plateau, base, slope, octaves })
+        Ok(Self { exposure, scale: power_of_two(unit + 32), plateau, base, slope, octaves })
     }
 
     /// The exponent of the unit of time.
     pub(crate) const fn unit(&self) -> i32 {
-        self.unit
+        exponent(self.scale) - 32
     }
 
     pub(crate) const fn unit_of_time(&self) -> f32 {
-        f32::from_bits(((127 + self.unit) as u32) << 23)
+        power_of_two(self.unit())
     }
 
     /// The time from which a side counts, in units.
     pub(crate) const fn start_in_units(&self, side: usize) -> i64 {
-        in_units(self.exposure.start(side) as f64, self.unit)
+        in_units(self.exposure.start(side) as f64, self.unit())
     }
 
     /// The plateau's line in doubles: its time at `u = 0`, its slope, and the `u` that it serves.
@@ -127,74 +127,77 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// The time by an octave's polynomial, in units, or `None` where none serves: for `a` with this significand, between the
-    /// `f32` with the bits `floor` and `ceil`. What is no fraction above 0 has none.
+    /// The octave of an `a`, by the bits of the `f32` at it or above, and what of them is the octaves' top. What is no
+    /// fraction above 0 has none.
     #[inline(always)]
-    pub(crate) fn by_octave(&self, side: usize, floor: u32, ceil: u32, significand: u32) -> Option<i64> {
+    fn octave(&self, side: usize, ceil: u32) -> Option<(&Octave, u32)> {
         let side = &self.octaves[side & 1];
         let top = side.first()?.top;
         let octave = side.get((top.wrapping_sub(ceil) >> 23) as usize)?;
-        if !octave.exists() {
-            return None;
-        }
-        let down = (octave.top >> 23).wrapping_sub(floor >> 23);
-        Some(octave.time(Octave::offset(top, significand, down)))
+        Some((octave, top))
+    }
+
+    /// The time by an octave's polynomial, in units, if it has one: for `a` with this significand, between the `f32` with the
+    /// bits `floor` and `ceil`.
+    #[inline(always)]
+    fn by_octave(&self, side: usize, floor: u32, ceil: u32, significand: u32) -> Option<i64> {
+        let (octave, top) = self.octave(side, ceil)?;
+        octave.exists().then(|| octave.time(Octave::offset(top, floor, significand)))
+    }
+
+    /// The time on the plateau's line, in units, if `u` is on it.
+    #[inline(always)]
+    fn by_line(&self, u: f32) -> Option<i64> {
+        let bits = u.to_bits();
+        let is_on_line = bits > self.plateau[0] && bits <= self.plateau[1];
+        let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+        is_on_line.then(|| self.on_line((bits << 8 | 1 << 31) >> (shift & 31)))
     }
 
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let bits = u.to_bits();
-        if bits > self.plateau[0] && bits <= self.plateau[1] {
-            let u = (bits << 8 | 1 << 31) >> (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-            return self.rounded(self.on_line(u));
-        }
-        let (side, a) = Self::count(u);
-        match self.direct(side, a) {
-            Some(time) => self.rounded(time),
-            None => self.searched(side, a),
-        }
-    }
-
-    #[inline(always)]
-    fn direct(&self, side: usize, a: f32) -> Option<i64> {
-        let bits = a.to_bits();
-        self.by_octave(side, bits, bits, bits << 8 | 1 << 31)
-    }
-
-    /// A time in units, rounded once.
-    #[inline(always)]
-    fn rounded(&self, time: i64) -> f32 {
-        if DOUBLES {
-            return time as f32 * self.unit_of_time();
-        }
+        let time = match self.by_line(u) {
+            Some(time) => time,
+            None => {
+                let (side, a) = Self::count(u);
+                let bits = a.to_bits();
+                match self.octave(side, bits) {
+                    Some((octave, top)) => octave.time(Octave::offset(top, bits, bits << 8 | 1 << 31)),
+                    None => return self.searched(u),
+                }
+            }
+        };
         // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
         // upper word, the lower one only has to say whether it is 0.
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
-            return self.rounded_small(time);
+            return self.near_zero(u, time);
         }
-        let odd = high | (time as u32 != 0) as i32;
-        odd as f32 * f32::from_bits(((127 + 32 + self.unit) as u32) << 23)
+        (high | (time as u32 != 0) as i32) as f32 * self.scale
     }
 
-    /// The same for a time near 0.
+    /// The same for a time near 0. It is 0 where an octave has no polynomial.
     #[cold]
     #[inline(never)]
-    fn rounded_small(&self, time: i64) -> f32 {
-        let up = (time ^ time >> 63).leading_zeros().saturating_sub(1);
+    fn near_zero(&self, u: f32, time: i64) -> f32 {
+        if time == 0 {
+            return self.searched(u);
+        }
+        // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
+        let up = (time ^ time >> 63).leading_zeros() - 1;
         let time = time << up;
-        let odd = (time >> 32) as i32 | (time as u32 != 0) as i32;
-        // By halves, for the unit may not be a normal number.
-        odd as f32 * f32::from_bits((127 + 32 - up) << 23) * self.unit_of_time()
+        let high = (time >> 32) as i32 | (time as u32 != 0) as i32;
+        high as f32 * f32::from_bits((127 - up) << 23) * self.scale
     }
 
-    /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start or the end for what is no fraction.
+    /// [`inverse_cdf`](Self::inverse_cdf) by a search. At the ends, and for what is no fraction, it is the start or the end.
     ///
     /// Out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn searched(&self, side: usize, a: f32) -> f32 {
+    fn searched(&self, u: f32) -> f32 {
+        let (side, a) = Self::count(u);
         if a > 0.0 {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).time()
         } else {
@@ -202,12 +205,18 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
+    /// The time, in units, if no search is needed.
+    #[inline(always)]
+    fn direct(&self, u: f32) -> Option<i64> {
+        let (side, a) = Self::count(u);
+        let bits = a.to_bits();
+        self.by_line(u).or_else(|| self.by_octave(side, bits, bits, bits << 8 | 1 << 31))
+    }
+
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
-        let bits = u.to_bits();
-        let is_on_line = bits > self.plateau[0] && bits <= self.plateau[1];
-        if a > 0.0 && !is_on_line && self.direct(side, a).is_none() {
+        if a > 0.0 && self.direct(u).is_none() {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
         } else {
             0
