@@ -10,13 +10,14 @@
 //! Where it is too great, 2 and 3 are repeated from the place that was reached.
 //!
 //! **The bound.** Let `c` be the anchor's coefficients, `x` the distance from it, `d_k` the Taylor coefficients there, and
-//! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`. With `Y = |x| + |s|` the terms from the
-//! third on are together at most `T |s|³`, `T = |c_3| + 4 |c_4| Y + 10 |c_5| Y² + 20 |c_6| Y³`, because the k-th is
-//! `Σ_j C(j,k) c_j x^(j-k) s^k`, and `Σ_{k>=3} C(j,k) x^(j-k) s^k <= C(j,3) |s|³ Y^(j-3)`. In single precision the first two
-//! terms are wrong by at most 2⁻¹⁹ `|s| Σ j |c_j| Y^(j-1)`: each `d_k` by 12 roundings of 2⁻²⁴ in Horner's rule, and by 5 times
-//! [`MOVED`] for `x`. That sum is at most `|c_1| + 2 |c_2| Y + 3 T Y²`. So what is left is at most
+//! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`, the k-th term being `Σ_j C(j,k) c_j
+//! x^(j-k) s^k`. Let `Y = |x| + |s|` and `E = Σ_{j>=3} j |c_j| Y^(j-3)`. From the third on the terms are together at most
+//! `3.4 E |s|³`, because `Σ_{k>=3} C(j,k) |x|^(j-k) |s|^k <= C(j,3) |s|³ Y^(j-3)`, and `C(j,3) <= 10/3 j`. The first two are known
+//! in single precision: wrong by at most 2⁻²⁰ `|s| D`, where `D = |c_1| + 2 |c_2| Y + E Y²` bounds all slopes on the way,
+//! because some 14 roundings of 2⁻²⁴ lead to them, 10 of Horner's rule. Where `x` is itself rounded, by `m`, the slopes
+//! are wrong by `5 m (2 |c_2| + E Y)` more, since `j - 1 <= 5`. So what is left is at most
 //!
-//! `|r - s (d_1 + d_2 s)| + |s| (2⁻¹⁹ (|c_1| + (2 |c_2| + 3 T Y) Y) + T s²)`
+//! `|r - s (d_1 + d_2 s)| + |s| (2⁻²⁰ D + 5 m (2 |c_2| + E Y) + 3.4 E s²)`
 //!
 //! and what measuring `r` missed: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A non-negative
 //! polynomial's increasing integral bounds that sum (Markov): it exceeds the series by a factor that depends on the degree
@@ -147,20 +148,17 @@ const fn left<const N: usize>(
     missing: f32,
     s: f32,
 ) -> f32 {
-    /// `C(j, 3)`
-    const CHOOSE: [f32; 7] = [0.0, 0.0, 0.0, 1.0, 4.0, 10.0, 20.0];
     let size = s.abs();
     let y = x.abs() + size;
-    let mut t = 0.0;
-    let mut j = N;
+    let (mut cubes, mut j) = (0.0, N);
     while j > 2 {
-        t = t * y + CHOOSE[j] * c[j - 1].abs();
+        cubes = cubes * y + j as f32 * c[j - 1].abs();
         j -= 1;
     }
-    let bends = 2.0 * c[1].abs() + 6.0 * t * y;
-    let slopes = c[0].abs() + bends * y;
+    let bends = cubes * y + 2.0 * c[1].abs();
+    let slopes = bends * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
-    first + size * (ROUNDING * slopes + moved.abs() * bends + t * (s * s))
+    first + size * (ROUNDING * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
 }
 
 /// The place where `series` reaches `target`, but for an `error`, of which a quarter is for measuring.
