@@ -73,9 +73,17 @@ pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
     if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
 }
 
-/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. A minimum inside that is 0 but for
-/// rounding is 0.
-pub(crate) const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
+/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. An extremum inside that is 0 but for
+/// rounding is 0. Seen from both ends, so that the mirrored cubic has the same.
+pub(crate) const fn cubic_range([a, b, c, d]: [f64; 4]) -> (f64, f64) {
+    let (there, back) = (range_from_start([a, b, c, d]), range_from_start([d, c, b, a]));
+    (
+        if back.0 < there.0 { back.0 } else { there.0 },
+        if back.1 > there.1 { back.1 } else { there.1 },
+    )
+}
+
+const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
     let (mut low, mut high) = if f[0] < f[3] { (f[0], f[3]) } else { (f[3], f[0]) };
     // f'/3 = a + 2 (b - a) p + (a - 2b + c) p²; its roots by the form that does not cancel.
     let [a, b, c] = differences(f);
@@ -91,8 +99,12 @@ pub(crate) const fn cubic_range(f: [f64; 4]) -> (f64, f64) {
             // False for the NaN of 0/0.
             if p > 0.0 && p < 1.0 {
                 let r = 1.0 - p;
-                let [a, b, c, d] =
-                    [r * r * r * f[0], 3.0 * r * r * p * f[1], 3.0 * r * p * p * f[2], p * p * p * f[3]];
+                let [a, b, c, d] = [
+                    r * r * r * f[0],
+                    3.0 * r * r * p * f[1],
+                    3.0 * r * p * p * f[2],
+                    p * p * p * f[3],
+                ];
                 let noise = (a.abs() + b.abs() + c.abs() + d.abs()) / (1u64 << 48) as f64;
                 let value = (a + b) + (c + d);
                 let value = if value.abs() <= noise { 0.0 } else { value };
@@ -129,13 +141,14 @@ pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
 /// A quadratic with the Bernstein coefficients `d` is at least 0 where both ends are and the middle is at least
 /// `-sqrt(d0 d2)`. Scaled, it keeps that, and the ramp its length.
 pub(crate) const fn forward(d: [f64; 3], length: f64) -> [f64; 3] {
-    let [d0, d1, d2] = [if d[0] < 0.0 { 0.0 } else { d[0] }, d[1], if d[2] < 0.0 { 0.0 } else { d[2] }];
+    let [d0, d1, d2] =
+        [if d[0] < 0.0 { 0.0 } else { d[0] }, d[1], if d[2] < 0.0 { 0.0 } else { d[2] }];
     let turns = d1 < 0.0 && d1 * d1 > d0 * d2;
     if !turns && d[0] >= 0.0 && d[2] >= 0.0 {
         return d;
     }
     let d1 = if turns { -sqrt(d0 * d2) } else { d1 };
-    let scale = length / (d0 + d1 + d2);
+    let scale = length / ((d0 + d2) + d1);
     [d0 * scale, d1 * scale, d2 * scale]
 }
 

@@ -109,17 +109,24 @@ impl Exposure {
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
     #[inline(always)]
     const fn section(&self, side: usize, a: Pair) -> Section {
-        let beyond = a.minus(self.ramp(side).share);
-        if beyond.rounded() < 0.0 {
+        let near = self.ramp(side).share;
+        if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
+        let beyond = a.minus(near);
         let behind = beyond.minus(self.plateau);
         if behind.rounded() > 0.0 {
             return Section::Ramp(side ^ 1, behind);
         }
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
         let (area, exponent) = significand(self.area);
-        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), exponent - WHOLE_EXPONENT))
+        Section::Plateau(Place::on_way(
+            time,
+            until,
+            side == 1,
+            beyond.times(area),
+            exponent - WHOLE_EXPONENT,
+        ))
     }
 
     /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
@@ -127,7 +134,9 @@ impl Exposure {
     pub(crate) fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Place {
         match self.section(side, a) {
             Section::Plateau(place) => place,
-            Section::Ramp(ramp, target) => self.ramp(ramp).at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi]),
+            Section::Ramp(ramp, target) => {
+                self.ramp(ramp).at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
+            }
         }
     }
 
@@ -148,11 +157,7 @@ impl Exposure {
     pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
         let (start, end) = (self.start(0) as f64, self.start(1) as f64);
         let time = if side == 0 { start + elapsed } else { end - elapsed };
-        if start < 0.0 && end > 0.0 {
-            if end > -start { end } else { -start }
-        } else {
-            time.abs()
-        }
+        if start < 0.0 && end > 0.0 { if end > -start { end } else { -start } } else { time.abs() }
     }
 
     /// Where `t` lies.
@@ -245,11 +250,8 @@ impl Exposure {
             return nearest;
         }
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
-        let (side, a) = if nearest < 0.5 * WHOLE {
-            (0, middle)
-        } else {
-            (1, Pair::new(WHOLE).minus(middle))
-        };
+        let (side, a) =
+            if nearest < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
         let is_later = t >= self.at_fraction(side, a, FOR_TICK).time();
         if is_later == (next > nearest) { next } else { nearest }
     }

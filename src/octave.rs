@@ -24,6 +24,9 @@ pub(crate) struct Octave {
     c: [i32; DEGREE],
 }
 
+/// What an octave without a polynomial gives for a time, in units. (Where it is the time, a search gives the same.)
+pub(crate) const NO_TIME: i64 = 1;
+
 const DEGREE: usize = 8;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
@@ -95,7 +98,7 @@ pub(crate) const fn top(exposure: &Exposure, side: usize) -> u32 {
 }
 
 impl Octave {
-    pub(crate) const NONE: Self = Self { middle: 0, factor: 0, top: 0, c: [0; DEGREE] };
+    pub(crate) const NONE: Self = Self { middle: NO_TIME, factor: 0, top: 0, c: [0; DEGREE] };
 
     /// Is there a polynomial?
     #[inline(always)]
@@ -103,16 +106,13 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset of a significand from its octave's middle, where it is that of the `f32` with these bits, or between
-    /// that and the next.
+    /// The offset of a significand, whose top bit is set, from the octave's middle; `down` is 1 where its exponent is below
+    /// that of the octave's top, or else 0.
     #[inline(always)]
-    pub(crate) const fn offset(top: u32, bits: u32, significand: u32) -> i32 {
-        const FRACTION: u32 = (1 << 23) - 1;
-        // 1 where the exponent is below that of the octave's top.
-        let down = (top & FRACTION).wrapping_sub(bits & FRACTION) >> 31;
+    pub(crate) const fn offset(top: u32, significand: u32, down: u32) -> i32 {
         let top = top << 8 | 1 << 31;
         // Doubled, so that the offset fills the word; what passes its end comes back.
-        (significand >> down << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
+        (significand >> (down & 31) << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
     }
 
     /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
@@ -155,7 +155,13 @@ impl Octave {
 
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
     /// in `u`, in which time's slope across the octave measures it.
-    const fn keeps_promise(&self, exposure: &Exposure, part: &Part, middle: f64, scale: f64) -> bool {
+    const fn keeps_promise(
+        &self,
+        exposure: &Exposure,
+        part: &Part,
+        middle: f64,
+        scale: f64,
+    ) -> bool {
         // What one unit of x and one ulp of u are to each other.
         let ulp = part.ulp() / part.width();
         let mut i = 0;

@@ -187,7 +187,8 @@ const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     let half = unit >> 1;
     let (first, second) = (power_of_two(unit - half), power_of_two(half + 48));
     let second = if back { -second } else { second };
-    let (base, hi, lo) = (base * power_of_two(48), way.hi * first * second, way.lo * first * second);
+    let (base, hi, lo) =
+        (base * power_of_two(48), way.hi * first * second, way.lo * first * second);
     // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
     let (rough, least) = (base + hi, power_of_two(48 - 126));
     let places = if rough.abs() >= least {

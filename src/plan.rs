@@ -17,7 +17,7 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{LEAST, Octave, Unit, floor_bits, top};
+use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, top};
 use crate::pair::{Pair, exponent, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
@@ -56,8 +56,9 @@ impl<const CELLS: usize> Plan<CELLS> {
             Err(error) => return Err(error),
         };
         let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
-        let unit = exponent_of_greater(exposure.start(0), exposure.start(1)) - 61;
-        let starts = [in_units(exposure.start(0) as f64, unit), in_units(exposure.start(1) as f64, unit)];
+        let unit = unit_for(exposure.start(0), exposure.start(1));
+        let starts =
+            [in_units(exposure.start(0) as f64, unit), in_units(exposure.start(1) as f64, unit)];
         let (mut base, mut slope, mut plateau) = (0, 0, [0; 2]);
         let mut serves = true;
         if open < close {
@@ -71,7 +72,8 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (from, to) = (floor_bits(from), floor_bits(to));
                 // At 1 the end is exact.
                 let last = 1.0f32.to_bits() - 1;
-                plateau = [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
+                plateau =
+                    [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
             }
         }
         let mut octaves = [[Octave::NONE; CELLS]; 2];
@@ -142,7 +144,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     fn by_octave(&self, side: usize, floor: u32, ceil: u32, significand: u32) -> Option<i64> {
         let (octave, top) = self.octave(side, ceil)?;
-        octave.exists().then(|| octave.time(Octave::offset(top, floor, significand)))
+        let down = (octave.top >> 23).wrapping_sub(floor >> 23);
+        octave.exists().then(|| octave.time(Octave::offset(top, significand, down)))
     }
 
     /// The time on the plateau's line, in units, if `u` is on it.
@@ -163,7 +166,12 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (side, a) = Self::count(u);
                 let bits = a.to_bits();
                 match self.octave(side, bits) {
-                    Some((octave, top)) => octave.time(Octave::offset(top, bits, bits << 8 | 1 << 31)),
+                    Some((octave, top)) => {
+                        // The octaves of one side share the fraction of their tops.
+                        const FRACTION: u32 = (1 << 23) - 1;
+                        let down = (top & FRACTION).wrapping_sub(bits & FRACTION) >> 31;
+                        octave.time(Octave::offset(top, bits << 8 | 1 << 31, down))
+                    }
                     None => return self.searched(u),
                 }
             }
@@ -177,11 +185,11 @@ impl<const CELLS: usize> Plan<CELLS> {
         (high | (time as u32 != 0) as i32) as f32 * self.scale
     }
 
-    /// The same for a time near 0. It is 0 where an octave has no polynomial.
+    /// The same for a time near 0, or where an octave has no polynomial.
     #[cold]
     #[inline(never)]
     fn near_zero(&self, u: f32, time: i64) -> f32 {
-        if time == 0 {
+        if time == NO_TIME {
             return self.searched(u);
         }
         // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
@@ -252,11 +260,12 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 }
 
-/// The exponent of the greater magnitude; that of the least `f32` where both are 0.
-const fn exponent_of_greater(a: f32, b: f32) -> i32 {
-    let most = if a.abs() > b.abs() { a.abs() } else { b.abs() };
-    let most = if most > 0.0 { most } else { f32::from_bits(1) };
-    ((most as f64).to_bits() >> 52) as i32 - 1023
+/// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².
+const fn unit_for(start: f32, end: f32) -> i32 {
+    let (start, end) = (start as f64, end as f64);
+    let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
+    let most = if end - start > most { end - start } else { most };
+    (most.to_bits() >> 52) as i32 - 1023 - 61
 }
 
 /// A time in units of `2^e`, rounded to one.

@@ -20,9 +20,9 @@ use crate::solve::{Anchor, ONE, Offset, solve};
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
-/// An error in time, relative to the way from the ramp's end: a quarter of the least distance between neighbours, so that
-/// these keep their order.
-const TIME_ERROR: f32 = 1.0 / (1 << 26) as f32;
+/// An error in time, relative to the way from the ramp's end: an eighth of the least distance between neighbours, also of
+/// those of [`on_grid`], so that these keep their order.
+const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// A slope from a quarter to half of a ramp's mean `t'`.
 const SLOW: f32 = 0.25 * LENGTH / ONE;
@@ -87,10 +87,10 @@ struct End {
 }
 
 /// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. All in it counts away from
-/// the nearer end, in single precision but for the mass.
+/// the nearer end; place and mass are negative where that is the later one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// How far from the nearer end; negative where that is the later one.
+    /// How far from the nearer end.
     place: f32,
     /// The mass between that end and here.
     mass: Pair,
@@ -119,7 +119,13 @@ pub(crate) struct Place {
 
 impl Place {
     /// A place on the plateau, on the way from one end of it to the other.
-    pub(crate) const fn on_way(time: f32, until: f32, back: bool, elapsed: Pair, unit: i32) -> Self {
+    pub(crate) const fn on_way(
+        time: f32,
+        until: f32,
+        back: bool,
+        elapsed: Pair,
+        unit: i32,
+    ) -> Self {
         Self { time, until, back, elapsed, unit, evaluations: 0 }
     }
 
@@ -183,14 +189,10 @@ impl Ramp {
         let unit = unit_of_time(times[0], times[3]);
         let per_unit = f64::from_bits(((1023 - unit) as u64) << 52);
         let per_mass = unit_of_mass(share) as f64 * WHOLE as f64 / area;
-        let masses = [
-            in_places(seen[0].collected(), per_mass),
-            in_places(seen[1].collected(), per_mass),
-        ];
-        let elapsed = [
-            in_places(seen[0].elapsed().c, per_unit),
-            in_places(seen[1].elapsed().c, per_unit),
-        ];
+        let masses =
+            [in_places(seen[0].collected(), per_mass), in_places(seen[1].collected(), per_mass)];
+        let elapsed =
+            [in_places(seen[0].elapsed().c, per_unit), in_places(seen[1].elapsed().c, per_unit)];
         let ends = [
             End::new(times[0], &elapsed[0], &masses[0]),
             End::new(times[3], &elapsed[1], &masses[1]),
@@ -210,8 +212,8 @@ impl Ramp {
                     let c = integral(openness.around(p), elapsed.around(p));
                     let (c, _): ([Pair; 5], Pair) = in_places(c, per_mass);
                     flats[kind] = Flat {
-                        place: if side == 0 { place } else { -place },
-                        mass: series.at(place),
+                        place: seen_from(side, Pair::new(place)).hi,
+                        mass: seen_from(side, series.at(place)),
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };
                 }
@@ -242,7 +244,7 @@ impl Ramp {
     /// The mass collected since the end that faces a side.
     #[inline(always)]
     const fn collected(&self, side: usize) -> Series<'_> {
-        let last = if side == 0 { self.sextic } else { self.sextic.negated() };
+        let last = seen_from(side, self.sextic);
         Series { c: &self.end(side).mass, last }
     }
 
@@ -256,42 +258,37 @@ impl Ramp {
     /// The anchor whose mass is nearest to a target, seen from a side.
     #[inline(always)]
     const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
-        let share = self.share.scaled(unit_of_mass(self.share));
         // The other end, then the minima.
-        let (mut beyond, mut nearest) = (target.difference(share), 2);
+        let from_other = target.minus(self.share.scaled(unit_of_mass(self.share)));
+        let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
-            let flat = &self.flats[i];
-            let is_ours = (flat.place < 0.0) == (side == 1);
-            let mass = if is_ours { flat.mass } else { share.minus(flat.mass) };
-            let from_flat = target.difference(mass);
-            if from_flat.abs() < beyond.abs() {
-                (beyond, nearest) = (from_flat, i);
+            let mass = seen_from(side, self.flats[i].mass);
+            let from_end = if mass.hi < 0.0 { from_other } else { target };
+            let from_flat = from_end.difference(mass);
+            if from_flat.abs() < sought.abs() {
+                (sought, nearest) = (from_flat, i);
             }
             i += 1;
         }
-        if target.hi <= beyond.abs() {
-            let c = self.single(side);
-            return Anchor { place: Pair::ZERO, back: false, limit: ONE, c, sought: target.hi };
+        let c = self.single(side);
+        if target.hi <= sought.abs() {
+            return Anchor { place: Pair::ZERO, c, sought: target.hi };
         }
-        let (back, sought) = (beyond < 0.0, beyond.abs());
+        let [.., c5, c6] = c;
         if nearest == 2 {
-            let c = self.single(side ^ 1);
-            return Anchor { place: Pair::new(ONE), back, limit: ONE, c, sought };
+            let [c1, c2, c3, c4, c5, _] = self.single(side ^ 1);
+            return Anchor { place: Pair::new(ONE), c: [c1, -c2, c3, -c4, c5, c6], sought };
         }
         let Flat { place, c: [c1, c2, c3, c4], .. } = self.flats[nearest & 1];
-        let from = (place < 0.0) as usize;
-        let [_, _, _, _, c5, c6] = self.single(from);
-        let c5 = c5 + 6.0 * c6 * place.abs();
-        // The flat counts away from its own end: against the way of the search, every second sign is the other.
-        let c = if back == (from == side) {
-            [c1, -c2, c3, -c4, c5, -c6]
-        } else {
-            [c1, c2, c3, c4, c5, c6]
-        };
-        let place = if from == side { Pair::new(place.abs()) } else { Pair::sum(ONE, -place.abs()) };
-        let limit = if back { place.hi } else { ONE - place.hi };
-        Anchor { place, back, limit, c, sought }
+        let place = seen_from(side, Pair::new(place)).hi;
+        if place < 0.0 {
+            let place = Pair::sum(ONE, place);
+            let c5 = c5 + 6.0 * c6 * place.hi;
+            return Anchor { place, c: [c1, -c2, c3, -c4, c5, c6], sought };
+        }
+        let c5 = c5 + 6.0 * c6 * place;
+        Anchor { place: Pair::new(place), c: [c1, c2, c3, c4, c5, c6], sought }
     }
 
     /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
@@ -302,7 +299,10 @@ impl Ramp {
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed(&anchor.c, anchor.sought);
-        self.place(side, solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]))
+        self.place(
+            side,
+            solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
+        )
     }
 
     /// The same, seeded as a constant can.
@@ -311,7 +311,10 @@ impl Ramp {
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed_by_bits(&anchor.c, anchor.sought);
-        self.place(side, solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]))
+        self.place(
+            side,
+            solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
+        )
     }
 
     #[inline(always)]
@@ -327,22 +330,13 @@ impl Ramp {
         }
     }
 
-    /// Where the ramp is at `t`, which lies on it.
-    ///
-    /// From the nearer end, with the exact time since. Where the ramp runs across time 0, `f32` are denser there than any
-    /// search is exact: then from the earlier end, with the time since in single precision, so that neighbours that
-    /// differ at all differ by more than the search's error, and the order of times is kept.
+    /// Where the ramp is at `t`, which lies on it: from the nearer end, by the exact time since.
     #[inline]
     pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
         let [start, end] = [self.ends[0].time, self.ends[1].time];
+        let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
         let (before, after) = (Pair::sum(t, -start), Pair::sum(end, -t));
-        let (side, way) = if start < 0.0 && end > 0.0 {
-            (0, Pair::new(before.hi))
-        } else if before.difference(after) > 0.0 {
-            (1, after)
-        } else {
-            (0, before)
-        };
+        let (side, way) = if before.difference(after) > 0.0 { (1, after) } else { (0, before) };
         let target = scaled(way, -unit_of_time(start, end));
         let offset = self.offset_at(side, target);
         OnRamp { ramp: self, side, offset }
@@ -353,18 +347,13 @@ impl Ramp {
     fn offset_at(&self, side: usize, target: Pair) -> Offset {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor =
-            Anchor { place: Pair::ZERO, back: false, limit: ONE, c, sought: target.hi };
+        let mut anchor = Anchor { place: Pair::ZERO, c, sought: target.hi };
         // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
         let slowest = -c2 / (3.0 * c3);
         if c3 > 0.0 && slowest > 0.0 && slowest < ONE && c1 + c2 * slowest < SLOW {
-            let beyond = target.difference(series.at(slowest));
-            if beyond.abs() < target.hi {
-                let back = beyond < 0.0;
-                let [c1, c2, c3] = around(series, slowest);
-                let c = if back { [c1, -c2, c3] } else { [c1, c2, c3] };
-                let limit = if back { slowest } else { ONE - slowest };
-                anchor = Anchor { place: Pair::new(slowest), back, limit, c, sought: beyond.abs() };
+            let sought = target.difference(series.at(slowest));
+            if sought.abs() < target.hi {
+                anchor = Anchor { place: Pair::new(slowest), c: around(series, slowest), sought };
             }
         }
         let seed = seed(&anchor.c, anchor.sought);
@@ -372,9 +361,33 @@ impl Ramp {
     }
 }
 
+/// A number that is negative for what counts from the later end, as it is seen from a side: negative for the other end.
+#[inline(always)]
+const fn seen_from(side: usize, x: Pair) -> Pair {
+    if side == 0 { x } else { x.negated() }
+}
+
 impl End {
     const fn new(time: f32, elapsed: &([Pair; 2], Pair), mass: &([Pair; 5], Pair)) -> Self {
         Self { time, elapsed: elapsed.0, mass: mass.0 }
+    }
+}
+
+/// `t` to half an ulp of the greater end of a ramp that runs across time 0, where `f32` lie denser than any search is exact.
+#[inline(never)]
+fn on_grid(start: f32, end: f32, t: f32) -> f32 {
+    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
+    if t.abs() >= half || t == start || t == end {
+        return t;
+    }
+    // The sum is below 2 half, where the ulp is the grid's.
+    let t = (t + 1.5 * half) - 1.5 * half;
+    if t < start {
+        start
+    } else if t > end {
+        end
+    } else {
+        t
     }
 }
 

@@ -30,14 +30,17 @@ const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
-/// The least root's linear logarithm, with its `k` for the lowest bits.
+/// The least root's linear logarithm, with its `k` for the lowest bits. On the way back, where `sought` is negative, even
+/// powers of the distance have the other sign.
 #[inline(always)]
-const fn least_root(c: &[f32], log: i32) -> i32 {
+const fn least_root(c: &[f32], sought: f32, log: i32) -> i32 {
+    let back = (sought < 0.0) as u32;
     let mut least = i32::MAX;
     let mut i = 0;
     while i < c.len() {
         let k = i as i32 + 1;
-        let root = divided(log - rough_log(c[i]), k) & !7 | k;
+        let c = f32::from_bits(c[i].to_bits() ^ (back & i as u32) << 31);
+        let root = divided(log - rough_log(c), k) & !7 | k;
         if root < least {
             least = root;
         }
@@ -56,10 +59,10 @@ const fn guess(exponent: i32, fraction: i32) -> f32 {
     f32::from_bits((((exponent + 127) << 23) + (fraction << 3)) as u32)
 }
 
-/// The guess from logarithms alone; all that a constant can use.
+/// The guess of a distance from logarithms alone; all that a constant can use.
 #[inline(always)]
 pub(crate) const fn seed_by_bits(c: &[f32], sought: f32) -> f32 {
-    by_bits(least_root(c, rough_log(sought)))
+    by_bits(least_root(c, sought, rough_log(sought.abs())))
 }
 
 #[inline(always)]
@@ -68,22 +71,22 @@ const fn by_bits(root: i32) -> f32 {
     guess(root >> 20, root & (ONE - 1))
 }
 
-/// The guess by the root that the features choose.
+/// The guess of a distance by the root that the features choose.
 #[inline(always)]
 pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
-    let sought = rough_log(sought);
-    let root = least_root(c, sought);
+    let log = rough_log(sought.abs());
+    let root = least_root(c, sought, log);
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let k = root & 7;
         let i = (k - 1) as usize;
         if (k == 2 || k == 4) && i < c.len() {
-            let divisor = rough_log(c[i]);
+            let divisor = rough_log(c[i].abs());
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
-            let exponent = (sought >> 20) - (divisor >> 20);
+            let exponent = (log >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
             let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-            let ratio = significand((sought as u32 & 0xF_FFFF) << 3)
+            let ratio = significand((log as u32 & 0xF_FFFF) << 3)
                 / significand((divisor as u32 & 0xF_FFFF) << 3);
             let root = square_root(ratio * (1 << rest) as f32);
             let root = if k == 4 { square_root(root) } else { root }.to_bits();

@@ -114,7 +114,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     #[inline]
     fn openness(&self, t: f32) -> (Pair, i32) {
         let (f, unit) = self.plan.exposure.openness(t);
-        if scaled(f, unit).rounded() > 1.0 { (Pair::new(1.0), 0) } else { (f, unit) }
+        let is_above = scaled(f, unit).difference(Pair::new(1.0)) > 0.0;
+        if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 
     /// The normalised density at `t`, `K · opening(t)`.

@@ -60,16 +60,12 @@ const MOVED: f32 = 1.0 / (1 << 16) as f32;
 /// The distance between neighbours, relative to them, at most.
 const ULP: f32 = f32::EPSILON;
 
-/// Where a search starts: a place on the ramp, and the series from there.
+/// Where a search starts: a place on the ramp, and the series around it.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
-    /// Does the search lead back, to smaller places?
-    pub(crate) back: bool,
-    /// How far it may lead: to the end of the ramp. Beyond it the series need not increase.
-    pub(crate) limit: f32,
-    /// What is collected on the way, by powers of the distance.
+    /// What is collected from here, by powers of the distance, which is negative on the way back.
     pub(crate) c: [f32; N],
-    /// What is to be collected on the way.
+    /// What is to be collected from here; negative if the target lies before it.
     pub(crate) sought: f32,
 }
 
@@ -77,8 +73,7 @@ impl<const N: usize> Anchor<N> {
     /// How far from the anchor a place is.
     #[inline(always)]
     const fn distance(&self, p: f32) -> f32 {
-        let distance = (p - self.place.hi) - self.place.lo;
-        if self.back { -distance } else { distance }
+        (p - self.place.hi) - self.place.lo
     }
 }
 
@@ -148,6 +143,7 @@ const fn left<const N: usize>(
     missing: f32,
     s: f32,
 ) -> f32 {
+    let c = core::hint::black_box(c);
     let size = s.abs();
     let y = x.abs() + size;
     let (mut cubes, mut j) = (0.0, N);
@@ -170,18 +166,21 @@ pub(crate) const fn solve<const N: usize>(
     seed: f32,
     [error, most]: [f32; 2],
 ) -> Offset {
-    let Anchor { place, back, limit, ref c, sought } = *anchor;
+    let Anchor { place, ref c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
-    if sought <= 0.5 * error {
+    if sought.abs() <= 0.5 * error {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
     }
-    let sign = if back { -1.0 } else { 1.0 };
-    let near = NEAR * sought + error;
-    let (mut low, mut high) = (0.0f32, limit);
+    let near = NEAR * sought.abs() + error;
+    // The bracket, as distances: from the anchor to the end of the ramp.
+    let is_ahead = sought > 0.0;
+    let (mut low, mut high) = if is_ahead { (0.0, ONE - place.hi) } else { (-place.hi, 0.0) };
+    // At the end of the ramp the density may be 0.
+    let most_at_first = 0.75 * (high - low);
+    let x = if seed < most_at_first { seed } else { most_at_first };
+    let mut x = if is_ahead { x } else { -x };
     let (mut is_near, mut p, mut moved) = (false, 0.0, 0.0f32);
     let mut evaluations = 0;
-    // At the end of the ramp the density may be 0.
-    let mut x = if seed > 0.75 * limit { 0.75 * limit } else { seed };
     loop {
         let local = Taylor::new(c, x);
         evaluations += 1;
@@ -189,46 +188,53 @@ pub(crate) const fn solve<const N: usize>(
         if !is_near && (missing.abs() <= near || evaluations >= NEWTON) {
             is_near = true;
             // What the bracket was made of may have been rounding; from here on signs are certain.
-            (low, high) = (0.0, limit);
+            (low, high) = (-place.hi, ONE - place.hi);
             // Only a place that is an `f32` can be measured.
-            p = place.hi + sign * x;
+            p = place.hi + x;
             let distance = anchor.distance(p);
             moved = distance - x;
-            if moved.abs() > MOVED * x {
-                x = distance;
-                moved = 0.0;
+            if moved.abs() > MOVED * x.abs() {
+                (x, moved) = (distance, 0.0);
                 continue;
             }
         }
         if is_near {
-            missing = sign * target.difference(series.at(p));
+            missing = target.difference(series.at(p));
             evaluations += 1;
         }
-        *(if missing > 0.0 { &mut low } else { &mut high }) = if x > 0.0 { x } else { 0.0 };
-        let far = if is_near || high < FARTHER * x { high } else { FARTHER * x };
+        *(if missing > 0.0 { &mut low } else { &mut high }) = x;
         let mut step = local.step(missing);
+        let (mut least, mut greatest) = (low, high);
+        if !is_near {
+            let far = FARTHER * x;
+            if is_ahead {
+                greatest = if high < far { high } else { far };
+            } else {
+                least = if low > far { low } else { far };
+            }
+        }
         // Written so that a NaN is no step.
-        if !(x + step >= low && x + step <= far) {
-            step = 0.5 * (low + far) - x;
+        if !(x + step >= least && x + step <= greatest) {
+            step = 0.5 * (least + greatest) - x;
         }
-        if is_near {
-            let is_last = evaluations >= MAX_EVALUATIONS - 1;
-            let error = if step.abs() <= ULP * p { most } else { error };
-            if is_last || left(c, [x, moved], &local, missing, step) <= 0.75 * error {
-                let Pair { hi, lo } = Pair::sum(p, sign * step);
-                return Offset { x: hi, rest: lo, evaluations };
-            }
-            // As many as there are `f32` in the bracket; it must shrink, on average, as bisection would shrink it.
-            let width = high.to_bits().wrapping_sub(low.to_bits());
-            if evaluations >= NEWTON && width > 1 << 30 >> ((evaluations + 1 - NEWTON) / 2) {
-                step = f32::from_bits(low.to_bits().wrapping_add(width / 2)) - x;
-            }
-        }
-        if is_near {
-            p += sign * step;
-            (x, moved) = (anchor.distance(p), 0.0);
-        } else {
+        if !is_near {
             x += step;
+            continue;
         }
+        let is_last = evaluations >= MAX_EVALUATIONS - 1;
+        let error = if step.abs() <= ULP * p { most } else { error };
+        if is_last || left(c, [x, moved], &local, missing, step) <= 0.75 * error {
+            let Pair { hi, lo } = Pair::sum(p, step);
+            return Offset { x: hi, rest: lo, evaluations };
+        }
+        p = if evaluations < NEWTON { p + step } else { middle(place.hi + low, place.hi + high) };
+        (x, moved) = (anchor.distance(p), 0.0);
     }
+}
+
+/// The middle of two places by their bits: half of the `f32` between lie on either side.
+#[inline(always)]
+const fn middle(low: f32, high: f32) -> f32 {
+    let low = if low > 0.0 { low.to_bits() } else { 0 };
+    f32::from_bits(low + high.to_bits().saturating_sub(low) / 2)
 }
