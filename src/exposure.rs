@@ -7,15 +7,13 @@
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
-use crate::pair::{Pair, rounded_sum};
+use crate::pair::{Pair, fixed, rounded_sum};
 use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, WHOLE_EXPONENT, scaled};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
 /// these keep their order.
 pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
-/// To fit a polynomial by: 1/16 of an ulp.
-const FOR_FIT: f32 = 1.0 / (1 << 28) as f32;
-/// For a fraction with more bits.
+/// For a fraction with more bits, and to fit polynomials by.
 pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +21,8 @@ pub(crate) struct Exposure {
     ramps: [Ramp; 2],
     /// The plateau's fraction of the exposure, in [`WHOLE`].
     plateau: Pair,
-    /// `A = ∫ f dt`
-    pub(crate) area: f64,
+    /// `K = 1/A`
+    pub(crate) normalization: f64,
 }
 
 /// Where a fraction is collected.
@@ -81,13 +79,19 @@ impl Exposure {
             return Err(CurveError::AreaOutOfRange);
         }
         let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];
-        Ok(Self { ramps, plateau: Pair::from_f64(plateau / area * WHOLE as f64), area })
+        let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
+        Ok(Self { ramps, plateau, normalization: 1.0 / area })
     }
 
     /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
     #[inline(always)]
     const fn ramp(&self, index: usize) -> &Ramp {
         &self.ramps[index & 1]
+    }
+
+    /// `A = ∫ f dt`
+    pub(crate) const fn area(&self) -> f64 {
+        1.0 / self.normalization
     }
 
     /// The time from which a side counts.
@@ -106,6 +110,18 @@ impl Exposure {
         [near / WHOLE as f64, (near + self.plateau.to_f64()) / WHOLE as f64]
     }
 
+    /// The same of side 0 in units of 2⁻⁶⁴, rounded; at most all ones.
+    pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
+        const fn words(x: Pair) -> u64 {
+            // In 2⁻⁶³ at first, for 1 is one too many of the others.
+            let units =
+                fixed(x.hi, WHOLE_EXPONENT - 63).wrapping_add(fixed(x.lo, WHOLE_EXPONENT - 63));
+            if units < 0 { u64::MAX } else { (units as u64) << 1 }
+        }
+        let near = self.ramps[0].share;
+        [words(near), words(near.plus(self.plateau))]
+    }
+
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
     #[inline(always)]
     const fn section(&self, side: usize, a: Pair) -> Section {
@@ -119,14 +135,9 @@ impl Exposure {
             return Section::Ramp(side ^ 1, behind);
         }
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
-        let (area, exponent) = significand(self.area);
-        Section::Plateau(Place::on_way(
-            time,
-            until,
-            side == 1,
-            beyond.times(area),
-            exponent - WHOLE_EXPONENT,
-        ))
+        let (k, exponent) = significand(self.normalization);
+        let unit = -exponent - WHOLE_EXPONENT;
+        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(reciprocal(k)), unit))
     }
 
     /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
@@ -146,7 +157,7 @@ impl Exposure {
         let place = match self.section(side, a) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, target) => {
-                self.ramp(ramp).at_mass_const(side, target, [FOR_FIT * a.hi, FOR_FRACTION * a.hi])
+                self.ramp(ramp).at_mass_const(side, target, [FOR_TICK * a.hi, FOR_FRACTION * a.hi])
             }
         };
         let elapsed = place.since_f64(self.start(side));
@@ -191,18 +202,8 @@ impl Exposure {
     /// `K f` for an openness `f` in units of `2^unit`.
     #[inline]
     pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
-        let (k, exponent) = self.reciprocal();
+        let (k, exponent) = significand(self.normalization);
         rounded_sum(0.0, f.times(k), unit + exponent, false)
-    }
-
-    /// `K = 1/A`, as a number in (1/2, 1] and the exponent of its unit.
-    #[inline(always)]
-    fn reciprocal(&self) -> (Pair, i32) {
-        let (area, exponent) = significand(self.area);
-        let hi = 1.0 / area.hi;
-        // What hi A lacks of 1 tells the rest: Newton's step.
-        let product = Pair::new(hi).times(area);
-        (Pair { hi, lo: ((1.0 - product.hi) - product.lo) * hi }, -exponent)
     }
 
     /// The fraction collected by `t`.
@@ -212,7 +213,7 @@ impl Exposure {
         let (mass, on) = match self.at(t) {
             At::Outside => return if t > self.start(1) { 1.0 } else { 0.0 },
             At::Plateau => {
-                let (k, exponent) = self.reciprocal();
+                let (k, exponent) = significand(self.normalization);
                 let way = Pair::sum(t, -self.plateau_start(0)).times(k);
                 (self.ramps[0].share.plus(scaled(way, exponent + WHOLE_EXPONENT)), None)
             }
@@ -260,6 +261,14 @@ impl Exposure {
 /// So near to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise is
 /// 2⁻²⁹ at the most (see the text of the module `solve`).
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
+
+/// `1/x`, to 2⁻⁴⁶, for `x` in [1, 2).
+const fn reciprocal(x: Pair) -> Pair {
+    let hi = 1.0 / x.hi;
+    // What hi x lacks of 1 tells the rest: Newton's step.
+    let product = Pair::new(hi).times(x);
+    Pair { hi, lo: ((1.0 - product.hi) - product.lo) * hi }
+}
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.
 #[inline(always)]

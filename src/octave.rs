@@ -60,7 +60,7 @@ const PEAKS: [f64; DEGREE + 2] = [
 const TIME_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
 /// The error in `u` that it may have, in ulp. Below 1/2 no two neighbouring `u` can change places,
 /// not even where one octave hands over to the next.
-const ULP_ERROR: f64 = 0.4;
+const ULP_ERROR: f64 = 0.45;
 /// What the rounding of products and of the middle adds at most, in the unit of the coefficients.
 const NOISE: f64 = 2.5;
 
@@ -76,24 +76,33 @@ pub(crate) struct Unit {
 /// The bits of the least top: below 2⁻³⁰ there are no octaves, so that the bits of 0 are not among theirs.
 pub(crate) const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
 
-/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none.
+/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none: some to choose from, the best first.
 ///
 /// It is 1/2 if the near ramp goes beyond that, or else where the near ramp ends. If the far ramp begins below 1/2, too, it is that
-/// times a power of two, so that the octaves reach 1/2.
-pub(crate) const fn top(exposure: &Exposure, side: usize) -> u32 {
+/// times a power of two, so that the octaves reach 1/2. Otherwise it may as well be somewhat more, which leaves the widest
+/// octave less to serve.
+pub(crate) const fn tops(exposure: &Exposure, side: usize) -> [u32; 3] {
     const HALF: u32 = 0.5f32.to_bits();
     let [near, far] = exposure.joins(side);
-    let join = floor_bits(if near > 0.0 { near } else { far });
-    if join >= HALF {
-        return if near > 0.0 { HALF } else { 0 };
+    let join = if near > 0.0 { near } else { far };
+    let floor = floor_bits(join);
+    // Next to 1/2 is 1/2 for a polynomial.
+    if floor + 4 >= HALF {
+        return [if near > 0.0 { HALF } else { 0 }, 0, 0];
     }
-    if far >= 0.5 {
-        join
-    } else if join < LEAST {
-        HALF
+    // Up to the join, and where the plateau's line follows, which is asked before, to the next `f32`.
+    let is_plateau = near > 1.0 / 512.0 && near < far;
+    let bits = if is_plateau && (f32::from_bits(floor) as f64) < join { floor + 1 } else { floor };
+    // Below 2⁻⁹ the line does not serve, and what is beyond the join has to be searched for.
+    if far >= 0.5 && near <= 1.0 / 512.0 {
+        [bits, 0, 0]
+    } else if far >= 0.5 {
+        [bits, floor_bits(1.25 * near), floor_bits(1.375 * near)]
+    } else if bits < LEAST {
+        [HALF, 0, 0]
     } else {
         // As many octaves up as reach 1/2.
-        join + ((HALF - join + (1 << 23) - 1) >> 23 << 23)
+        [bits + ((HALF - bits + (1 << 23) - 1) >> 23 << 23), 0, 0]
     }
 }
 
@@ -140,12 +149,17 @@ impl Octave {
     pub(crate) const fn fit(exposure: &Exposure, unit: &Unit, side: usize, top: u32) -> Self {
         let high = f32::from_bits(top) as f64;
         let [near, far] = exposure.joins(side);
-        // The part that lies on a ramp.
-        let from = if near >= high || far <= 0.5 * high { 0.5 * high } else { far };
-        let to = if high > 0.5 { 0.5 } else { high };
+        // The part that lies on a ramp: on the near one, or behind what is not.
+        let (half, high_or_half) = (0.5 * high, if high > 0.5 { 0.5 } else { high });
+        let (from, to) = if near > half {
+            // Where the far ramp follows within a trace, the polynomial has to serve its start, too.
+            (half, if near < far && near < high { near } else { high })
+        } else {
+            (if far > half { far } else { half }, high_or_half)
+        };
         let none = Self { top, ..Self::NONE };
         // Below 2⁻⁹ the plateau's line has not all of it.
-        let is_behind_plateau = near < far && from > 0.5 * high;
+        let is_behind_plateau = near < far && from > half;
         if from >= to || is_behind_plateau && high < 1.0 / 128.0 {
             return none;
         }
@@ -162,8 +176,6 @@ impl Octave {
         middle: f64,
         scale: f64,
     ) -> bool {
-        // What one unit of x and one ulp of u are to each other.
-        let ulp = part.ulp() / part.width();
         let mut i = 0;
         while i < PEAKS.len() {
             let x = part.offset(PEAKS[i]);
@@ -172,10 +184,18 @@ impl Octave {
             // What `f64` cannot tell of a time so far from the side's start counts, too.
             let error = error.abs() + exact / (1u64 << 51) as f64;
             let size = exposure.size_of_time(part.side, exact);
+            // What an ulp of u is in time: at the ends the lesser one, since time may run slower beyond a join.
+            let ulp = self.slope(x) * scale * part.ulp() / part.width();
+            let beyond = if i == 0 {
+                exact - exposure.elapsed(part.side, part.middle - part.half - part.ulp())
+            } else if i + 1 == PEAKS.len() {
+                exposure.elapsed(part.side, part.middle + part.half + part.ulp()) - exact
+            } else {
+                ulp
+            };
+            let ulp = if beyond < ulp { beyond } else { ulp };
             // Written so that a NaN fails.
-            if !(error <= TIME_ERROR * size
-                && error + NOISE * scale <= ULP_ERROR * self.slope(x) * scale * ulp)
-            {
+            if !(error <= TIME_ERROR * size && error + NOISE * scale <= ULP_ERROR * ulp) {
                 return false;
             }
             i += 1;

@@ -162,6 +162,23 @@ pub(crate) const fn exponent(x: f32) -> i32 {
     (x.to_bits() >> 23 & 0xFF) as i32 - 127
 }
 
+/// `x` in units of `2^e`, rounded towards 0; below 2⁶³ of them.
+pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
+    let (bits, exponent) = (x.to_bits(), exponent(x));
+    let significand = (bits & 0x7F_FFFF) as i64;
+    let (significand, exponent) =
+        if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
+    let up = exponent - 23 - e;
+    let units = if up >= 0 {
+        significand << (up & 63)
+    } else if up > -24 {
+        significand >> (-up & 63)
+    } else {
+        0
+    };
+    if x < 0.0 { -units } else { units }
+}
+
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
 /// [-252, 22].
 #[inline(always)]

@@ -17,8 +17,8 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, top};
-use crate::pair::{Pair, exponent, power_of_two};
+use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, tops};
+use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub(crate) struct Plan<const CELLS: usize> {
     scale: f32,
     /// The bits of the `f32` around the plateau: every `u` above the first and up to the second is on its line.
     plateau: [u32; 2],
-    /// The plateau's line in that unit: its time continued to `u = 0`, and its slope, which is the area.
+    /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
     /// For each side, the octaves of `a`, the widest first.
@@ -57,8 +57,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         };
         let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
         let unit = unit_for(exposure.start(0), exposure.start(1));
-        let starts =
-            [in_units(exposure.start(0) as f64, unit), in_units(exposure.start(1) as f64, unit)];
+        let starts = [fixed(exposure.start(0), unit), fixed(exposure.start(1), unit)];
         let (mut base, mut slope, mut plateau) = (0, 0, [0; 2]);
         let mut serves = true;
         if open < close {
@@ -79,11 +78,19 @@ impl<const CELLS: usize> Plan<CELLS> {
         let mut octaves = [[Octave::NONE; CELLS]; 2];
         let mut side = 0;
         while side < 2 {
-            let mut top = if serves { top(&exposure, side) } else { 0 };
+            let unit = Unit { exponent: unit, starts };
+            let tops = tops(&exposure, side);
+            let (mut top, mut i) = (if serves { tops[0] } else { 0 }, 1);
+            while CELLS > 0 && i < tops.len() && tops[i] >= LEAST && top >= LEAST {
+                if Octave::fit(&exposure, &unit, side, top).exists() {
+                    break;
+                }
+                top = tops[i];
+                i += 1;
+            }
             let mut index = 0;
             while index < CELLS && top >= LEAST {
-                octaves[side][index] =
-                    Octave::fit(&exposure, &Unit { exponent: unit, starts }, side, top);
+                octaves[side][index] = Octave::fit(&exposure, &unit, side, top);
                 top -= 1 << 23;
                 index += 1;
             }
@@ -103,14 +110,14 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time from which a side counts, in units.
     pub(crate) const fn start_in_units(&self, side: usize) -> i64 {
-        in_units(self.exposure.start(side) as f64, self.unit())
+        fixed(self.exposure.start(side), self.unit())
     }
 
     /// The plateau's line in doubles: its time at `u = 0`, its slope, and the `u` that it serves.
     #[inline(always)]
     pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
-        let base = self.base as f64 * self.unit_of_time() as f64;
-        (base, self.exposure.area, self.plateau.map(f32::from_bits))
+        let unit = self.unit_of_time() as f64;
+        (self.base as f64 * unit, self.slope as f64 * unit, self.plateau.map(f32::from_bits))
     }
 
     /// The side from which `u` is counted and how far: the lesser of `u` and `1 - u`. Branchless, for the side is
@@ -233,11 +240,12 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau in `u` that counts 2⁻⁶⁴: its line serves what is above the first and below the second.
     pub(crate) fn plateau_in_words(&self) -> [u64; 2] {
-        let [from, to] = self.plateau.map(f32::from_bits);
-        let [near, far] = self.exposure.joins(0);
-        // A cast saturates.
-        let word = |u: f64| (u * 18446744073709551616.0) as u64;
-        if to > from { [word(near.max(from as f64)), word(far)] } else { [u64::MAX, 0] }
+        let [from, to] = self.plateau;
+        if from >= to {
+            return [u64::MAX, 0];
+        }
+        let [near, far] = self.exposure.joins_in_words();
+        [near.max(1 << 55), far]
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.

@@ -36,7 +36,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
             return u32::MAX;
         }
         // The cast rounds down and saturates.
-        let most = (self.plan.exposure.area / min_gap as f64) as u32;
+        // The area is known to some 2⁻⁵¹, so what is so near to the next number is that.
+        let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
+        let most = (self.plan.exposure.area() * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
     }
 

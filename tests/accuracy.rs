@@ -14,7 +14,7 @@ use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 const FORWARD: f64 = 0.6;
 const FORWARD_MEAN: f64 = 0.215;
 /// Of an octave's polynomial, in ulp of u, so that neighbours can't change places.
-const DIRECT: f64 = 0.4;
+const DIRECT: f64 = 0.45;
 /// Of the area and what follows from it, in ulp.
 const SCALAR: f64 = 1.0;
 
