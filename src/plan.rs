@@ -21,6 +21,13 @@ use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, tops};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
+/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first, and by its bounds.
+pub(crate) struct Words {
+    first: u32,
+    count: u32,
+    bounds: [u64; 2],
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
@@ -238,21 +245,30 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
-    /// The plateau in `u` that counts 2⁻⁶⁴: its line serves what is above the first and below the second.
-    pub(crate) fn plateau_in_words(&self) -> [u64; 2] {
+    /// The plateau in `u` that counts 2⁻⁶⁴.
+    pub(crate) fn plateau_in_words(&self) -> Words {
         let [from, to] = self.plateau;
         if from >= to {
-            return [u64::MAX, 0];
+            return Words { first: 0, count: 0, bounds: [u64::MAX, 0] };
         }
         let [near, far] = self.exposure.joins_in_words();
-        [near.max(1 << 55), far]
+        let bounds = [near.max(1 << 55), far];
+        let [first, last] = bounds.map(|bound| (bound >> 32) as u32);
+        Words { first: first + 1, count: last.saturating_sub(first + 1), bounds }
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
     #[inline(always)]
-    pub(crate) fn direct_in_words(&self, u: u64, plateau: [u64; 2]) -> Option<i64> {
-        if u > plateau[0] && u < plateau[1] {
-            return Some(self.on_line((u >> 32) as u32));
+    pub(crate) fn direct_in_words(&self, u: u64, plateau: &Words) -> Option<i64> {
+        let word = (u >> 32) as u32;
+        let place = word.wrapping_sub(plateau.first);
+        if place < plateau.count {
+            return Some(self.on_line(word));
+        }
+        // In the words that hold the plateau's ends all bits count.
+        let is_at_end = place.wrapping_add(1) <= plateau.count.wrapping_add(1);
+        if is_at_end && u > plateau.bounds[0] && u < plateau.bounds[1] {
+            return Some(self.on_line(word));
         }
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };

@@ -3,7 +3,7 @@
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
 use crate::pair::Pair;
-use crate::plan::Plan;
+use crate::plan::{Plan, Words};
 use crate::ramp::{Place, WHOLE, scaled};
 use crate::shutter::ShutterCurve;
 
@@ -159,7 +159,7 @@ struct Ticks<'a, const CELLS: usize> {
     plan: &'a Plan<CELLS>,
     fractions: Fractions,
     tick_hz: u32,
-    plateau: [u64; 2],
+    plateau: Words,
     direct: Option<Direct>,
 }
 
@@ -185,7 +185,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let odd = 2 * i as u64 + 1;
         if let Some(direct) = &self.direct
             && let Some(time) =
-                self.plan.direct_in_words(self.fractions.in_words(odd), self.plateau)
+                self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)
         {
             return direct.tick(time);
         }

@@ -100,7 +100,7 @@ struct Ramp {
 
 impl Ramp {
     fn new(points: [(f32, f32); 4], is_late: bool) -> Self {
-        let forwards = Lifted::new(points, is_late);
+        let forwards = Lifted::new(points);
         let (early, late) = (End::new(&forwards, 1.0), End::new(&forwards.reversed(), -1.0));
         let extrema = early.extrema();
         let ends = if is_late { [late, early] } else { [early, late] };
