@@ -164,11 +164,19 @@ impl Exposure {
         if side == 0 { elapsed } else { -elapsed }
     }
 
-    /// What an error in time is relative to: the time itself, or, where the curve runs across time 0, the greater end.
+    /// What an error in time is relative to: the time itself, or, where the curve runs across time 0, the greater end; but
+    /// no more than the interval, in which ticks count.
     pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
         let (start, end) = (self.start(0) as f64, self.start(1) as f64);
         let time = if side == 0 { start + elapsed } else { end - elapsed };
-        if start < 0.0 && end > 0.0 { if end > -start { end } else { -start } } else { time.abs() }
+        let size = if !(start < 0.0 && end > 0.0) {
+            time.abs()
+        } else if end > -start {
+            end
+        } else {
+            -start
+        };
+        if size < end - start { size } else { end - start }
     }
 
     /// Where `t` lies.

@@ -115,13 +115,14 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset of a significand, whose top bit is set, from the octave's middle; `down` is 1 where its exponent is below
-    /// that of the octave's top, or else 0.
+    /// The offset of a significand, whose top bit is set, from the octave's middle.
     #[inline(always)]
-    pub(crate) const fn offset(top: u32, significand: u32, down: u32) -> i32 {
+    pub(crate) const fn offset(top: u32, significand: u32) -> i32 {
         let top = top << 8 | 1 << 31;
+        // What is above the octave's top has the exponent below.
+        let down = (significand > top) as u32;
         // Doubled, so that the offset fills the word; what passes its end comes back.
-        (significand >> (down & 31) << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
+        (significand >> down << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
     }
 
     /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
@@ -153,14 +154,14 @@ impl Octave {
         let (half, high_or_half) = (0.5 * high, if high > 0.5 { 0.5 } else { high });
         let (from, to) = if near > half {
             // Where the far ramp follows within a trace, the polynomial has to serve its start, too.
-            (half, if near < far && near < high { near } else { high })
+            (half, if near < far && near < high { near } else { high_or_half })
         } else {
             (if far > half { far } else { half }, high_or_half)
         };
         let none = Self { top, ..Self::NONE };
         // Below 2⁻⁹ the plateau's line has not all of it.
-        let is_behind_plateau = near < far && from > half;
-        if from >= to || is_behind_plateau && high < 1.0 / 128.0 {
+        let is_beside_plateau = near < far && (from > half || near > half && near < high);
+        if from >= to || is_beside_plateau && high < 1.0 / 128.0 {
             return none;
         }
         let part = Part { side, top, high, middle: 0.5 * (from + to), half: 0.5 * (to - from) };

@@ -215,8 +215,9 @@ const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     } else {
         least
     };
-    let sum = Pair::sum(places + base, hi);
-    ((sum.hi + odd_sum(sum.lo, lo)) - places) * power_of_two(-48)
+    let near = Pair::sum(base, hi);
+    let sum = Pair::sum(places, near.hi);
+    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-48)
 }
 
 /// `a + b`, or of its two neighbours the one whose last bit is set: to round that once more is to round once.

@@ -153,13 +153,12 @@ impl<const CELLS: usize> Plan<CELLS> {
         Some((octave, top))
     }
 
-    /// The time by an octave's polynomial, in units, if it has one: for `a` with this significand, between the `f32` with the
-    /// bits `floor` and `ceil`.
+    /// The time by an octave's polynomial, in units, if it has one: for `a` with this significand, not above the `f32` with
+    /// the bits `ceil`.
     #[inline(always)]
-    fn by_octave(&self, side: usize, floor: u32, ceil: u32, significand: u32) -> Option<i64> {
+    fn by_octave(&self, side: usize, ceil: u32, significand: u32) -> Option<i64> {
         let (octave, top) = self.octave(side, ceil)?;
-        let down = (octave.top >> 23).wrapping_sub(floor >> 23);
-        octave.exists().then(|| octave.time(Octave::offset(top, significand, down)))
+        octave.exists().then(|| octave.time(Octave::offset(top, significand)))
     }
 
     /// The time on the plateau's line, in units, if `u` is on it.
@@ -180,12 +179,7 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (side, a) = Self::count(u);
                 let bits = a.to_bits();
                 match self.octave(side, bits) {
-                    Some((octave, top)) => {
-                        // The octaves of one side share the fraction of their tops.
-                        const FRACTION: u32 = (1 << 23) - 1;
-                        let down = (top & FRACTION).wrapping_sub(bits & FRACTION) >> 31;
-                        octave.time(Octave::offset(top, bits << 8 | 1 << 31, down))
-                    }
+                    Some((octave, top)) => octave.time(Octave::offset(top, bits << 8 | 1 << 31)),
                     None => return self.searched(u),
                 }
             }
@@ -232,7 +226,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     fn direct(&self, u: f32) -> Option<i64> {
         let (side, a) = Self::count(u);
         let bits = a.to_bits();
-        self.by_line(u).or_else(|| self.by_octave(side, bits, bits, bits << 8 | 1 << 31))
+        self.by_line(u).or_else(|| self.by_octave(side, bits, bits << 8 | 1 << 31))
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -277,10 +271,13 @@ impl<const CELLS: usize> Plan<CELLS> {
         if high == 0 {
             return None;
         }
+        // Its last bit tells whether there is anything behind it.
+        let rest = low << (zeros & 31);
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-        let floor = ((126 - zeros) << 23) + (significand << 1 >> 9);
-        let ceil = floor + (significand & 0xFF != 0) as u32;
-        self.by_octave(side, floor, ceil, significand)
+        let significand = significand | (rest != 0) as u32;
+        let ceil =
+            ((126 - zeros) << 23) + (significand << 1 >> 9) + (significand & 0xFF != 0) as u32;
+        self.by_octave(side, ceil, significand)
     }
 }
 

@@ -20,8 +20,8 @@ use crate::solve::{Anchor, ONE, Offset, solve};
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
-/// An error in time, relative to the way from the ramp's end: an eighth of the least distance between neighbours, also of
-/// those of [`on_grid`], so that these keep their order.
+/// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between neighbours, also
+/// of those of [`on_grid`], so that these keep their order.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// A slope from a quarter to half of a ramp's mean `t'`.
@@ -373,14 +373,15 @@ impl End {
     }
 }
 
-/// `t` to half an ulp of the greater end of a ramp that runs across time 0, where `f32` lie denser than any search is exact.
+/// `t` to an ulp of the greater end of a ramp that runs across time 0, or to half of one, where `f32` lie denser than any
+/// search is exact.
 #[inline(never)]
 fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
     if t.abs() >= half || t == start || t == end {
         return t;
     }
-    // The sum is below 2 half, where the ulp is the grid's.
+    // The sum is at most 2.5 half.
     let t = (t + 1.5 * half) - 1.5 * half;
     if t < start {
         start

@@ -2,7 +2,7 @@
 
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
-use crate::pair::Pair;
+use crate::pair::{Pair, fixed};
 use crate::plan::{Plan, Words};
 use crate::ramp::{Place, WHOLE, scaled};
 use crate::shutter::ShutterCurve;
@@ -199,6 +199,10 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let unit = self.plan.unit();
         let place = place(self.plan, &self.fractions, odd);
         let delay = place.since(self.plan.exposure.start(0), unit);
+        if let Some(direct) = &self.direct {
+            // Rounded as the direct way rounds, so that neighbours keep their order.
+            return direct.tick(direct.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
+        }
         let ticks = scaled(delay.times(Pair::from_u32(self.tick_hz)), unit);
         // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
         let whole = ticks.hi as u32;
