@@ -7,7 +7,7 @@ mod support;
 use shutter_curve::{BezierPdf, CubicBezier, CurveError, MAX_EVALUATIONS, ShutterCurve};
 use support::cases::shutter;
 use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
-use support::oracle::{Curve, Exact, ulp_f32};
+use support::oracle::{Curve, Exact, Points, ulp_f32};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
 /// On typical curves, in ulp of t.
@@ -454,6 +454,19 @@ fn scaled_times_give_scaled_answers() {
                 assert_eq!(a.opening(t), b.opening(power * t));
             }
         }
+    }
+}
+
+/// Where an octave ends at time 0, it is an ulp of the curve's greater end that its polynomial is judged by: one of the time
+/// itself would refuse any.
+#[test]
+fn time_0_at_half_of_the_light_needs_no_search() {
+    for name in ["raised_cosine", "triangle"] {
+        let curve = named().into_iter().find(|one| one.name == name).expect("its name").curve;
+        let middle = 0.5 * (curve.open_start() + curve.close_end());
+        let moved = |points: Points| points.map(|(t, f)| (t - middle, f));
+        let ours = shutter::<8>(&Curve::shutter(moved(curve.opening), moved(curve.closing)));
+        assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0), "{name}");
     }
 }
 

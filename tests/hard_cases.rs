@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, Ramp, ShutterCurve};
 use support::baseline::InverseTable;
 use support::cases::{
     ANIMATION, CASES, NO_ROOT, S_RAMP, case, evenly, exact, judge, shutter, worst,
@@ -46,6 +46,12 @@ fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
     ];
     let broken = checks.into_iter().filter(|check| check.1);
     broken.map(|(what, _)| format!("CELLS = {CELLS}: {what}")).collect()
+}
+
+/// Ten steps of Newton's kind, then two evaluations for each halving of all places: so much is proven, if never seen.
+#[test]
+fn the_cap_is_the_proven_one() {
+    assert_eq!(MAX_EVALUATIONS, 10 + 2 * 31);
 }
 
 #[test]
