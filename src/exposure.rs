@@ -259,8 +259,10 @@ impl Exposure {
             return nearest;
         }
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
+        // The side by the lesser neighbour, so that both ask for the same time.
+        let least = if next < nearest { next } else { nearest };
         let (side, a) =
-            if nearest < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
+            if least < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
         let is_later = t >= self.at_fraction(side, a, FOR_TICK).time();
         if is_later == (next > nearest) { next } else { nearest }
     }

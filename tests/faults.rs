@@ -228,3 +228,107 @@ fn a_gap_too_small_tells_how_many_would_keep_it() {
     let text = ScheduleError::GapTooSmall { most: 4711 }.to_string();
     assert!(text.contains("4711"), "{text}");
 }
+
+// Found by an attack on 0.2.0 before it was released.
+
+#[test]
+fn the_cdf_on_either_side_of_half() {
+    let curve = Curve::shutter(
+        [
+            (-0.7629831, 0.31652436),
+            (-0.4296497, 0.082664944),
+            (-0.09631639, -0.08190364),
+            (0.23701695, 0.042908728),
+        ],
+        [
+            (0.32037073, 0.50004053),
+            (0.3203911, 0.50004053),
+            (0.3204114, 0.50004053),
+            (0.32043177, 0.50004053),
+        ],
+    );
+    let curve = shutter::<8>(&curve);
+    let values = around(1.4723837e-4, 100).map(|t| curve.cdf(t));
+    assert!(values.is_sorted());
+}
+
+#[test]
+fn ticks_where_a_search_hands_over_to_the_line() {
+    let opening = [(0.0, 0.0), (0.3, 0.0), (0.6, 0.0), (1.0, 0.0)];
+    let curve = shutter::<8>(&Curve::shutter(opening, instant(1.0008758, 1.0)));
+    assert!(curve.trigger_ticks(4_193_403, 8_479_616).unwrap().take(9000).is_sorted());
+}
+
+#[test]
+fn ticks_many_lengths_from_time_0() {
+    let curve = Curve::shutter(
+        [(16.0, 0.23115787), (16.069315, 0.9636907), (16.188118, 0.94166076), (16.204382, 0.70933)],
+        [
+            (16.204382, 0.23798369),
+            (16.933697, 0.4028296),
+            (16.949995, 0.9828322),
+            (17.0, 0.09975028),
+        ],
+    );
+    let exact = Exact::new(&curve);
+    for n in 1..200 {
+        for (i, tick) in shutter::<8>(&curve).trigger_ticks(n, 16_777_215).unwrap().enumerate() {
+            let error = tick_error(&exact, tick, [i as u32, n], 16_777_215);
+            assert!(error <= TICKS[0], "trigger {i} of {n} is {error} ticks off");
+        }
+    }
+}
+
+#[test]
+fn subnormal_times() {
+    let closing =
+        [(2.6020853e-19, 1.0), (4.3368087e-19, 0.7), (6.938894e-19, 0.3), (8.6736174e-19, 0.0)];
+    let curve = Curve::shutter(instant(-1.1912527e-38, 1.0), closing);
+    judge_inverse(&curve, around(3.4428106e-22, 1000));
+}
+
+#[test]
+fn a_tiny_near_ramp_with_many_octaves() {
+    let opening = [
+        (-6.934739e-10, 0.5538806),
+        (-4.6231594e-10, 0.5538806),
+        (-2.3115797e-10, 0.5538806),
+        (0.0, 0.5538806),
+    ];
+    let closing = [(0.052208774, 1.0), (0.38550878, 0.66), (0.7188688, 0.33), (1.0522088, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    let (exact, ours) = (Exact::new(&curve), shutter::<64>(&curve));
+    let mut last = f32::NEG_INFINITY;
+    for i in 0..2000 {
+        let u = 2e-10 * 1.002f32.powi(i);
+        let t = ours.inverse_cdf(u);
+        assert!(t >= last && exact.judge(u, t).backward <= BACKWARD, "{t:e} at {u:e}");
+        last = t;
+    }
+}
+
+#[test]
+fn a_tent_is_answered_without_a_search() {
+    for p in [0.3625, 0.4, 0.45, 0.6] {
+        let curve = shutter_curve::ShutterCurve::linear(0.0, p, p, 1.0).unwrap();
+        for i in 10..990 {
+            let u = i as f32 / 1000.0;
+            assert_eq!(curve.evaluations(u), 0, "{u} of {p}");
+        }
+    }
+}
+
+/// The middles of the shares of up to 64 triggers, on every typical curve.
+#[test]
+fn no_typical_frame_is_searched_for() {
+    use support::curves::{Kind, named};
+    for one in named().into_iter().filter(|one| one.kind == Kind::Typical) {
+        let curve = shutter::<8>(&one.curve);
+        for n in 1..=64 {
+            for i in 0..n {
+                let u = (i as f32 + 0.5) / n as f32;
+                assert_eq!(curve.evaluations(u), 0, "{i} of {n} on {}", one.name);
+            }
+        }
+    }
+}
