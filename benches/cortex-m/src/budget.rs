@@ -61,7 +61,7 @@ pub fn run() -> Result<(), String> {
     let (worst, curve) = worst.into_iter().max().flatten().ok_or(none)?;
     check(&format!("cycles of a tick, worst ({curve})"), worst.into(), 2500.0, 2500.0);
     let what = "cycles of a tick on all ramp, CELLS = 0, mean";
-    check(what, mean(TickStep, all_ramp, 0)?, 1870.0, 1950.0);
+    check(what, mean(TickStep, all_ramp, 0)?, 1870.0, 1970.0);
     check("cycles of cdf on all ramp, mean", mean(Cdf, all_ramp, 8)?, 1150.0, 1330.0);
     check("cycles of opening on all ramp, mean", mean(Opening, all_ramp, 8)?, 1150.0, 1290.0);
     check("cycles of cdf on the plateau, mean", mean(Cdf, box_, 8)?, 220.0, 245.0);
@@ -71,14 +71,14 @@ pub fn run() -> Result<(), String> {
             &format!("cycles of planning {TRIGGERS} triggers on {name}"),
             mean(Schedule, row, 8)?,
             target,
-            1.2 * target,
+            1.27 * target,
         );
     }
 
     check("bytes of a curve", m4f.curve_bytes[&8].into(), 1376.0, 1376.0);
     check("bytes of a curve, CELLS = 0", m4f.curve_bytes[&0].into(), 480.0, 480.0);
     let code = m4f.code_bytes(InverseCdf, 8).ok_or(none)?;
-    check("bytes of inverse_cdf's code", code.into(), 3584.0, 3992.0);
+    check("bytes of inverse_cdf's code", code.into(), 3584.0, 4080.0);
     let (painted, said) = m4f.stack(InverseCdf, 8).ok_or(none)?;
     check("bytes of stack of inverse_cdf, painted", painted.into(), 160.0, 192.0);
     check("bytes of stack of inverse_cdf, by the compiler", said.into(), 160.0, 192.0);
