@@ -269,7 +269,7 @@ impl Exposure {
 }
 
 /// So near to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise is
-/// 2⁻²⁹ at the most (see the text of the module `solve`).
+/// 2⁻³⁰ at the most (see the text of the module `solve`).
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
 
 /// `1/x`, to 2⁻⁴⁶, for `x` in [1, 2).

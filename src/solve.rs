@@ -5,9 +5,10 @@
 //!
 //! 1. Halley's steps in single precision, inside a bracket, until next to nothing is missing;
 //! 2. what is missing, measured in pairs;
-//! 3. one more step for that, and a computed bound of what it leaves. Only that bound accepts an answer.
+//! 3. one more step for that, and a computed bound of what it leaves, which accepts the answer or not.
 //!
-//! Where it is too great, 2 and 3 are repeated from the place that was reached.
+//! Where it is too great, 2 and 3 are repeated from the place that was reached. There are two more ways out: the anchor
+//! itself, where no more is sought than half of the error, and the cap on evaluations, which no search is known to reach.
 //!
 //! **The bound.** Let `c` be the anchor's coefficients, `x` the distance from it, `d_k` the Taylor coefficients there, and
 //! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`, the k-th term being `Σ_j C(j,k) c_j
@@ -20,14 +21,15 @@
 //! `|r - s (d_1 + d_2 s)| + |s| (2⁻²⁰ D + 5 m (2 |c_2| + E Y) + 3.4 E s²)`
 //!
 //! and what measuring `r` missed: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A non-negative
-//! polynomial's increasing integral bounds that sum (Markov): it exceeds the series by a factor that depends on the degree
-//! alone, below 2¹² for degree 6. So measuring misses at most 2⁻²⁹ of the target, a quarter of 2⁻²⁷; a search for a smaller
-//! error is as exact as pairs are, which is 2⁻³⁷ wherever the terms do not cancel so much.
+//! polynomial's increasing integral bounds that sum (Markov): for degree 6 it is at most 1083 times the series, the greatest
+//! quotient of the integrals over [-1, 0] and [0, 1] of `x s²` or `(1 - x) s²` with a quadratic `s`. So measuring misses less than
+//! 2⁻³⁰ of the target, within the quarter of an error of 2⁻²⁶ that is left for it. A search for a smaller error is as exact as
+//! pairs are; where a step is within an ulp of its place, there is no better one, and the greater error is asked for.
 //!
-//! **The end.** From `NEWTON` evaluations on a bracket of measured, hence certain signs shrinks at least as bisection
-//! would shrink it. When it is as narrow as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and the bound's
-//! terms without `r` are below 2⁻²⁷ of the series: then Halley's step, which solves the first two terms, is accepted.
-//! Hence [`MAX_EVALUATIONS`]; searches aimed at the hardest inputs take 8 at most.
+//! **The end.** From `NEWTON` evaluations on each measured place halves a bracket of certain signs. When that is as narrow as
+//! neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r` are below
+//! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
+//! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 6 at most.
 
 use crate::pair::{Pair, Series};
 
