@@ -259,7 +259,7 @@ impl Ramp {
     #[inline(always)]
     const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
         // The other end, then the minima.
-        let from_other = target.minus(self.share.scaled(unit_of_mass(self.share)));
+        let from_other = target.less(self.share.scaled(unit_of_mass(self.share)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
@@ -271,24 +271,26 @@ impl Ramp {
             }
             i += 1;
         }
-        let c = self.single(side);
         if target.hi <= sought.abs() {
-            return Anchor { place: Pair::ZERO, c, sought: target.hi };
+            let c = self.single(side);
+            return Anchor { place: Pair::ZERO, way: 1.0, c, sought: target.hi };
         }
-        let [.., c5, c6] = c;
         if nearest == 2 {
-            let [c1, c2, c3, c4, c5, _] = self.single(side ^ 1);
-            return Anchor { place: Pair::new(ONE), c: [c1, -c2, c3, -c4, c5, c6], sought };
+            let c = self.single(side ^ 1);
+            return Anchor { place: Pair::new(ONE), way: -1.0, c, sought: -sought };
         }
-        let Flat { place, c: [c1, c2, c3, c4], .. } = self.flats[nearest & 1];
-        let place = seen_from(side, Pair::new(place)).hi;
-        if place < 0.0 {
-            let place = Pair::sum(ONE, place);
-            let c5 = c5 + 6.0 * c6 * place.hi;
-            return Anchor { place, c: [c1, -c2, c3, -c4, c5, c6], sought };
-        }
-        let c5 = c5 + 6.0 * c6 * place;
-        Anchor { place: Pair::new(place), c: [c1, c2, c3, c4, c5, c6], sought }
+        // The flat place counts from its nearer end, which may be the other one, and so does the direction.
+        let flat = &self.flats[nearest & 1];
+        let place = seen_from(side, Pair::new(flat.place)).hi;
+        let is_other = place < 0.0;
+        let end = if is_other { side ^ 1 } else { side };
+        let [.., c5, c6] = self.single(end);
+        let [c1, c2, c3, c4] = flat.c;
+        let c5 = c5 + 6.0 * c6 * place.abs();
+        let place = if is_other { Pair::sum(ONE, place) } else { Pair::new(place) };
+        let (way, sought) = if sought < 0.0 { (-1.0, -sought) } else { (1.0, sought) };
+        let c = if (way < 0.0) != is_other { [c1, -c2, c3, -c4, c5, -c6] } else { [c1, c2, c3, c4, c5, c6] };
+        Anchor { place, way, c, sought }
     }
 
     /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
@@ -347,13 +349,16 @@ impl Ramp {
     fn offset_at(&self, side: usize, target: Pair) -> Offset {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor = Anchor { place: Pair::ZERO, c, sought: target.hi };
+        let mut anchor = Anchor { place: Pair::ZERO, way: 1.0, c, sought: target.hi };
         // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
         let slowest = -c2 / (3.0 * c3);
         if c3 > 0.0 && slowest > 0.0 && slowest < ONE && c1 + c2 * slowest < SLOW {
             let sought = target.difference(series.at(slowest));
             if sought.abs() < target.hi {
-                anchor = Anchor { place: Pair::new(slowest), c: around(series, slowest), sought };
+                let [c1, c2, c3] = around(series, slowest);
+                let (way, c2) = if sought < 0.0 { (-1.0, -c2) } else { (1.0, c2) };
+                let (place, sought) = (Pair::new(slowest), sought.abs());
+                anchor = Anchor { place, way, c: [c1, c2, c3], sought };
             }
         }
         let seed = seed(&anchor.c, anchor.sought);

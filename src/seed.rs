@@ -30,17 +30,14 @@ const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
-/// The least root's linear logarithm, with its `k` for the lowest bits. On the way back, where `sought` is negative, even
-/// powers of the distance have the other sign.
+/// The least root's linear logarithm, with its `k` for the lowest bits.
 #[inline(always)]
-const fn least_root(c: &[f32], sought: f32, log: i32) -> i32 {
-    let back = (sought < 0.0) as u32;
+const fn least_root(c: &[f32], log: i32) -> i32 {
     let mut least = i32::MAX;
     let mut i = 0;
     while i < c.len() {
         let k = i as i32 + 1;
-        let c = f32::from_bits(c[i].to_bits() ^ (back & i as u32) << 31);
-        let root = divided(log - rough_log(c), k) & !7 | k;
+        let root = divided(log - rough_log(c[i]), k) & !7 | k;
         if root < least {
             least = root;
         }
@@ -62,7 +59,7 @@ const fn guess(exponent: i32, fraction: i32) -> f32 {
 /// The guess of a distance from logarithms alone; all that a constant can use.
 #[inline(always)]
 pub(crate) const fn seed_by_bits(c: &[f32], sought: f32) -> f32 {
-    by_bits(least_root(c, sought, rough_log(sought.abs())))
+    by_bits(least_root(c, rough_log(sought)))
 }
 
 #[inline(always)]
@@ -74,8 +71,8 @@ const fn by_bits(root: i32) -> f32 {
 /// The guess of a distance by the root that the features choose.
 #[inline(always)]
 pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
-    let log = rough_log(sought.abs());
-    let root = least_root(c, sought, log);
+    let log = rough_log(sought);
+    let root = least_root(c, log);
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let k = root & 7;
