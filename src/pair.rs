@@ -69,6 +69,12 @@ impl Pair {
     }
 
     #[inline(always)]
+    pub(crate) const fn thrice(self) -> Self {
+        let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi);
+        Self { hi, lo: lo + 3.0 * self.lo }
+    }
+
+    #[inline(always)]
     pub(crate) const fn negated(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }
     }
@@ -84,6 +90,16 @@ impl Pair {
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
+    }
+
+    /// `self / x`, to 2⁻⁴⁵: what the quotient's product with `x` lacks of `self` tells the rest.
+    #[inline(always)]
+    pub(crate) const fn over(self, x: Self) -> Self {
+        let inverse = 1.0 / x.hi;
+        let hi = self.hi * inverse;
+        let product = hi * x.hi;
+        let lacks = (self.hi - product) - lost(product, hi, x.hi);
+        Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse }
     }
 
     /// The nearest `f32`.
@@ -147,11 +163,11 @@ impl Series<'_> {
     /// The slope at `x`, in single precision.
     #[inline(always)]
     pub(crate) const fn slope(self, x: f32) -> f32 {
-        let mut k = self.c.len();
-        let mut slope = (k + 1) as f32 * self.last.hi;
-        while k > 0 {
-            slope = slope * x + k as f32 * self.c[k - 1].hi;
-            k -= 1;
+        let mut c = self.c;
+        let mut slope = (c.len() + 1) as f32 * self.last.hi;
+        while let [lower @ .., highest] = c {
+            slope = slope * x + c.len() as f32 * highest.hi;
+            c = lower;
         }
         slope
     }

@@ -164,17 +164,17 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// The effective exposure time `A = ∫ f dt`.
     pub const fn exposure(&self) -> f32 {
-        self.plan.exposure.area() as f32
+        self.plan.exposure.area as f32
     }
 
     /// `K = 1/A`, which makes the openness a probability density.
     pub const fn normalization(&self) -> f32 {
-        self.plan.exposure.normalization as f32
+        (1.0 / self.plan.exposure.area) as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
     pub const fn efficiency(&self) -> f32 {
-        (self.plan.exposure.area() / (self.close_end() as f64 - self.open_start() as f64)) as f32
+        (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.

@@ -134,6 +134,14 @@ impl Taylor {
         let bend = self.d2 * newton * inverse;
         newton * (1.0 - bend * (1.0 - bend))
     }
+
+    /// The same for a step that is next to nothing.
+    #[inline(always)]
+    const fn short_step(&self, missing: f32) -> f32 {
+        let inverse = 1.0 / self.d1;
+        let newton = missing * inverse;
+        newton * (1.0 - self.d2 * newton * inverse)
+    }
 }
 
 /// Horner's rule at `x`, down to the coefficient `to`, with all that it passes kept.
@@ -187,8 +195,11 @@ pub(crate) const fn solve<const N: usize>(
     let reach = anchor.reach();
     // At the end of the ramp the density may be 0.
     let mut x = if seed < 0.75 * reach { seed } else { 0.75 * reach };
+    let reach = reach.to_bits() as i32;
     let mut p = f32::NAN;
-    let (mut moved, mut low, mut high) = (0.0, 0.0, ONE);
+    let mut moved = 0.0;
+    // The bracket, by bits, as it is halved.
+    let (mut low, mut high) = (0, ONE.to_bits() as i32);
     let mut evaluations = 0;
     loop {
         let local = Taylor::new(c, x);
@@ -199,10 +210,10 @@ pub(crate) const fn solve<const N: usize>(
                 // By bits, where a NaN is but one of the limits.
                 let next = (x + local.step(missing)).to_bits() as i32;
                 let bits = x.to_bits() as i32;
-                let least = bits + NEARER;
-                let most = if bits + FARTHER < reach.to_bits() as i32 { bits + FARTHER } else { reach.to_bits() as i32 };
-                let next = if next < least { least } else if next > most { most } else { next };
-                x = f32::from_bits(next as u32);
+                let (least, most) = (bits + NEARER, bits + FARTHER);
+                let most = if most < reach { most } else { reach };
+                let next = if next < least { least } else { next };
+                x = f32::from_bits(if next < most { next } else { most } as u32);
                 continue;
             }
             // Only a place that is an `f32` can be measured.
@@ -217,25 +228,24 @@ pub(crate) const fn solve<const N: usize>(
         // From here on signs are certain.
         let missing = target.difference(series.at(p));
         evaluations += 1;
-        *(if missing > 0.0 { &mut low } else { &mut high }) = p;
+        *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
         let missing = missing * way;
-        let step = local.step(missing);
+        let step = local.short_step(missing);
         let end = p + way * step;
-        // Written so that a NaN is none.
-        let is_inside = end >= low && end <= high;
-        let is_last = evaluations >= MAX_EVALUATIONS - 1;
+        // A NaN is beyond.
+        let bits = end.to_bits() as i32;
+        let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { most } else { error };
-        if is_last || is_inside && left(c, [x, moved], &local, missing, step) <= 0.75 * error {
-            let Pair { hi, lo } = Pair::sum(p, if is_inside { way * step } else { 0.0 });
+        if is_inside && left(c, [x, moved], &local, missing, step) <= 0.75 * error {
+            let Pair { hi, lo } = Pair::sum(p, way * step);
             return Offset { x: hi, rest: lo, evaluations };
         }
-        p = if is_inside && evaluations < NEWTON { end } else { middle(low, high) };
+        if evaluations >= MAX_EVALUATIONS - 1 {
+            return Offset { x: p, rest: 0.0, evaluations };
+        }
+        // The middle by bits: half of the `f32` between lie on either side.
+        let middle = f32::from_bits((low + (high - low) / 2) as u32);
+        p = if is_inside && evaluations < NEWTON { end } else { middle };
         (x, moved) = (anchor.distance(p), 0.0);
     }
-}
-
-/// The middle of two places by their bits: half of the `f32` between lie on either side.
-#[inline(always)]
-const fn middle(low: f32, high: f32) -> f32 {
-    f32::from_bits(low.to_bits() + (high.to_bits() - low.to_bits()) / 2)
 }
