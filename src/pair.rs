@@ -216,32 +216,23 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     // Less may be subnormal, or have a subnormal second half; and what is midway between two `f32` is a power of two from
     // either, perhaps only by rounding.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
-        return careful_sum(base, way, unit, back);
+        return careful_sum(base, way, first, second);
     }
     sum.hi + rest
 }
 
-/// The same where it takes more care.
+/// `base + way first second`, where it takes more care.
 #[cold]
 #[inline(never)]
-const fn careful_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
+const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     // In a greater unit, where it is small, all are normal numbers.
-    let half = unit >> 1;
-    let (first, second) = (power_of_two(unit - half), power_of_two(half));
-    let is_small = base.abs() + way.hi * first * second < power_of_two(-78);
+    let is_small = base.abs() + (way.hi * first * second).abs() < power_of_two(-78);
     let up = if is_small { 48 } else { 0 };
-    let (scale, second) = (power_of_two(up), power_of_two(half + up));
-    let second = if back { -second } else { second };
-    let (base, hi, lo) = (base * scale, way.hi * first * second, way.lo * first * second);
+    let (base, second) = (base * power_of_two(up), second * power_of_two(up));
+    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
     // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
     let (rough, least) = (base + hi, power_of_two(up - 126));
-    let places = if rough.abs() >= least {
-        0.0
-    } else if rough < 0.0 {
-        -least
-    } else {
-        least
-    };
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
     let near = Pair::sum(base, hi);
     let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
@@ -255,5 +246,7 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
     if sum.lo == 0.0 || bits & 1 == 1 {
         return sum.hi;
     }
-    f32::from_bits(if (sum.lo < 0.0) == (sum.hi < 0.0) { bits + 1 } else { bits - 1 })
+    // Away from 0 where both have the same sign.
+    let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
+    f32::from_bits(if up { bits + 1 } else { bits - 1 })
 }

@@ -186,7 +186,7 @@ pub(crate) const fn solve<const N: usize>(
     seed: f32,
     [error, most]: [f32; 2],
 ) -> Offset {
-    let Anchor { place, way, ref c, sought } = *anchor;
+    let Anchor { place, way, c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
     if sought <= 0.5 * error {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
@@ -202,7 +202,7 @@ pub(crate) const fn solve<const N: usize>(
     let (mut low, mut high) = (0, ONE.to_bits() as i32);
     let mut evaluations = 0;
     loop {
-        let local = Taylor::new(c, x);
+        let local = Taylor::new(&c, x);
         evaluations += 1;
         if p.is_nan() {
             let missing = sought - local.value;
@@ -236,7 +236,7 @@ pub(crate) const fn solve<const N: usize>(
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { most } else { error };
-        if is_inside && left(c, [x, moved], &local, missing, step) <= 0.75 * error {
+        if is_inside && left(&c, [x, moved], &local, missing, step) <= 0.75 * error {
             let Pair { hi, lo } = Pair::sum(p, way * step);
             return Offset { x: hi, rest: lo, evaluations };
         }
