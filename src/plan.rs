@@ -22,6 +22,7 @@ use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
 /// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first, and by its bounds.
+#[derive(Clone)]
 pub(crate) struct Words {
     first: u32,
     count: u32,
@@ -218,13 +219,39 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time, in units, if no search is needed.
     #[inline(always)]
-    fn direct(&self, u: f32) -> Option<i64> {
+    pub(crate) fn direct(&self, u: f32) -> Option<i64> {
         let (side, a) = Self::count(u);
         let bits = a.to_bits();
         self.by_line(u).or_else(|| {
             let (octave, place) = self.octave(side, bits)?;
             octave.exists().then(|| octave.time(octave.offset(place)))
         })
+    }
+
+    /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
+    pub(crate) const fn least_direct(&self, side: usize) -> f64 {
+        let [near, far] = self.exposure.joins(side);
+        // The plateau's line begins there.
+        let line = f32::from_bits(FINE) as f64;
+        let least = if near < far && near < line { line } else { 0.0 };
+        let top = self.tops[side & 1];
+        if top == 0 {
+            // The plateau alone, or nothing at all.
+            return if self.plateau[0] < self.plateau[1] { least } else { 0.5 };
+        }
+        let (mut high, mut index) = (f32::from_bits(top) as f64, 0);
+        while index < CELLS && high > least {
+            let half = 0.5 * high;
+            let is_open_above = far >= 0.5 || far >= high;
+            let is_served = self.octaves[side & 1][index].exists() || near <= half && is_open_above;
+            if !is_served {
+                high = if is_open_above && near < high { near } else { high };
+                break;
+            }
+            high = half;
+            index += 1;
+        }
+        if high > least { high } else { least }
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
