@@ -153,15 +153,34 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(ticks.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
+        let mut places = ticks.iter_mut();
+        self.checked(n, tick_hz, min_gap, |tick| {
+            if let Some(place) = places.next() {
+                *place = tick;
+            }
+        })
+    }
+
+    /// Hands out the ticks of `n` triggers that keep the gap.
+    #[inline(always)]
+    fn checked(
+        &self,
+        n: u32,
+        tick_hz: u32,
+        min_gap: u32,
+        mut place: impl FnMut(u32),
+    ) -> Result<(), ScheduleError> {
+        let frame = Ticks::new(&self.plan, n, tick_hz)?;
         let mut last = None;
-        for (i, (place, tick)) in (0..n).zip(ticks.iter_mut().zip(self.trigger_ticks(n, tick_hz)?))
-        {
+        for i in 0..n {
+            let tick = frame.at(i);
             if let Some(last) = last
                 && tick - last < min_gap
             {
                 return Err(ScheduleError::GapTooSmall { trigger: i, gap: tick - last, min_gap });
             }
-            (*place, last) = (tick, Some(tick));
+            place(tick);
+            last = Some(tick);
         }
         Ok(())
     }
@@ -178,10 +197,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
-        if schedule.resize_default(n as usize).is_err() {
+        if n as usize > N {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        self.schedule_into(&mut schedule, tick_hz, min_gap)?;
+        self.checked(n, tick_hz, min_gap, |tick| {
+            let _ = schedule.push(tick);
+        })?;
         Ok(schedule)
     }
 
@@ -276,7 +297,7 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
     /// Is trigger `i` of the frame placed without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.direct(2 * i as u64 + 1).is_some()
+        self.frame.direct(i).is_some()
     }
 }
 
@@ -286,7 +307,8 @@ macro_rules! iterate {
         impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
             type Item = $item;
 
-            #[inline]
+            // Into the one loop that there mostly is.
+            #[inline(always)]
             fn next(&mut self) -> Option<$item> {
                 let i = self.left.next()?;
                 Some(self.frame.at(i))
@@ -387,8 +409,8 @@ impl Fractions {
 
     /// The fraction `odd / 2n` from below, in units of 2⁻⁶⁴: by less than `odd` of these.
     #[inline(always)]
-    fn in_words(&self, odd: u64) -> u64 {
-        odd.wrapping_mul(self.share)
+    fn in_words(&self, odd: u32) -> u64 {
+        self.share.wrapping_mul(odd as u64)
     }
 
     /// The fraction `odd / 2n` counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
@@ -457,17 +479,18 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
     #[inline(always)]
     fn at(&self, i: u32) -> u32 {
-        let odd = 2 * i as u64 + 1;
-        match self.direct(odd) {
+        match self.direct(i) {
             Some(tick) => tick,
-            None => self.searched(odd),
+            None => self.searched(2 * i as u64 + 1),
         }
     }
 
-    /// The tick at the fraction `odd / 2n`, if no search is needed.
+    /// The tick of trigger `i`, if no search is needed.
     #[inline(always)]
-    fn direct(&self, odd: u64) -> Option<u32> {
+    fn direct(&self, i: u32) -> Option<u32> {
         let direct = self.direct.as_ref()?;
+        // A frame of which some are direct has so few that this fits.
+        let odd = (2 * i) | 1;
         let time = self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)?;
         Some(direct.tick(time))
     }
