@@ -17,14 +17,17 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, tops};
+use crate::octave::{LEAST, NO_TIME, Octave, Span, Unit, floor_bits, tops};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
-/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first, and by its bounds.
+/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first; how many of these it fills, all but the first and
+/// the last; and by its bounds.
+#[derive(Clone)]
 pub(crate) struct Words {
     first: u32,
     count: u32,
+    filled: u32,
     bounds: [u64; 2],
 }
 
@@ -33,11 +36,13 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// 2³² units, in which the curve's times count at most 2⁶², as a power of two.
     scale: f32,
-    /// The bits of the `f32` around the plateau: every `u` above the first and up to the second is on its line.
+    /// The `u` on the plateau's line, by the bits of their `f32`: so many from the first.
     plateau: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
+    /// For each side, the bits of the greatest `f32` that its octaves serve.
+    tops: [u32; 2],
     /// For each side, the octaves of `a`, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
@@ -78,32 +83,33 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (from, to) = (floor_bits(from), floor_bits(to));
                 // At 1 the end is exact.
                 let last = 1.0f32.to_bits() - 1;
-                plateau =
-                    [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
+                let before = if from < FINE { FINE } else { from };
+                plateau = [before + 1, (if to < last { to } else { last }).saturating_sub(before)];
             }
         }
-        let mut octaves = [[Octave::NONE; CELLS]; 2];
+        let unit = Unit { exponent: unit, starts };
+        let (mut octaves, mut greatest) = ([[Octave::NONE; CELLS]; 2], [0; 2]);
         let mut side = 0;
-        while side < 2 {
-            let unit = Unit { exponent: unit, starts };
+        while serves && side < 2 {
             let tops = tops(&exposure, side);
-            let (mut top, mut i) = (if serves { tops[0] } else { 0 }, 1);
-            while CELLS > 0 && i < tops.len() && tops[i] >= LEAST && top >= LEAST {
-                if Octave::fit(&exposure, &unit, side, top).exists() {
-                    break;
-                }
-                top = tops[i];
-                i += 1;
-            }
-            let mut index = 0;
-            while index < CELLS && top >= LEAST {
-                octaves[side][index] = Octave::fit(&exposure, &unit, side, top);
-                top -= 1 << 23;
-                index += 1;
+            let is_whole = fit_all(&exposure, &unit, side, tops[0], &mut octaves[side]);
+            greatest[side] = tops[0];
+            if !is_whole && tops[1] > 0 {
+                fit_all(&exposure, &unit, side, tops[1], &mut octaves[side]);
+                greatest[side] = tops[1];
             }
             side += 1;
         }
-        Ok(Self { exposure, scale: power_of_two(unit + 32), plateau, base, slope, octaves })
+        let unit = unit.exponent;
+        Ok(Self {
+            exposure,
+            scale: power_of_two(unit + 32),
+            plateau,
+            base,
+            slope,
+            tops: greatest,
+            octaves,
+        })
     }
 
     /// The exponent of the unit of time.
@@ -124,11 +130,23 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
         let unit = self.unit_of_time() as f64;
-        (self.base as f64 * unit, self.slope as f64 * unit, self.plateau.map(f32::from_bits))
+        let [first, count] = self.plateau;
+        let before = first.wrapping_sub(1);
+        let bounds = [before, before.wrapping_add(count)].map(f32::from_bits);
+        (self.base as f64 * unit, self.slope as f64 * unit, bounds)
     }
 
-    /// The side from which `u` is counted and how far: the lesser of `u` and `1 - u`. Branchless, for the side is
-    /// unpredictable. Below 0 and above 1 it is negative.
+    /// The side from which `u` is counted and how far, by the bits of that: what is no fraction gets those of none.
+    ///
+    /// By integers, since a comparison of floats keeps a processor waiting; and without a branch, for the side is unpredictable.
+    #[inline(always)]
+    fn nearer(u: f32) -> (usize, u32) {
+        let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
+        let is_late = bits > 0.5f32.to_bits();
+        (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
+    }
+
+    /// The same as a number, negative below 0 and above 1.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
         let late = 1.0 - u;
@@ -143,29 +161,21 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// The octave of an `a`, by the bits of the `f32` at it or above, and what of them is the octaves' top. What is no
-    /// fraction above 0 has none.
+    /// The octave of an `a` with these bits, and its place in it. What is no fraction above 0 has none.
     #[inline(always)]
-    fn octave(&self, side: usize, ceil: u32) -> Option<(&Octave, u32)> {
-        let side = &self.octaves[side & 1];
-        let top = side.first()?.top;
-        let octave = side.get((top.wrapping_sub(ceil) >> 23) as usize)?;
-        Some((octave, top))
-    }
-
-    /// The time by an octave's polynomial, in units, if it has one: for `a` with this significand, not above the `f32` with
-    /// the bits `ceil`.
-    #[inline(always)]
-    fn by_octave(&self, side: usize, ceil: u32, significand: u32) -> Option<i64> {
-        let (octave, top) = self.octave(side, ceil)?;
-        octave.exists().then(|| octave.time(Octave::offset(top, significand)))
+    fn octave(&self, side: usize, bits: u32) -> Option<(&Octave, i32)> {
+        let top = self.tops[side & 1];
+        let below = top.wrapping_sub(bits);
+        let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
+        // The significand in 32 bits, and for its sign what the difference of the significands borrowed from the exponents'.
+        Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
     }
 
     /// The time on the plateau's line, in units, if `u` is on it.
     #[inline(always)]
     fn by_line(&self, u: f32) -> Option<i64> {
         let bits = u.to_bits();
-        let is_on_line = bits > self.plateau[0] && bits <= self.plateau[1];
+        let is_on_line = bits.wrapping_sub(self.plateau[0]) < self.plateau[1];
         let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
         is_on_line.then(|| self.on_line((bits << 8 | 1 << 31) >> (shift & 31)))
     }
@@ -176,10 +186,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         let time = match self.by_line(u) {
             Some(time) => time,
             None => {
-                let (side, a) = Self::count(u);
-                let bits = a.to_bits();
+                let (side, bits) = Self::nearer(u);
                 match self.octave(side, bits) {
-                    Some((octave, top)) => octave.time(Octave::offset(top, bits << 8 | 1 << 31)),
+                    Some((octave, place)) => octave.time(octave.offset(place)),
                     None => return self.searched(u),
                 }
             }
@@ -223,10 +232,38 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time, in units, if no search is needed.
     #[inline(always)]
-    fn direct(&self, u: f32) -> Option<i64> {
-        let (side, a) = Self::count(u);
-        let bits = a.to_bits();
-        self.by_line(u).or_else(|| self.by_octave(side, bits, bits << 8 | 1 << 31))
+    pub(crate) fn direct(&self, u: f32) -> Option<i64> {
+        let (side, bits) = Self::nearer(u);
+        self.by_line(u).or_else(|| {
+            let (octave, place) = self.octave(side, bits)?;
+            octave.exists().then(|| octave.time(octave.offset(place)))
+        })
+    }
+
+    /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
+    pub(crate) const fn least_direct(&self, side: usize) -> f64 {
+        let [near, far] = self.exposure.joins(side);
+        // The plateau's line begins there.
+        let line = f32::from_bits(FINE) as f64;
+        let least = if near < far && near < line { line } else { 0.0 };
+        let top = self.tops[side & 1];
+        if top == 0 {
+            // The plateau alone, or nothing at all.
+            return if self.plateau[1] > 0 { least } else { 0.5 };
+        }
+        let (mut high, mut index) = (f32::from_bits(top) as f64, 0);
+        while index < CELLS && high > least {
+            let half = 0.5 * high;
+            let is_open_above = far >= 0.5 || far >= high;
+            let is_served = self.octaves[side & 1][index].exists() || near <= half && is_open_above;
+            if !is_served {
+                high = if is_open_above && near < high { near } else { high };
+                break;
+            }
+            high = half;
+            index += 1;
+        }
+        if high > least { high } else { least }
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -241,14 +278,14 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau in `u` that counts 2⁻⁶⁴.
     pub(crate) fn plateau_in_words(&self) -> Words {
-        let [from, to] = self.plateau;
-        if from >= to {
-            return Words { first: 0, count: 0, bounds: [u64::MAX, 0] };
+        if self.plateau[1] == 0 {
+            return Words { first: 0, count: 0, filled: 0, bounds: [u64::MAX, 0] };
         }
         let [near, far] = self.exposure.joins_in_words();
         let bounds = [near.max(1 << 55), far];
         let [first, last] = bounds.map(|bound| (bound >> 32) as u32);
-        Words { first: first + 1, count: last.saturating_sub(first + 1), bounds }
+        let between = last.saturating_sub(first);
+        Words { first, count: between + 1, filled: between.saturating_sub(1), bounds }
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
@@ -257,28 +294,52 @@ impl<const CELLS: usize> Plan<CELLS> {
         let word = (u >> 32) as u32;
         let place = word.wrapping_sub(plateau.first);
         if place < plateau.count {
-            return Some(self.on_line(word));
-        }
-        // In the words that hold the plateau's ends all bits count.
-        let is_at_end = place.wrapping_add(1) <= plateau.count.wrapping_add(1);
-        if is_at_end && u > plateau.bounds[0] && u < plateau.bounds[1] {
-            return Some(self.on_line(word));
+            // In the words that hold the plateau's ends all bits count.
+            let is_filled = place.wrapping_sub(1) < plateau.filled;
+            if is_filled || u > plateau.bounds[0] && u < plateau.bounds[1] {
+                return Some(self.on_line(word));
+            }
         }
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
+        // Where all of the upper word are zeros, there are no octaves any more.
         let zeros = high.leading_zeros();
-        if high == 0 {
-            return None;
-        }
         // Its last bit tells whether there is anything behind it.
         let rest = low << (zeros & 31);
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-        let significand = significand | (rest != 0) as u32;
-        let ceil =
-            ((126 - zeros) << 23) + (significand << 1 >> 9) + (significand & 0xFF != 0) as u32;
-        self.by_octave(side, ceil, significand)
+        let significand = significand & !(1 << 31) | (rest != 0) as u32;
+        // As in `octave`, but that the exponents stand apart.
+        let top = self.tops[side & 1];
+        let below = (top << 9 >> 1) as i32 - significand as i32;
+        let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
+        let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
+        let place = significand as i32 | below & i32::MIN;
+        octave.exists().then(|| octave.time(octave.offset(place)))
     }
+}
+
+/// The octaves of a side below the bits of its `top`. Has each of them that needs a polynomial got one?
+const fn fit_all<const CELLS: usize>(
+    exposure: &Exposure,
+    unit: &Unit,
+    side: usize,
+    top: u32,
+    octaves: &mut [Octave; CELLS],
+) -> bool {
+    let (mut top, mut is_whole, mut index) = (top, true, 0);
+    while index < CELLS {
+        octaves[index] = Octave::NONE;
+        if top >= LEAST
+            && let Some(span) = Span::new(exposure, side, top)
+        {
+            octaves[index] = span.fitted(exposure, unit);
+            is_whole = is_whole && octaves[index].exists();
+        }
+        top = top.saturating_sub(1 << 23);
+        index += 1;
+    }
+    is_whole
 }
 
 /// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².
