@@ -1,15 +1,11 @@
-//! The main example: every scene that ships is planned, and a file that is wrong leaves nothing behind.
-
-#[allow(dead_code)] // `main` alone
-#[path = "../examples/plan/main.rs"]
-mod example;
+//! `shutter plan`: every scene that ships is planned, and a file that is wrong leaves nothing behind.
 
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes");
+const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
 /// How a run ended, and what it wrote.
 struct Run {
@@ -20,12 +16,16 @@ struct Run {
 
 fn run<const N: usize>(args: [&Path; N]) -> Run {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let code = example::run(command_line(args), &mut out, &mut err);
+    let code = shutter::command::run(command_line(args), &mut out, &mut err);
     Run { code, out: String::from_utf8(out).unwrap(), err: String::from_utf8(err).unwrap() }
 }
 
 fn command_line<const N: usize>(args: [&Path; N]) -> Vec<OsString> {
-    [Path::new("plan")].iter().chain(&args).map(|arg| arg.as_os_str().to_owned()).collect()
+    [Path::new("shutter"), Path::new("plan")]
+        .iter()
+        .chain(&args)
+        .map(|arg| arg.as_os_str().to_owned())
+        .collect()
 }
 
 /// An empty directory for one test.
@@ -377,7 +377,7 @@ fn a_picture_is_named_svg() {
 fn help_is_no_error() {
     let run = run([Path::new("--help")]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    assert!(run.out.contains("Usage: plan [OPTIONS] [SCENE]"));
+    assert!(run.out.contains("Usage: shutter plan [OPTIONS] [SCENE]"));
 }
 
 /// Takes nothing.
@@ -397,7 +397,7 @@ impl Write for Refusing {
 fn a_reader_that_leaves_is_no_error_and_a_full_disk_is() {
     for (refusal, code) in [(ErrorKind::BrokenPipe, 0), (ErrorKind::StorageFull, 2)] {
         let mut err = Vec::new();
-        assert_eq!(example::run(command_line([]), &mut Refusing(refusal), &mut err), code);
+        assert_eq!(shutter::command::run(command_line([]), &mut Refusing(refusal), &mut err), code);
         assert_eq!(err.is_empty(), code == 0);
     }
 }

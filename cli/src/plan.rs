@@ -2,12 +2,13 @@
 
 use shutter_curve::{ScheduleError, ShutterCurve};
 
-use super::scene::{Fault, Scene};
-use super::unit::Unit;
+use crate::scene::{Fault, Scene};
+use crate::unit::Unit;
 
 /// The most triggers of one scene.
 const MOST_TRIGGERS: u32 = 10_000;
 
+/// When to trigger.
 pub struct Trigger {
     /// The fraction of the exposure collected by then.
     pub u: f32,
@@ -17,17 +18,25 @@ pub struct Trigger {
     pub ticks: u32,
 }
 
+/// A scene that can be played.
 pub struct Plan {
+    /// The shutter.
     pub curve: ShutterCurve,
+    /// The timer's ticks in a second.
     pub timer_hz: u32,
     /// Seconds, as the scene asks.
     pub min_gap: f64,
     /// Any number of triggers up to this one keeps the gap.
     pub most: u32,
+    /// In order.
     pub triggers: Vec<Trigger>,
 }
 
 impl Plan {
+    /// The plan of a scene.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
         let Scene { triggers, timer_hz, min_gap, .. } = scene;
         let (&n, &hz, &gap) = (triggers.get_ref(), timer_hz.get_ref(), min_gap.get_ref());
@@ -66,6 +75,7 @@ impl Plan {
         Unit::fit(self.length())
     }
 
+    /// How long so many ticks last.
     pub fn seconds(&self, ticks: u32) -> f64 {
         f64::from(ticks) / f64::from(self.timer_hz)
     }

@@ -3,7 +3,9 @@
 /// A unit of time, by how many of it are a second.
 #[derive(Clone, Copy)]
 pub struct Unit {
+    /// As it is written.
     pub name: &'static str,
+    /// How many are a second.
     pub per_second: f64,
 }
 

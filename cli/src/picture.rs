@@ -9,8 +9,8 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::plan::Plan;
-use super::unit::{Unit, decimals, short, trimmed};
+use crate::plan::Plan;
+use crate::unit::{Unit, decimals, short, trimmed};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Graph<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
@@ -37,6 +37,10 @@ const TICK: f64 = 0.04;
 /// The points along a curve, or along all shares of it.
 const POINTS: usize = 800;
 
+/// The plan of the scene `name`, as an SVG.
+///
+/// # Errors
+/// Where it cannot be drawn.
 pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let mut svg = String::new();
     let drawn = (SIZE.0 * SCALE, SIZE.1 * SCALE);

@@ -5,8 +5,8 @@ use std::iter::once;
 
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
-use super::plan::{Plan, Trigger};
-use super::unit::{Unit, decimals, short};
+use crate::plan::{Plan, Trigger};
+use crate::unit::{Unit, decimals, short};
 
 /// Longer tables lose their middle; half as many rows stay at each end.
 const MOST_ROWS: usize = 25;
@@ -15,6 +15,7 @@ const MOST_LINES: usize = 36;
 /// The drawing's size in dots, 2 by 4 a character: with its labels it fits in 80 columns.
 const DOTS: (u32, u32) = (143, 39);
 
+/// The plan of the scene `name`, for a terminal.
 pub fn text(name: &str, plan: &Plan) -> String {
     let mut text = String::new();
     write_text(&mut text, name, plan).expect("a string takes all");

@@ -16,7 +16,9 @@ pub struct Scene {
     /// The ramps' inner control points `[t1, y1, t2, y2, t5, y5, t6, y6]`, their times as fractions of the
     /// interval; straight ramps without.
     shutteropening: Option<Spanned<Vec<f32>>>,
+    /// How many.
     pub triggers: Spanned<u32>,
+    /// The timer's ticks in a second.
     pub timer_hz: Spanned<u32>,
     /// Seconds.
     pub min_gap: Spanned<f64>,
@@ -29,6 +31,7 @@ pub struct Fault {
 }
 
 impl Fault {
+    /// A fault at `value`.
     pub fn at<T>(value: &Spanned<T>, reason: impl ToString) -> Self {
         Self { at: Some(value.span().start), reason: reason.to_string() }
     }
@@ -52,6 +55,10 @@ fn eight(numbers: &Spanned<Vec<f32>>) -> Result<[f32; 8], Fault> {
     })
 }
 
+/// The scene that `text` describes.
+///
+/// # Errors
+/// What is no TOML, and keys that are missing or unknown or have the wrong type.
 pub fn parse(text: &str) -> Result<Scene, Fault> {
     toml::from_str(text).map_err(|error| {
         let reason = error.message().to_string();
@@ -63,6 +70,10 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
 }
 
 impl Scene {
+    /// The scene's shutter.
+    ///
+    /// # Errors
+    /// Whatever the crate refuses.
     pub fn curve(&self) -> Result<ShutterCurve, Fault> {
         let times @ [open_start, open_end, close_start, close_end] =
             self.times().map(|time| *time.get_ref());
