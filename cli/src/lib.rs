@@ -6,10 +6,14 @@
 
 #[cfg(feature = "terminal")]
 pub mod command;
+pub mod emit;
+pub mod facts;
+pub mod lamp;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod plan;
 #[cfg(feature = "terminal")]
 pub mod report;
 pub mod scene;
+pub mod shape;
 pub mod unit;
