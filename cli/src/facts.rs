@@ -109,6 +109,11 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     let mut gap = format!("at least {}", unit.show(plan.min_gap));
     if plan.lamp != Lamp::Triggered {
         gap += " of darkness between pulses";
+        let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
+        let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
+        if let Some(ticks) = dark.min() {
+            gap += &format!("; the least is {}", count(ticks, "tick"));
+        }
     } else if let Some(ticks) = plan.gaps().min() {
         gap += &format!("; the closest two come {} apart", count(ticks, "tick"));
     }

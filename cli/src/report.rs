@@ -77,7 +77,10 @@ fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
         true => format!("  {on:>10}  {off:>10}"),
         false => String::new(),
     };
-    let (time, gap) = (format!("time ({})", unit.name()), format!("gap ({})", unit.name()));
+    let time = format!("time ({})", unit.name());
+    // Between pulses, the gap is darkness.
+    let gap = if has_pulses { "apart" } else { "gap" };
+    let gap = format!("{gap} ({})", unit.name());
     writeln!(out, "    #        u  {time:>13}       ticks{}  {gap:>13}", pulse(&"on", &"off"))?;
     let n = plan.triggers.len();
     let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };

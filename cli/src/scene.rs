@@ -162,11 +162,15 @@ impl Scene {
         };
         let mut fault = Fault::at(inner, error);
         fault.notes.push(
-            "The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp, each t as"
+            "The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp,"
                 .into(),
         );
-        fault.notes.push("a fraction of the whole interval from open_start to close_end.".into());
-        if let Some((convention, inner)) = shape.misread().filter(|_| is_time) {
+        fault.notes.push(
+            "each t as a fraction of the whole interval from open_start to close_end.".into(),
+        );
+        if let Some((convention, inner)) =
+            shape.misread(self.unit.unwrap_or(Unit::Second)).filter(|_| is_time)
+        {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));

@@ -2,7 +2,7 @@
 
 use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
 
-use crate::unit::short;
+use crate::unit::{Unit, short};
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +33,12 @@ impl Shape {
         Some([opening, closing])
     }
 
-    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as this
-    /// crate takes them.
+    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
+    /// crate takes them. `unit` is the scene's.
     ///
     /// Times go first, as they fit only where the control points lie on their own ramps; small fractions of each ramp
     /// fit easily.
-    pub fn misread(&self) -> Option<(&'static str, [String; 8])> {
+    pub fn misread(&self, unit: Unit) -> Option<(String, [String; 8])> {
         let inner = self.inner?;
         let [open_start, open_end, close_start, close_end] = self.times.map(f64::from);
         let length = close_end - open_start;
@@ -47,10 +47,12 @@ impl Shape {
             0 => open_start + x * (open_end - open_start),
             _ => close_start + x * (close_end - close_start),
         };
-        let as_times = |_, x| fraction(x);
+        let as_times = |_, x| fraction(unit.seconds(x));
         let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
-        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] =
-            [("times in seconds", &as_times), ("fractions of each ramp", &as_ramps)];
+        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] = [
+            (format!("times in {}", unit.name()), &as_times),
+            ("fractions of each ramp".into(), &as_ramps),
+        ];
         conventions.into_iter().find_map(|(name, convert)| {
             let written: [String; 8] = std::array::from_fn(|i| {
                 let x = f64::from(inner[i]);
