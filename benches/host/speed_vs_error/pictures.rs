@@ -23,7 +23,7 @@ pub fn frontier(path: &str, panels: &[(&'static str, Vec<(usize, f64)>)], figure
             let high = logs.fold(f64::NEG_INFINITY, f64::max);
             let x = Axis {
                 name,
-                range: low - 0.5..high + 1.4,
+                range: low - 1.8..high + 1.4,
                 label: |x| format!("{:.0}", 2f64.powf(x.round())),
                 labels: 8,
             };
@@ -40,9 +40,9 @@ pub fn frontier(path: &str, panels: &[(&'static str, Vec<(usize, f64)>)], figure
                 // Where two points come close, their names keep apart.
                 let (dx, dy, h) = match METHODS[method].name {
                     "`CELLS = 16`" => (-18, 0, HPos::Right),
-                    "`CELLS = 4`" | "`CELLS = 8`" => (0, -26, HPos::Center),
-                    "table of 256" => (18, -10, HPos::Left),
-                    "table of 1024" => (18, 14, HPos::Left),
+                    "`CELLS = 8`" => (0, -26, HPos::Center),
+                    "table of 256" => (-18, -10, HPos::Right),
+                    "table of 1024" => (-18, 14, HPos::Right),
                     _ => (18, 0, HPos::Left),
                 };
                 let label = METHODS[method].name.replace('`', "");
@@ -67,7 +67,7 @@ fn frontier_legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) {
         let series = chart.draw_series(none).expect("drawn");
         series.label(name).legend(move |(x, y)| Circle::new((x + 18, y), 9, style));
     }
-    legend(chart, SeriesLabelPosition::UpperRight);
+    legend(chart, SeriesLabelPosition::MiddleLeft);
 }
 
 fn draw<'b, E>(chart: &mut Chart<'_, 'b>, elements: impl IntoIterator<Item = E>)

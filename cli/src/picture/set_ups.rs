@@ -18,7 +18,7 @@ const LEFT: i32 = 650;
 /// How much of each share the lamp is on, where the scene does not say.
 const DUTY: f32 = 0.5;
 /// With more pulses than this, their doses would not be legible below their bars.
-const MOST_LABELS: usize = 16;
+const MOST_LABELS: usize = 12;
 
 /// What exposes, in one of the set-ups.
 struct Row {
