@@ -406,18 +406,24 @@ fn wrong_control_points_are_an_error_that_names_their_convention() {
         );
         assert_eq!(error_of(&dir, &scene), expected);
     }
-    // Milliseconds for fractions, on an interval of 10.
-    let times = [("open_end", "2.5"), ("close_start", "7.5"), ("close_end", "10")];
-    let scene = times.iter().fold(GOOD.to_string(), |text, (key, time)| {
-        let old = text.lines().find(|line| line.starts_with(key)).unwrap().to_string();
-        text.replace(&old, &format!("{key} = {time}"))
-    });
-    let scene = format!("unit = \"ms\"\n{scene}shutteropening = [1, 0, 1.5, 1, 8.5, 1, 9, 0]\n");
-    let err = error_of(&dir, &scene);
-    let hint = "  As times in ms they would fit; that is
+    // Times for fractions, in ms and in seconds; what are seconds here would also fit as fractions of each ramp.
+    for (unit, second, numbers) in [
+        ("ms", 1e3, "[1, 0, 1.5, 1, 8.5, 1, 9, 0]"),
+        ("s", 1.0, "[0.001, 0, 0.0015, 1, 0.0085, 1, 0.009, 0]"),
+    ] {
+        let [open_end, close_start, close_end] = [0.0025, 0.0075, 0.01].map(|time| time * second);
+        let scene = format!(
+            "unit = \"{unit}\"\nopen_start = 0\nopen_end = {open_end}\nclose_start = {close_start}\n\
+             close_end = {close_end}\ntriggers = 1\ntimer_hz = 1000\nmin_gap = 0\nshutteropening = {numbers}\n"
+        );
+        let err = error_of(&dir, &scene);
+        let hint = format!(
+            "  As times in {unit} they would fit; that is
   shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
-";
-    assert!(err.ends_with(hint), "{err}");
+"
+        );
+        assert!(err.ends_with(&hint), "{err}");
+    }
 }
 
 #[test]
@@ -616,10 +622,24 @@ fn wrong_pulses_are_an_error_that_says_what_fits() {
     ] {
         fails(&dir, &boxed(&format!("{four}{lamp}")), Some(at), reason);
     }
-    let one = boxed("triggers = 1\nmin_gap = 0\npulse = 1.002");
-    let reason = "pulses of 1002 ticks: they reach beyond the time that the shutter is open; those of up to 1000 ticks \
-                  fit, or no number of triggers keeps that";
-    fails(&dir, &one, Some(8), reason);
+    // A single pulse that is too long for the time before its trigger, or after it, or for both; and one that just fits.
+    let falling = "open_start = 0\nopen_end = 0\nclose_start = 0\nclose_end = 1\n";
+    let rising = "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 1\n";
+    let all = "open_start = 0\nopen_end = 0\nclose_start = 1\nclose_end = 1\n";
+    for (curve, longest) in [(falling, 587), (rising, 586), (all, 1000)] {
+        let scene = |pulse: u32| {
+            let pulse = f64::from(pulse) / 1000.0;
+            format!("{curve}triggers = 1\ntimer_hz = 1000\nmin_gap = 0\npulse = {pulse}\n")
+        };
+        let reason = format!(
+            "pulses of {} ticks: they reach beyond the time that the shutter is open; those of up to {longest} ticks \
+             fit, or no number of triggers keeps that",
+            longest + 1
+        );
+        fails(&dir, &scene(longest + 1), Some(8), &reason);
+        fs::write(dir.join("bad.toml"), scene(longest)).unwrap();
+        assert_eq!(run([&dir.join("bad.toml")]).err, "");
+    }
 }
 
 #[test]
