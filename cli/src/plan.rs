@@ -1,6 +1,6 @@
 //! A scene's triggers, checked.
 
-use shutter_curve::ShutterCurve;
+use shutter_curve::{ScheduleError, ShutterCurve};
 
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene};
@@ -77,7 +77,7 @@ impl Plan {
         // The rate is checked here, before anything is counted in ticks.
         Lamp::Triggered
             .frame(&curve, 0, timer_hz)
-            .map_err(|error| Fault::at(&scene.timer_hz, error))?;
+            .map_err(|error| Fault::at(&scene.timer_hz, rate(error)))?;
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let frames = Frames { curve, timer_hz, end: (end * f64::from(timer_hz)).round() as i64 };
@@ -306,6 +306,16 @@ impl Problem {
             ),
             _ => Fault::at(&scene.triggers, format!("the frame does not fit; {many}")),
         }
+    }
+}
+
+/// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
+fn rate(error: ScheduleError) -> String {
+    match error {
+        ScheduleError::TickRateTooHigh { most } if most > 0 => {
+            format!("timer_hz: the interval is longer than 2^31 ticks; up to {most} Hz it is not")
+        }
+        _ => format!("timer_hz: {error}"),
     }
 }
 

@@ -178,6 +178,7 @@ struct Document {
     half_open: f32,
     exposure: f32,
     efficiency: f32,
+    direct_triggers: u32,
     delta_ev: Option<f32>,
     triggers: Vec<Row>,
 }
@@ -190,6 +191,7 @@ fn json_parses_and_holds_the_same_numbers() {
         assert_eq!(document.exposure, plan.curve.exposure());
         assert_eq!(document.efficiency, plan.curve.efficiency());
         assert!(document.opening >= 0.0 && document.half_open > 0.0);
+        assert_eq!(document.direct_triggers, plan.curve.direct_triggers());
         assert_eq!(document.delta_ev.is_some(), plan.nominal.is_some());
         assert_same(&name, &plan, &document.triggers);
     }

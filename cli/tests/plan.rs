@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use shutter::emit::{Form, emit};
 use shutter::plan::Plan;
+use shutter_curve::ShutterCurve;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
@@ -344,8 +345,12 @@ fn a_number_out_of_range_is_an_error() {
             "[0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9, 0.0, 0.0]",
             "shutteropening: 8 numbers are required, not 9",
         ),
-        ("timer_hz", "0", "the tick rate is 0 Hz"),
-        ("timer_hz", "2147483649", "the interval is longer than 2^31 ticks"),
+        ("timer_hz", "0", "timer_hz: the tick rate is 0"),
+        (
+            "timer_hz",
+            "2147483649",
+            "timer_hz: the interval is longer than 2^31 ticks; up to 2147483648 Hz it is not",
+        ),
     ] {
         fails(&dir, &with(key, value), line(key), reason);
     }
@@ -356,7 +361,7 @@ fn a_bad_curve_is_an_error() {
     let dir = empty_dir("curve");
     let order =
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
-    let length = "the interval's length is outside [2^-64, 2^64]";
+    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)";
     for (key, value, at, reason) in [
         ("open_start", "nan", "open_start", "open_start: a finite number is required"),
         ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
@@ -375,19 +380,21 @@ fn a_bad_curve_is_an_error() {
 }
 
 /// What is told below an error of the inner control points.
-const CONVENTION: &str =
-    "  The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp,
-  each t as a fraction of the whole interval from open_start to close_end.
-";
+const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 
 #[test]
 fn wrong_control_points_are_an_error_that_names_their_convention() {
     let dir = empty_dir("convention");
     let (opening, closing) = ("opening ramp", "closing ramp");
-    let back = "time turns back between the control points";
+    let [back, closing_back] = ["t1 and t2", "t5 and t6"].map(|inner| {
+        format!(
+            "time turns back along it; {inner} are fractions of the whole interval, 0 at open_start and 1 at close_end"
+        )
+    });
+    let (back, closing_back) = (back.as_str(), closing_back.as_str());
     for (numbers, ramp, reason, hint) in [
         ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, back, ""),
-        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, back, ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, closing_back, ""),
         ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", opening, "the openness falls below 0", ""),
         ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, "the openness rises above 1", ""),
         (
@@ -402,7 +409,7 @@ fn wrong_control_points_are_an_error_that_names_their_convention() {
         let scene = with("shutteropening", numbers);
         let file = dir.join("bad.toml").display().to_string();
         let expected = format!(
-            "error: {file}:9: {ramp}: {reason}\n  9 | shutteropening = {numbers}\n{CONVENTION}{hint}"
+            "error: {file}:9: {ramp}: {reason}\n  9 | shutteropening = {numbers}\n{ORDER}{hint}"
         );
         assert_eq!(error_of(&dir, &scene), expected);
     }
@@ -486,6 +493,7 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
     let file = empty_dir("facts").join("good.toml");
     fs::write(&file, format!("{GOOD}nominal = 0.75\n")).unwrap();
     let out = run([&file]).out;
+    let direct = ShutterCurve::<8>::linear(0.0, 0.25, 0.75, 1.0).unwrap().direct_triggers();
     for fact in [
         "times        T1 0.25 s opening, T2 0.5 s fully open, T3 0.25 s closing\n",
         "half open    TE 0.75 s,",
@@ -493,6 +501,7 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
         "efficiency   75 %\n",
         "nominal      0.75 s, ΔEV +0.00\n",
         "triggers     7; up to 7 keep the gap\n",
+        &format!("direct       frames of up to {direct} triggers are placed without a search\n"),
     ] {
         assert!(out.contains(fact), "{fact}\n{out}");
     }
