@@ -258,12 +258,11 @@ impl Frames {
 impl Problem {
     /// What is wrong with the frame of `n` triggers, and what would help.
     fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
-        let many = match frames.checked(asked, 1) {
-            Ok(_) => match frames.most(asked, 1, n) {
-                1 => "1 trigger keeps that".into(),
-                most => format!("up to {most} triggers keep that"),
-            },
-            Err(_) => "no number of triggers keeps that".to_string(),
+        let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
+        let many = match most {
+            Some(1) => "1 trigger keeps that".into(),
+            Some(most) => format!("up to {most} triggers keep that"),
+            None => "no number of triggers keeps that".to_string(),
         };
         let required = |ticks: u64| match ticks {
             1 => "1 is required".into(),
@@ -288,17 +287,24 @@ impl Problem {
                     ..=0 => "none is short enough".into(),
                     longest => format!("those of up to {} fit", ticks(longest)),
                 };
+                let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                let reason = format!("{why}; {longest}, or {many}");
+                let reason = format!("{why}; {longest}{many}");
                 Fault { at: Some(place), reason, notes: Vec::new() }
             }
             (Lamp::Doses { .. }, &Self::Close(i, gap)) => Fault::at(
                 &scene.triggers,
-                format!("{}, and {dark}; {many}, or a smaller duty", apart(i, gap, "pulses")),
+                format!(
+                    "{}, and {dark}; {many}; a smaller duty leaves more",
+                    apart(i, gap, "pulses")
+                ),
             ),
             (Lamp::Doses { .. }, &Self::Short(i, length)) => Fault::at(
                 &scene.triggers,
-                format!("pulse {i} lasts {}, and {lit}; {many}, or a greater duty", ticks(length)),
+                format!(
+                    "pulse {i} lasts {}, and {lit}; {many}; a greater duty lasts longer",
+                    ticks(length)
+                ),
             ),
             (_, &Self::Close(i, gap)) => Fault::at(
                 &scene.triggers,
