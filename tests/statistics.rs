@@ -67,9 +67,9 @@ fn uniform() -> impl Iterator<Item = f32> {
     (0..SAMPLES).map(move |_| rng.unit() as f32)
 }
 
-/// The scenes of the main example, by their files' names.
+/// The scenes that ship, by their files' names.
 fn scenes() -> Vec<(String, Curve)> {
-    let folder = std::fs::read_dir("examples/scenes").expect("the scenes");
+    let folder = std::fs::read_dir("cli/scenes").expect("the scenes");
     let mut scenes: Vec<_> = folder
         .map(|file| {
             let path = file.expect("a file").path();

@@ -1,6 +1,6 @@
 //! The hard cases: curves on which solvers are known to fail, one a reason.
 //!
-//! `tests/hard_cases.rs` judges them all; `benches/speed_vs_error` prints them beside the baselines.
+//! `tests/hard_cases.rs` judges them all; `benches/host/speed_vs_error` prints them beside the baselines.
 
 mod found;
 

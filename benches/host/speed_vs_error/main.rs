@@ -1,8 +1,8 @@
 //! Speed against error: the report `docs/speed-vs-error.md` and its pictures, from one run.
 //!
-//! `cargo bench --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
-//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every `f32` on a dozen curves. The
-//! last two leave tables in `docs`, which the next report takes in.
+//! `cargo bench -p benches --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
+//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every
+//! `f32` on a dozen curves. The last two leave tables in `docs`, which the next report takes in.
 
 mod accuracy;
 mod aimed;
@@ -19,7 +19,7 @@ mod report;
 mod search;
 mod seeds;
 mod style;
-#[path = "../../tests/support/mod.rs"]
+#[path = "../../../tests/support/mod.rs"]
 mod support;
 mod sweep;
 mod sweep_t;
@@ -58,6 +58,8 @@ type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 
 fn main() -> Result {
     let args = Args::parse();
+    // All paths are the repository's; cargo starts a bench in its package.
+    std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
     if let Some(curves) = args.search {
         let bar = progress("search", 2 * curves);
         let mut finds = search::search(curves, || bar.inc(1));

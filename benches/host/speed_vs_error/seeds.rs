@@ -60,7 +60,7 @@ pub fn rows(figures: &[Figures], times: &[Vec<Time>]) -> Vec<SeedRow> {
 pub fn others(features: &str) -> Result<Vec<SeedRow>, Box<dyn std::error::Error>> {
     let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
     let output = Command::new(cargo)
-        .args(["bench", "--quiet", "--bench", "speed_vs_error", "--no-default-features"])
+        .args(["bench", "--quiet", "--package", "benches", "--bench", "speed_vs_error"])
         .args(["--features", features, "--", "--seed-rows"])
         .stderr(Stdio::inherit())
         .output()?;

@@ -53,7 +53,7 @@ fn introduction(out: &mut String, measured: &Measured) -> std::fmt::Result {
         out,
         "# Speed against error
 
-Written by `cargo bench --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
+Written by `cargo bench -p benches --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
 an ordinary machine, medians of interleaved repeats over 65 536 random `u`, so that no branch on `u` is ever
 predicted; on another machine trust the ratios. Seed feature: {SEED}, unless said otherwise.
 
@@ -341,7 +341,7 @@ fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
         out,
         "### Found by search
 
-`cargo bench --bench speed_vs_error -- --search N` draws random curves, three of four of them hard, and climbs from the
+`cargo bench -p benches --bench speed_vs_error -- --search N` draws random curves, three of four of them hard, and climbs from the
 worst of them by moving control points. {} valid curves were tried, each on about 650 `u`; the errors
 in ulp(t), the evaluations and the round trip are those of every seventh of these.
 
@@ -398,7 +398,7 @@ fn every_f32(out: &mut String, measured: &Measured) -> std::fmt::Result {
         out,
         "## Every f32
 
-`cargo bench --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
+`cargo bench -p benches --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
 and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
 `opening` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
 runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that

@@ -1,7 +1,7 @@
-//! Host timing of the public calls beside the usual ways: `cargo bench --bench host`.
+//! Host timing of the public calls beside the usual ways: `cargo bench -p benches --bench host`.
 
 mod curves;
-#[path = "../tests/support/mod.rs"]
+#[path = "../../tests/support/mod.rs"]
 mod support;
 
 use std::hint::black_box;

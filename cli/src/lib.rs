@@ -1,0 +1,19 @@
+//! From a camera's shutter to the ticks at which a firmware triggers.
+//!
+//! A scene (text in TOML) becomes a [`plan::Plan`]. Everything here but the
+//! `command` is plain functions without input, output or a terminal, and builds for `wasm32-unknown-unknown` without
+//! the default features.
+
+#[cfg(feature = "terminal")]
+pub mod command;
+pub mod emit;
+pub mod facts;
+pub mod lamp;
+#[cfg(feature = "picture")]
+pub mod picture;
+pub mod plan;
+#[cfg(feature = "terminal")]
+pub mod report;
+pub mod scene;
+pub mod shape;
+pub mod unit;
