@@ -54,9 +54,12 @@ unsafe impl ReadBuffer for Armed {
     }
 }
 
+/// The DMA, while it feeds the state machine.
+type Feed<SM, CH> = Transfer<Channel<CH>, Armed, Tx<(PIO0, SM)>>;
+
 /// The state machine `SM` and the DMA channel `CH`, armed with a frame, and the frame that comes after it.
 pub struct Output<SM: StateMachineIndex, CH: ChannelIndex> {
-    transfer: Option<Transfer<Channel<CH>, Armed, Tx<(PIO0, SM)>>>,
+    transfer: Option<Feed<SM, CH>>,
     next: &'static mut Frame,
     is_fresh: bool,
 }
