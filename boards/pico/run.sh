@@ -25,7 +25,7 @@ if ! [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ]
 fi
 
 cargo build --quiet --locked --release --target $target --package firmware
-folder=${CARGO_TARGET_DIR:-target}
+folder=$(cargo metadata --no-deps --format-version 1 | node --print 'JSON.parse(fs.readFileSync(0)).target_directory')
 # What has to come, by the host.
 cargo run --quiet --locked --package expected >"$folder/expected.json"
 node emulator/check.mjs "$folder/$target/release/strobe" "$folder/expected.json"

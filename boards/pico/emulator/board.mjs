@@ -28,6 +28,7 @@ export class Board {
     mcu.logger = new ConsoleLogger(LogLevel.Error);
     load(mcu, readFileSync(elf));
     // Without a boot ROM, which nobody may copy: its job is done here.
+    if (!isBootStage(mcu.flash.subarray(0, 256))) throw new Error("the chip would not start: no second boot stage");
     mcu.core.VTOR = VECTORS;
     mcu.core.reset();
     mcu.onBreak = () => {
@@ -115,6 +116,16 @@ function step(pio, machine) {
   if (machine.clockDivInt !== 1 || machine.clockDivFrac !== 0 || (pio.instructions[machine.pc] >> 8) & delays)
     throw new Error("the emulator's state machines take one cycle an instruction");
   machine.step();
+}
+
+/** The boot ROM's condition: the last of the 256 bytes are the CRC-32 of the others, in the MPEG-2 variant. */
+function isBootStage(bytes) {
+  let crc = 0xffffffff;
+  for (const byte of bytes.subarray(0, 252)) {
+    crc ^= byte << 24;
+    for (let bit = 0; bit < 8; bit++) crc = (crc << 1) ^ (crc < 0 ? 0x04c11db7 : 0);
+  }
+  return Buffer.from(bytes).readUInt32LE(252) === crc >>> 0;
 }
 
 /** Copies what a 32-bit ELF file wants in flash. */
