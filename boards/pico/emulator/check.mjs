@@ -75,10 +75,15 @@ function fire(frame, send) {
   const name = `frame ${total.frames + 1}`;
   const edge = start(name);
   board.send(send);
-  board.run(1000);
-  board.drive(START, false);
   // A little longer than the frame, for a pulse too many.
-  board.run(frame.ticks.at(-1) + 3 * frame.length + 1000);
+  const end = edge + frame.ticks.at(-1) + 3 * frame.length + 1000;
+  // The pin goes low soon, or goes high again during the frame, or stays high beyond its end: no matter.
+  let isHigh = true;
+  for (const part of [[0.1], [0.1, 0.4, 0.6], [1]][total.frames % 3]) {
+    board.run(edge + Math.round(part * (end - edge)) - board.cycle);
+    board.drive(START, (isHigh = !isHigh));
+  }
+  board.run(end - board.cycle);
   const wrong = judge(frame, edge);
   if (wrong) fail(`${name}: ${wrong}`);
   edges.length = 0;
