@@ -258,8 +258,12 @@ fn a_number_out_of_range_is_an_error() {
             "[0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9, 0.0, 0.0]",
             "shutteropening: 8 numbers are required, not 9",
         ),
-        ("timer_hz", "0", "the tick rate is 0 Hz"),
-        ("timer_hz", "2147483649", "the interval is longer than 2^31 ticks"),
+        ("timer_hz", "0", "the tick rate is 0"),
+        (
+            "timer_hz",
+            "2147483649",
+            "the interval is longer than 2^31 ticks; a rate of up to 2147483648 ticks in the curve's unit of time keeps to that",
+        ),
     ] {
         fails(&dir, &with(key, value), line(key), reason);
     }
@@ -270,11 +274,26 @@ fn a_bad_curve_is_an_error() {
     let dir = empty_dir("curve");
     let order =
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
-    let length = "the interval's length is outside [2^-64, 2^64]";
+    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)";
     for (key, value, at, reason) in [
-        ("open_start", "nan", "open_start", "opening ramp: a control point is NaN or infinite"),
-        ("close_end", "-inf", "close_end", "closing ramp: a control point is NaN or infinite"),
-        ("close_end", "1e39", "close_end", "closing ramp: a control point is NaN or infinite"),
+        (
+            "open_start",
+            "nan",
+            "open_start",
+            "opening ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
+        ),
+        (
+            "close_end",
+            "-inf",
+            "close_end",
+            "closing ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
+        ),
+        (
+            "close_end",
+            "1e39",
+            "close_end",
+            "closing ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
+        ),
         ("open_start", "0.3", "open_end", order),
         ("open_end", "0.8", "close_start", order),
         ("close_end", "0.7", "close_end", order),
@@ -283,14 +302,17 @@ fn a_bad_curve_is_an_error() {
         fails(&dir, &with(key, value), line(at), reason);
     }
     for (numbers, reason) in [
-        ("[nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]", "opening ramp: a control point is NaN or infinite"),
+        (
+            "[nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]",
+            "opening ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
+        ),
         (
             "[0.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]",
-            "opening ramp: time turns back between the control points",
+            "opening ramp: time turns back along it; t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end",
         ),
         (
             "[0.1, 0, 0.15, 1, 0.1, 1, 0.9, 0]",
-            "closing ramp: time turns back between the control points",
+            "closing ramp: time turns back along it; t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end",
         ),
         ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", "opening ramp: the openness falls below 0"),
         ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", "closing ramp: the openness rises above 1"),

@@ -86,6 +86,7 @@ impl Scene {
                 times.windows(2).find(|pair| pair[0] > pair[1]).map(|pair| pair[1])
             }
             CurveError::TimeTurnsBack(_)
+            | CurveError::InnerTimesTurnBack(_)
             | CurveError::NegativeOpenness(_)
             | CurveError::OpennessAboveOne(_) => None,
             _ => Some(&self.close_end),
