@@ -54,9 +54,12 @@ fn frame(frame: Frame, meanwhile: &[Line]) -> Value {
     step
 }
 
-/// What the crate says of so many pulses.
-fn schedule_error(frame: Frame) -> ScheduleError {
-    frame.curve.schedule::<64>(frame.pulses, TICK_HZ, frame.gap).unwrap_err()
+/// What the crate says of a frame whose pulses are too close.
+fn gap_error(frame: Frame) -> String {
+    let mut ticks = vec![0; frame.pulses as usize];
+    let error = frame.curve.schedule_into(&mut ticks, TICK_HZ, frame.gap).unwrap_err();
+    let most = frame.curve.most_triggers(frame.pulses, TICK_HZ, frame.gap).unwrap();
+    format!("{error}; up to n {most} it is kept")
 }
 
 const ASYMMETRIC: &str = "curve 0 0.002 0.004 0.009 0.05 0.1 0.15 1 0.6 1 0.7 0";
@@ -81,12 +84,12 @@ fn main() {
     let touching = Frame { curve: abrupt, pulses: 8, length: 15_619, ..built };
     let single = Frame { pulses: 1, ..touching };
 
-    let most = schedule_error(Frame { curve: leaf, ..more });
-    let too_many = schedule_error(Frame { pulses: 65, ..dense });
-    let too_long = schedule_error(Frame { gap: 15_620 + 6, ..touching });
+    let too_close = gap_error(Frame { curve: leaf, ..more });
+    let too_many = ScheduleError::CapacityExceeded { capacity: 64 };
+    let too_long = gap_error(Frame { gap: 15_620 + 6, ..touching });
     let steps = [
         frame(at_first, &[ok("n 32", "n 32, gap 100us, pulse 2us, curve 1")]),
-        frame(more, &[refused("curve 2", most)]),
+        frame(more, &[refused("curve 2", too_close)]),
         frame(
             more,
             &[

@@ -63,7 +63,7 @@ impl Planner {
         let settings = self.settings.with(change)?;
         let microseconds = (self.timer.get_counter() - begun).to_micros();
         let (planned, planning) = self.cycles.of(|| frame.plan(&settings));
-        planned.map_err(Refused::Schedule)?;
+        planned?;
         self.settings = settings;
         let building = matches!(change, Change::Built(_)).then_some(microseconds);
         Ok(Cost { planning, building })

@@ -41,6 +41,13 @@ pub enum Refused {
     Numbers,
     /// The twelve numbers are not a curve.
     Curve(CurveError),
+    /// The pulses would come too close to each other.
+    Gap {
+        /// Which, and how close.
+        error: ScheduleError,
+        /// So many would not.
+        most: u32,
+    },
     /// The frame cannot be planned with this.
     Schedule(ScheduleError),
 }
@@ -63,6 +70,7 @@ impl fmt::Display for Refused {
                 CURVES.len()
             ),
             Refused::Curve(error) => error.fmt(out),
+            Refused::Gap { error, most } => write!(out, "{error}; up to n {most} it is kept"),
             Refused::Schedule(error) => error.fmt(out),
         }
     }

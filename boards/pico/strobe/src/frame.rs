@@ -3,6 +3,7 @@
 use shutter_curve::ScheduleError;
 
 use crate::TICK_HZ;
+use crate::change::Refused;
 use crate::fault::spoil;
 use crate::settings::Settings;
 
@@ -37,15 +38,27 @@ impl Frame {
     /// Plans the frame anew, whatever it was.
     ///
     /// # Errors
-    /// Those of [`ShutterCurve::schedule`](shutter_curve::ShutterCurve::schedule); the frame is empty then.
-    pub fn plan(&mut self, settings: &Settings) -> Result<(), ScheduleError> {
+    /// Too many pulses, or pulses too close to each other; the frame is empty then.
+    pub fn plan(&mut self, settings: &Settings) -> Result<(), Refused> {
         self.length = 0;
-        let gap = settings.gap.max(settings.length.saturating_add(MIN_LOW));
-        let planned =
-            settings.curve.get().schedule::<LONGEST_FRAME>(settings.pulses, TICK_HZ, gap)?;
         let mut ticks = [0; LONGEST_FRAME + 1];
-        ticks[..planned.len()].copy_from_slice(&planned);
-        let n = spoil(&mut ticks, planned.len(), settings.length);
+        let n = settings.pulses as usize;
+        let Some(planned) = ticks[..LONGEST_FRAME].get_mut(..n) else {
+            let capacity = LONGEST_FRAME as u32;
+            return Err(Refused::Schedule(ScheduleError::CapacityExceeded { capacity }));
+        };
+        let gap = settings.gap.max(settings.length.saturating_add(MIN_LOW));
+        let curve = settings.curve.get();
+        curve.schedule_into(planned, TICK_HZ, gap).map_err(|error| match error {
+            ScheduleError::GapTooSmall { .. } => {
+                match curve.most_triggers(settings.pulses, TICK_HZ, gap) {
+                    Ok(most) => Refused::Gap { error, most },
+                    Err(error) => Refused::Schedule(error),
+                }
+            }
+            _ => Refused::Schedule(error),
+        })?;
+        let n = spoil(&mut ticks, n, settings.length);
 
         self.push(n as u32 - 1);
         // The state machine counts from the end of one pulse to the start of the next.

@@ -6,6 +6,7 @@ use shutter_curve::{ShutterCurve, valid};
 
 use crate::change::{Change, Refused};
 use crate::duration::Duration;
+use crate::frame::LONGEST_FRAME;
 
 /// The curves in flash, computed by the compiler: a soft shutter, a leaf shutter, a liquid crystal.
 pub static CURVES: [ShutterCurve; 3] = [
@@ -22,6 +23,15 @@ pub static CURVES: [ShutterCurve; 3] = [
         [0.01, 0.6, 0.015, 1.0, 0.46, 0.1, 0.6, 0.0],
     )),
 ];
+
+// No pulse of these is searched for, so the plan of a frame always takes less than a millisecond.
+const _: () = {
+    let mut i = 0;
+    while i < CURVES.len() {
+        assert!(CURVES[i].direct_triggers() >= LONGEST_FRAME as u32);
+        i += 1;
+    }
+};
 
 /// What a frame is planned from.
 #[derive(Clone, PartialEq)]

@@ -22,7 +22,7 @@ fn pulses(words: &[u32]) -> Vec<(u64, u64)> {
     pulses
 }
 
-fn planned(settings: &Settings) -> Result<Vec<(u64, u64)>, ScheduleError> {
+fn planned(settings: &Settings) -> Result<Vec<(u64, u64)>, Refused> {
     let mut frame = Frame::EMPTY;
     frame.plan(settings)?;
     Ok(pulses(frame.words()))
@@ -54,10 +54,11 @@ fn a_frame_has_the_ticks_of_its_curve() {
 
 #[test]
 fn a_frame_that_does_not_keep_the_gap_or_the_least_pause_is_refused() {
-    assert_eq!(planned(&after(&["n 65"])), Err(ScheduleError::CapacityExceeded));
+    let too_many = ScheduleError::CapacityExceeded { capacity: 64 };
+    assert_eq!(planned(&after(&["n 65"])), Err(Refused::Schedule(too_many)));
     for lines in [["n 32", "gap 10ms"], ["n 32", "pulse 10ms"]] {
-        let refused = planned(&after(&lines));
-        assert!(matches!(refused, Err(ScheduleError::GapTooSmall { .. })), "{refused:?}");
+        let Err(Refused::Gap { most, .. }) = planned(&after(&lines)) else { panic!("{lines:?}") };
+        assert_eq!(most, 1);
     }
     // Eight pulses 125 us apart leave 48 ns between them, or less.
     let abrupt = "curve 0 0 1e-3 1e-3 0 0.5 0 1 1 1 1 0.5";

@@ -11,16 +11,15 @@ use cortex_m::asm;
 use critical_section::Mutex;
 use embedded_hal::digital::{InputPin, OutputPin};
 use firmware::board::{Board, unmask};
-use heapless::Vec;
 use rp2040_hal::fugit::MicrosDurationU64;
 use rp2040_hal::gpio::bank0::{Gpio2, Gpio3};
 use rp2040_hal::gpio::{FunctionSioInput, FunctionSioOutput, Interrupt, Pin, PullDown};
 use rp2040_hal::pac::{self, interrupt};
 use rp2040_hal::timer::{Alarm, Alarm0, Instant};
 use rp2040_hal::{Timer, entry};
-use strobe::{CURVES, LONGEST_FRAME, TICK_HZ};
+use strobe::{CURVES, TICK_HZ};
 
-type Ticks = Vec<u32, LONGEST_FRAME>;
+type Ticks = [u32; 32];
 
 struct Firing {
     timer: Timer,
@@ -72,7 +71,9 @@ fn TIMER_IRQ_0() {
 }
 
 fn plan() -> Ticks {
-    CURVES[0].schedule(32, TICK_HZ, 0).unwrap()
+    let mut ticks = [0; 32];
+    CURVES[0].schedule_into(&mut ticks, TICK_HZ, 0).unwrap();
+    ticks
 }
 
 #[entry]
