@@ -55,10 +55,23 @@ impl Pair {
         self.plus(other.negated())
     }
 
+    /// `self - other`, as a sum whose second number may be the greater where the two are nearly the same.
+    #[inline(always)]
+    pub(crate) const fn less(self, other: Self) -> Self {
+        let Self { hi, lo } = Self::sum(self.hi, -other.hi);
+        Self { hi, lo: lo + (self.lo - other.lo) }
+    }
+
     /// `self - other` in single precision, which keeps its relative accuracy where the two are near.
     #[inline(always)]
     pub(crate) const fn difference(self, other: Self) -> f32 {
         (self.hi - other.hi) + (self.lo - other.lo)
+    }
+
+    #[inline(always)]
+    pub(crate) const fn thrice(self) -> Self {
+        let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi);
+        Self { hi, lo: lo + 3.0 * self.lo }
     }
 
     #[inline(always)]
@@ -77,6 +90,16 @@ impl Pair {
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
+    }
+
+    /// `self / x`, to 2⁻⁴⁵: what the quotient's product with `x` lacks of `self` tells the rest.
+    #[inline(always)]
+    pub(crate) const fn over(self, x: Self) -> Self {
+        let inverse = 1.0 / x.hi;
+        let hi = self.hi * inverse;
+        let product = hi * x.hi;
+        let lacks = (self.hi - product) - lost(product, hi, x.hi);
+        Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse }
     }
 
     /// The nearest `f32`.
@@ -140,11 +163,11 @@ impl Series<'_> {
     /// The slope at `x`, in single precision.
     #[inline(always)]
     pub(crate) const fn slope(self, x: f32) -> f32 {
-        let mut k = self.c.len();
-        let mut slope = (k + 1) as f32 * self.last.hi;
-        while k > 0 {
-            slope = slope * x + k as f32 * self.c[k - 1].hi;
-            k -= 1;
+        let mut c = self.c;
+        let mut slope = (c.len() + 1) as f32 * self.last.hi;
+        while let [lower @ .., highest] = c {
+            slope = slope * x + c.len() as f32 * highest.hi;
+            c = lower;
         }
         slope
     }
@@ -188,26 +211,30 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let (first, second) = (power_of_two(unit - half), power_of_two(half));
     let second = if back { -second } else { second };
     let hi = way.hi * first * second;
-    // Less may be subnormal, or have a subnormal second half.
-    if base.abs() + hi.abs() < power_of_two(-78) {
-        return small_sum(base, way, unit, back);
-    }
     let sum = Pair::sum(base, hi);
-    sum.hi + odd_sum(sum.lo, way.lo * first * second)
+    let rest = sum.lo + way.lo * first * second;
+    // Less may be subnormal, or have a subnormal second half; and what is midway between two `f32` is a power of two from
+    // either, perhaps only by rounding.
+    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
+        return careful_sum(base, way, unit, back);
+    }
+    sum.hi + rest
 }
 
-/// The same near 0.
+/// The same where it takes more care.
 #[cold]
 #[inline(never)]
-const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
-    // In a greater unit both halves are normal numbers.
+const fn careful_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
+    // In a greater unit, where it is small, all are normal numbers.
     let half = unit >> 1;
-    let (first, second) = (power_of_two(unit - half), power_of_two(half + 48));
+    let (first, second) = (power_of_two(unit - half), power_of_two(half));
+    let is_small = base.abs() + way.hi * first * second < power_of_two(-78);
+    let up = if is_small { 48 } else { 0 };
+    let (scale, second) = (power_of_two(up), power_of_two(half + up));
     let second = if back { -second } else { second };
-    let (base, hi, lo) =
-        (base * power_of_two(48), way.hi * first * second, way.lo * first * second);
+    let (base, hi, lo) = (base * scale, way.hi * first * second, way.lo * first * second);
     // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
-    let (rough, least) = (base + hi, power_of_two(48 - 126));
+    let (rough, least) = (base + hi, power_of_two(up - 126));
     let places = if rough.abs() >= least {
         0.0
     } else if rough < 0.0 {
@@ -217,7 +244,7 @@ const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     };
     let near = Pair::sum(base, hi);
     let sum = Pair::sum(places, near.hi);
-    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-48)
+    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
 }
 
 /// `a + b`, or of its two neighbours the one whose last bit is set: to round that once more is to round once.

@@ -6,9 +6,9 @@ use core::ops::Range;
 
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
-use crate::pair::{Pair, fixed};
+use crate::pair::{Pair, fixed, power_of_two};
 use crate::plan::{Plan, Words};
-use crate::ramp::{Place, WHOLE, scaled};
+use crate::ramp::{Place, WHOLE_EXPONENT, scaled};
 use crate::shutter::ShutterCurve;
 
 /// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
@@ -54,7 +54,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         // The cast rounds down and saturates.
         // The area is known to some 2⁻⁵¹, so what is so near to the next number is that.
         let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
-        let most = (self.plan.exposure.area() * trace / min_gap as f64) as u32;
+        let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
     }
 
@@ -395,15 +395,16 @@ impl Fractions {
     fn exactly(&self, odd: u64) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) = if odd <= n { (0, odd) } else { (1, 2 * n - odd) };
-        // By words: near times a number of 96 bits.
+        // By words: near times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
-        let high = near * (self.share >> 32) + (middle >> 32);
-        let word = |word: u64, unit: f32| Pair::from_u32(word as u32).scaled(unit);
-        const WORD: f32 = (1u64 << 32) as f32;
-        let upper = word(high >> 32, WHOLE).plus(word(high, WHOLE / WORD));
-        let lower = word(middle, 1.0).plus(word(low, 1.0 / WORD));
-        (side, upper.plus(lower.scaled(WHOLE / WORD / WORD)))
+        let words = near * (self.share >> 32) + (middle >> 32) << 32 | middle as u32 as u64;
+        // The first 48 bits, halved; at least 2⁻³³ of all.
+        let zeros = words.leading_zeros() & 63;
+        let bits = words << zeros | (low as u32 as u64) << zeros >> 32;
+        let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
+        let unit = power_of_two(WHOLE_EXPONENT - 24 - zeros as i32);
+        (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
     }
 }
 
