@@ -153,7 +153,7 @@ for target in "${targets[@]}"; do
     esac
     if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
         unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" qemu-user
-        for emulator in i386 powerpc riscv32 riscv64 s390x; do
+        for emulator in i386 ppc riscv32 riscv64 s390x; do
             wrap "$bin/qemu-$emulator" "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
                 "$cache/qemu-user/usr/bin/qemu-$emulator"
         done
