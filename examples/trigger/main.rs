@@ -1,4 +1,4 @@
-//! Firmware that triggers: a frame's pulses, planned before it begins, fired by a timer's interrupt and
+//! Firmware that triggers: a frame's pulses, each placed and fired by a timer's interrupt and
 //! checked against the clock. It runs on the mps2-an386 board, a Cortex-M4F at 25 MHz, that QEMU has:
 //!
 //! ```text

@@ -86,7 +86,7 @@ impl Measured {
             let key = Key { function, cells, inputs: Inputs::Typical, curve };
             let cycles = self.cycles(&key)?;
             let asked = asked(&key);
-            let searched = asked.iter().filter(|asked| asked.searched == Some(true)).count();
+            let searched = asked.iter().filter(|asked| asked.searched).count();
             Some(Typical {
                 name: CURVES[curve].name,
                 cycles,
@@ -103,20 +103,18 @@ impl Measured {
         (!curves.is_empty()).then(|| total / curves.len() as f64)
     }
 
-    /// The most cycles of a call that was not searched for, over all typical curves with uniform and with hard inputs;
-    /// with its curve and its fraction.
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
+    /// ones, too; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
         let keys = self.calls.keys().filter(|key| {
-            key.function == function
-                && key.cells == cells
-                && CURVES[key.curve].is_typical
-                && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
+            let is_measured = key.function == function && key.cells == cells;
+            is_measured && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
         });
         let calls = keys.flat_map(|key| {
             let calls = asked(key).into_iter().zip(self.calls(key));
             calls.map(|(asked, call)| (call.cycles, key.curve, asked))
         });
-        let direct = calls.filter(|(.., asked)| asked.searched == Some(false));
+        let direct = calls.filter(|(.., asked)| !asked.searched);
         let (cycles, curve, asked) = direct.max_by_key(|(cycles, ..)| *cycles)?;
         Some((cycles, format!("{}, u = {}", CURVES[curve].name, asked.u)))
     }
