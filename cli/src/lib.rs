@@ -8,8 +8,10 @@
 pub mod command;
 #[cfg(feature = "picture")]
 pub mod picture;
+pub mod fit;
 pub mod plan;
 #[cfg(feature = "terminal")]
 pub mod report;
 pub mod scene;
+pub mod trace;
 pub mod unit;

@@ -1,0 +1,87 @@
+//! What the noise makes of the results: standard errors from the normal equations.
+
+use super::curve::{CONTROLS, Exposure, PARAMETERS};
+use super::frame::FrameFit;
+use super::signal::Kind;
+use super::solve::Cholesky;
+
+/// A value and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// One standard deviation of it.
+    pub error: f64,
+}
+
+/// How the parameters of a fitted curve vary together.
+pub struct Covariance {
+    kind: Kind,
+    /// Of the parameters that are on no bound.
+    moving: Vec<usize>,
+    factor: Option<Cholesky>,
+    /// What the inverse is multiplied by: the noise's variance, for correlated samples.
+    variance: f64,
+    /// The variance of each edge beside it: a sample tells an edge's side, not its place.
+    edges: [f64; 2],
+}
+
+impl Covariance {
+    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
+        let fitted = &fit.kinds[kind as usize];
+        let solution = &fitted.solution;
+        let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
+        let on_bound = |k: &usize| packed[*k] <= bounds[*k].0 || packed[*k] >= bounds[*k].1;
+        let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
+        let cell = |i: usize, j: usize| {
+            solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 }
+        };
+        let matrix: Vec<Vec<f64>> =
+            moving.iter().map(|i| moving.iter().map(|j| cell(*i, *j)).collect()).collect();
+        let n = fit.samples.len() as f64;
+        let free = (n - packed.len() as f64 * fit.correlation).max(0.5 * n);
+        let curve = solution.signal.curve;
+        let edge = |ramp: f64| fit.step * fit.step / 12.0 * (1.0 - ramp / (2.0 * fit.step)).max(0.0);
+        Self {
+            kind,
+            moving,
+            factor: Cholesky::new(matrix),
+            variance: fitted.squares / free * fit.correlation,
+            edges: [edge(curve.opening), edge(curve.closing)],
+        }
+    }
+
+    /// The standard error of what moves so with a curve's parameters.
+    pub fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
+        let mut gathered = vec![0.0; self.kind.parameters()];
+        self.kind.gather(moves, &mut gathered);
+        let row: Vec<f64> =
+            self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
+        let Some(factor) = &self.factor else { return f64::INFINITY };
+        let noise: f64 = factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
+        // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
+        let (opening, closing) = (moves[0] - moves[2], moves[2]);
+        let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];
+        (noise * self.variance + edges).sqrt()
+    }
+}
+
+/// The exposure, the efficiency and the times of `n` triggers, in the frame's unit of time.
+pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<Measured>) {
+    let covariance = Covariance::new(fit, kind);
+    let curve = fit.kinds[kind as usize].solution.signal.curve;
+    let exposure = Exposure::new(&curve);
+    let whole = exposure.collected(curve.end() + 1.0).moves;
+    let (area, length) = (exposure.area(), curve.length());
+    let measured = |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
+    let lengths: [f64; PARAMETERS] =
+        std::array::from_fn(|k| if (1..CONTROLS).contains(&k) { 1.0 } else { 0.0 });
+    let ratio = std::array::from_fn(|k| (whole[k] - area / length * lengths[k]) / length);
+    let triggers = (0..n)
+        .map(|i| {
+            let (t, moves) = exposure.trigger((f64::from(i) + 0.5) / f64::from(n));
+            measured(t, &moves)
+        })
+        .collect();
+    (measured(area, &whole), measured(area / length, &ratio), triggers)
+}

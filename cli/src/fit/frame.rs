@@ -1,0 +1,231 @@
+//! One frame fitted: every kind of curve, with the columns that the frame asks for, in units of the frame's own.
+
+use super::bins::{self, Bin};
+use super::curve::Curve;
+use super::hum;
+use super::signal::{Hum, Kind, Signal};
+use super::solve::{Problem, Solution};
+use super::starts::{self, Crossings};
+use crate::trace::{Frame, Pulses};
+
+/// A column is kept if the criterion falls by more than this.
+const WORTH: f64 = 10.0;
+/// The least standard deviation that counts, as a share of the light: below, rounding and the model's own limits rule.
+const LEAST: f64 = 1e-5;
+
+/// The frame's own units: time counts from the pulse's middle in pulses, the signal from the dark in light.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    middle: f64,
+    pulse: f64,
+    dark: f64,
+    light: f64,
+}
+
+impl Units {
+    fn new(frame: &Frame, (dark, light): (f64, f64)) -> Self {
+        let [_, rise, .., fall, _] = frame.crossings;
+        Self { middle: 0.5 * (rise + fall), pulse: fall - rise, dark, light }
+    }
+
+    /// A time in seconds from one in pulses.
+    pub fn seconds(&self, t: f64) -> f64 {
+        self.middle + self.pulse * t
+    }
+
+    fn time(&self, seconds: f64) -> f64 {
+        (seconds - self.middle) / self.pulse
+    }
+
+    fn value(&self, v: f64) -> f64 {
+        (v - self.dark) / self.light
+    }
+
+    /// How many seconds the unit of time is.
+    pub fn pulse(&self) -> f64 {
+        self.pulse
+    }
+
+    /// How much of the trace's own unit the unit of the signal is.
+    pub fn light(&self) -> f64 {
+        self.light
+    }
+
+    /// The signal in the trace's units, its drift and its hum around the pulse's middle.
+    pub fn outside(&self, signal: &Signal) -> Signal {
+        Signal {
+            kind: signal.kind,
+            curve: signal.curve.mapped(self.pulse, self.middle),
+            dark: self.dark + self.light * signal.dark,
+            gain: self.light * signal.gain,
+            drift: signal.drift.map(|drift| drift * self.light / self.pulse),
+            hum: signal.hum.map(|Hum { frequency, cosine, sine }| Hum {
+                frequency: frequency / self.pulse,
+                cosine: cosine * self.light,
+                sine: sine * self.light,
+            }),
+        }
+    }
+}
+
+/// A kind's best signal.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    pub solution: Solution,
+    /// What each sample is missed by.
+    pub residuals: Vec<f64>,
+    /// The sum of their squares.
+    pub squares: f64,
+}
+
+/// A frame's fits.
+#[derive(Clone, Debug)]
+pub struct FrameFit {
+    pub units: Units,
+    /// The samples, each with the time that it owns.
+    pub samples: Vec<Bin>,
+    /// The sampling interval.
+    pub step: f64,
+    /// Of each kind, simplest first.
+    pub kinds: Vec<Fitted>,
+    /// How many samples stand for one that is independent of the others, by the freest kind's residuals.
+    pub correlation: f64,
+}
+
+impl FrameFit {
+    /// Fits every kind up to `most`; the freest one is always among them.
+    pub fn new(pulses: &Pulses, frame: &Frame) -> Self {
+        let units = Units::new(frame, pulses.levels);
+        let times: Vec<f64> =
+            pulses.trace.times[frame.samples.clone()].iter().map(|t| units.time(*t)).collect();
+        let values: Vec<f64> =
+            pulses.trace.values[frame.samples.clone()].iter().map(|v| units.value(*v)).collect();
+        let crossings = frame.crossings.map(|t| units.time(t));
+        let samples = bins::each(&times, &values);
+        let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+        let bins = bins::shared(&samples, around(&crossings, step));
+        let noise = (pulses.noise / pulses.light()).max(LEAST);
+        // A control number is 0.5 of the way around a straight ramp's, give or take.
+        let problem = Problem { bins: &bins, prior: 4.0 * noise * noise };
+
+        let mut solutions = every_kind(&problem, &crossings, step, None);
+        let mut free = Fitted::new(solutions[Kind::Free as usize].clone(), &samples);
+        let mut columns = false;
+        for column in [Column::Drift, Column::Hum] {
+            if let Some(better) = column.add(&problem, &free, &samples) {
+                free = better;
+                columns = true;
+            }
+        }
+        if columns {
+            solutions = every_kind(&problem, &crossings, step, Some(free.solution.signal));
+            let last = &mut solutions[Kind::Free as usize];
+            if free.solution.cost < last.cost {
+                *last = free.solution;
+            }
+        }
+        let kinds: Vec<Fitted> =
+            solutions.into_iter().map(|solution| Fitted::new(solution, &samples)).collect();
+        let correlation = correlation(&kinds[Kind::Free as usize].residuals);
+        Self { units, samples, step, kinds, correlation }
+    }
+
+    /// So many samples count.
+    pub fn effective(&self) -> f64 {
+        self.samples.len() as f64 / self.correlation
+    }
+
+    /// Schwarz's criterion.
+    pub fn bic(&self, kind: Kind) -> f64 {
+        self.kinds[kind as usize].bic(self.samples.len() as f64, self.correlation)
+    }
+}
+
+impl Fitted {
+    fn new(solution: Solution, samples: &[Bin]) -> Self {
+        let mut moves = vec![0.0; solution.signal.len()];
+        let mut means = solution.signal.means();
+        let residuals: Vec<f64> =
+            samples.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves)).collect();
+        let squares = residuals.iter().map(|r| r * r).sum();
+        Self { solution, residuals, squares }
+    }
+
+    fn bic(&self, samples: f64, correlation: f64) -> f64 {
+        let effective = samples / correlation;
+        let variance = (self.squares / samples).max(LEAST * LEAST);
+        effective * variance.ln() + self.solution.signal.len() as f64 * effective.ln()
+    }
+}
+
+/// Every kind's best signal, with the columns of `like`.
+fn every_kind(
+    problem: &Problem,
+    crossings: &Crossings,
+    step: f64,
+    like: Option<Signal>,
+) -> Vec<Solution> {
+    let mut found: Vec<Solution> = Vec::new();
+    for kind in Kind::ALL {
+        let next = match (like, found.is_empty()) {
+            (Some(like), true) => {
+                let [_, rise, .., fall, _] = *crossings;
+                let curve = Curve::trapezoid(rise, 0.0, fall - rise, 0.0);
+                problem.minimise(&Signal { kind, curve, ..like })
+            }
+            _ => starts::search(problem, kind, crossings, step, &found),
+        };
+        found.push(next);
+    }
+    found
+}
+
+/// What may be added to a shutter's signal.
+#[derive(Clone, Copy)]
+enum Column {
+    Drift,
+    Hum,
+}
+
+impl Column {
+    /// The signal with the column, if that is worth it.
+    fn add(self, problem: &Problem, without: &Fitted, samples: &[Bin]) -> Option<Fitted> {
+        let signal = without.solution.signal;
+        let start = match self {
+            Self::Drift => Signal { drift: Some(0.0), ..signal },
+            Self::Hum => Signal { hum: Some(hum::strongest(problem.bins, signal)?), ..signal },
+        };
+        let with = Fitted::new(problem.minimise(&start), samples);
+        let n = samples.len() as f64;
+        // What the column explains must not count as correlated noise.
+        let correlation = correlation(&with.residuals);
+        (with.bic(n, correlation) < without.bic(n, correlation) - WORTH).then_some(with)
+    }
+}
+
+/// Where intervals are to be short: a ramp's quarters and as much again on both sides, and the far tail that a
+/// slow end may have.
+fn around(crossings: &Crossings, step: f64) -> [(f64, f64); 2] {
+    let [up25, _, up75, down75, _, down25] = *crossings;
+    let wide = |a: f64, b: f64| 1.5 * (b - a) + 10.0 * step;
+    let (up, down) = (wide(up25, up75), wide(down75, down25));
+    [(up25 - up, up75 + up), (down75 - down, down25 + down)]
+}
+
+/// How many samples stand for an independent one: 1 + 2 Σ ρ(k), up to where the sum has settled (Sokal's window).
+pub fn correlation(residuals: &[f64]) -> f64 {
+    let n = residuals.len();
+    let squares: f64 = residuals.iter().map(|r| r * r).sum();
+    let mut sum = 1.0;
+    if !(squares > 0.0) {
+        return sum;
+    }
+    for lag in 1..n / 4 {
+        let product: f64 = residuals[lag..].iter().zip(residuals).map(|(a, b)| a * b).sum();
+        sum += 2.0 * product / squares;
+        if lag as f64 >= 5.0 * sum {
+            break;
+        }
+    }
+    sum.clamp(1.0, n as f64 / 20.0)
+}

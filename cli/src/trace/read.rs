@@ -1,0 +1,7 @@
+//! tmp
+/// a
+pub struct Options;
+/// a
+pub struct Column;
+/// a
+pub fn read() {}
