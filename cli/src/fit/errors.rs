@@ -69,19 +69,54 @@ impl Covariance {
 /// The exposure, the efficiency and the times of `n` triggers, in the frame's unit of time.
 pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<Measured>) {
     let covariance = Covariance::new(fit, kind);
-    let curve = fit.kinds[kind as usize].solution.signal.curve;
+    let signal = fit.kinds[kind as usize].solution.signal;
+    let curve = signal.curve;
     let exposure = Exposure::new(&curve);
-    let whole = exposure.collected(curve.end() + 1.0).moves;
+    let whole = exposure.whole().moves;
     let (area, length) = (exposure.area(), curve.length());
     let measured = |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
     let lengths: [f64; PARAMETERS] =
         std::array::from_fn(|k| if (1..CONTROLS).contains(&k) { 1.0 } else { 0.0 });
     let ratio = std::array::from_fn(|k| (whole[k] - area / length * lengths[k]) / length);
-    let triggers = (0..n)
+    let mut triggers: Vec<Measured> = (0..n)
         .map(|i| {
             let (t, moves) = exposure.trigger((f64::from(i) + 0.5) / f64::from(n));
             measured(t, &moves)
         })
         .collect();
+    let beside = misfit(fit, kind, &exposure, &triggers);
+    triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
     (measured(area, &whole), measured(area / length, &ratio), triggers)
+}
+
+/// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond
+/// what noise makes of them.
+///
+/// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
+/// by a random walk whose ends are tied.
+fn misfit(fit: &FrameFit, kind: Kind, exposure: &Exposure, triggers: &[Measured]) -> f64 {
+    let fitted = &fit.kinds[kind as usize];
+    let [start, _, _, end] = exposure.curve.times();
+    let gain = fitted.solution.signal.gain;
+    let variance = fitted.squares / fit.samples.len() as f64 * fit.correlation * fit.step;
+    // What is missed from the start to each time: (time, sum).
+    let mut sum = 0.0;
+    let inside = fit.samples.iter().zip(&fitted.residuals);
+    let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
+    let sums: Vec<(f64, f64)> = inside
+        .map(|(bin, residual)| {
+            sum += residual * (bin.to - bin.from);
+            (bin.to, sum)
+        })
+        .collect();
+    let missed = |t: f64| sums[..sums.partition_point(|(to, _)| *to <= t)].last().map_or(0.0, |s| s.1);
+    let mut excess = 0.0;
+    for (i, trigger) in triggers.iter().enumerate() {
+        let u = (i as f64 + 0.5) / triggers.len() as f64;
+        let (t, f) = (trigger.value, exposure.openness(trigger.value).max(1e-3) * gain);
+        let off = (u * sum - missed(t)) / f;
+        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start)) / (f * f);
+        excess += off * off - (walk - trigger.error * trigger.error).max(0.0);
+    }
+    (excess / triggers.len() as f64).max(0.0).sqrt()
 }

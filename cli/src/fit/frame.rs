@@ -108,7 +108,15 @@ impl FrameFit {
         // A control number is 0.5 of the way around a straight ramp's, give or take.
         let problem = Problem { bins: &bins, prior: 4.0 * noise * noise };
 
-        let mut solutions = every_kind(&problem, &crossings, step, None);
+        let plain = Signal {
+            kind: Kind::Box,
+            curve: Curve::trapezoid(0.0, 0.0, 1.0, 0.0),
+            dark: 0.0,
+            gain: 1.0,
+            drift: None,
+            hum: None,
+        };
+        let mut solutions = every_kind(&problem, &crossings, step, &plain);
         let mut free = Fitted::new(solutions[Kind::Free as usize].clone(), &samples);
         let mut columns = false;
         for column in [Column::Drift, Column::Hum] {
@@ -118,7 +126,7 @@ impl FrameFit {
             }
         }
         if columns {
-            solutions = every_kind(&problem, &crossings, step, Some(free.solution.signal));
+            solutions = every_kind(&problem, &crossings, step, &free.solution.signal);
             let last = &mut solutions[Kind::Free as usize];
             if free.solution.cost < last.cost {
                 *last = free.solution;
@@ -158,24 +166,17 @@ impl Fitted {
     }
 }
 
-/// Every kind's best signal, with the columns of `like`.
+/// Every kind's best signal. Levels and columns start as they are in `like`: a hum's frequency, say, that the misfit of
+/// a simple kind has led astray is not handed on to the next.
 fn every_kind(
     problem: &Problem,
     crossings: &Crossings,
     step: f64,
-    like: Option<Signal>,
+    like: &Signal,
 ) -> Vec<Solution> {
     let mut found: Vec<Solution> = Vec::new();
     for kind in Kind::ALL {
-        let next = match (like, found.is_empty()) {
-            (Some(like), true) => {
-                let [_, rise, .., fall, _] = *crossings;
-                let curve = Curve::trapezoid(rise, 0.0, fall - rise, 0.0);
-                problem.minimise(&Signal { kind, curve, ..like })
-            }
-            _ => starts::search(problem, kind, crossings, step, &found),
-        };
-        found.push(next);
+        found.push(starts::search(problem, kind, crossings, step, found.last(), like));
     }
     found
 }
@@ -212,20 +213,39 @@ fn around(crossings: &Crossings, step: f64) -> [(f64, f64); 2] {
     [(up25 - up, up75 + up), (down75 - down, down25 + down)]
 }
 
-/// How many samples stand for an independent one: 1 + 2 Σ ρ(k), up to where the sum has settled (Sokal's window).
+/// How many samples stand for an independent one: the power of the residuals at frequency 0 over their variance.
+///
+/// By an autoregressive model (Yule and Walker's equations, solved by Levinson and Durbin, the order by Akaike's criterion):
+/// the sum of the residuals' correlations itself comes out too low, because a fit takes the slowest part of the noise away.
 pub fn correlation(residuals: &[f64]) -> f64 {
     let n = residuals.len();
-    let squares: f64 = residuals.iter().map(|r| r * r).sum();
-    let mut sum = 1.0;
+    let lagged = |lag: usize| -> f64 {
+        residuals[lag.min(n)..].iter().zip(residuals).map(|(a, b)| a * b).sum()
+    };
+    let squares = lagged(0);
     if !(squares > 0.0) {
-        return sum;
+        return 1.0;
     }
-    for lag in 1..n / 4 {
-        let product: f64 = residuals[lag..].iter().zip(residuals).map(|(a, b)| a * b).sum();
-        sum += 2.0 * product / squares;
-        if lag as f64 >= 5.0 * sum {
+    let most = (10.0 * (n as f64).log10()) as usize;
+    let rho: Vec<f64> = (0..=most).map(|lag| lagged(lag) / squares).collect();
+    let (mut weights, mut left): (Vec<f64>, f64) = (Vec::new(), 1.0);
+    let (mut best, mut least) = (1.0, 0.0);
+    for order in 1..=most {
+        let known: f64 = weights.iter().zip(rho[1..order].iter().rev()).map(|(w, r)| w * r).sum();
+        let next = (rho[order] - known) / left;
+        let turned: Vec<f64> = weights.iter().rev().map(|w| next * w).collect();
+        weights.iter_mut().zip(turned).for_each(|(w, t)| *w -= t);
+        weights.push(next);
+        left *= 1.0 - next * next;
+        if !(left > 0.0) {
             break;
         }
+        let criterion = n as f64 * left.ln() + 2.0 * order as f64;
+        if criterion < least {
+            least = criterion;
+            best = left / (1.0 - weights.iter().sum::<f64>()).powi(2);
+        }
     }
-    sum.clamp(1.0, n as f64 / 20.0)
+    // Fewer than twenty independent samples would tell nothing of a curve with twelve parameters.
+    best.clamp(1.0, (n as f64 / 20.0).max(1.0))
 }

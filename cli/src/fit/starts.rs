@@ -15,24 +15,22 @@ const SHAPES: [Controls; 6] = [
     [0.05, 0.6, 0.4, 1.0],
 ];
 /// So many of the starts are followed, those that are best as they are.
-const FOLLOWED: usize = 3;
+const FOLLOWED: usize = 6;
 
 /// When a quarter, half and three quarters of the light are reached, and left again.
 pub type Crossings = [f64; 6];
 
-/// The best signals of a kind near its starts, given those of the simpler kinds.
+/// The best signal of a kind near its starts, and near the best of the next simpler kind; what is not the curve's
+/// starts as it is in `like`.
 pub fn search(
     problem: &Problem,
     kind: Kind,
     crossings: &Crossings,
     step: f64,
-    simpler: &[Solution],
+    simpler: Option<&Solution>,
+    like: &Signal,
 ) -> Solution {
-    let columns = simpler.last().map(|solution| solution.signal);
-    let signal = |curve: Curve| match columns {
-        Some(signal) => Signal { kind, curve, ..signal },
-        None => Signal { kind, curve, dark: 0.0, gain: 1.0, drift: None, hum: None },
-    };
+    let signal = |curve: Curve| Signal { kind, curve, ..*like };
     let [_, rise, _, _, fall, _] = *crossings;
     let shapes: Vec<[Controls; 2]> = match kind {
         Kind::Box => Vec::new(),
@@ -50,7 +48,7 @@ pub fn search(
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let curves = ranked.into_iter().map(|(_, curve)| curve).take(FOLLOWED);
     // A simpler kind's curve is one of this kind's, too: so none comes out worse than a simpler one.
-    let nested = simpler.last().map(|solution| match kind {
+    let nested = simpler.map(|solution| match kind {
         Kind::Trapezoid => {
             let Curve { start, plateau, .. } = solution.signal.curve;
             let ramp = step.min(plateau);
