@@ -6,12 +6,16 @@
 
 #[cfg(feature = "terminal")]
 pub mod command;
+pub mod emit;
+pub mod facts;
+pub mod fit;
+pub mod lamp;
 #[cfg(feature = "picture")]
 pub mod picture;
-pub mod fit;
 pub mod plan;
 #[cfg(feature = "terminal")]
 pub mod report;
 pub mod scene;
+pub mod shape;
 pub mod trace;
 pub mod unit;

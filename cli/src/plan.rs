@@ -1,14 +1,17 @@
 //! A scene's triggers, checked.
 
-use shutter_curve::{ScheduleError, ShutterCurve};
+use shutter_curve::ShutterCurve;
 
+use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene};
-use crate::unit::Unit;
+use crate::shape::Shape;
+use crate::unit::{Unit, count};
 
 /// The most triggers of one scene.
 const MOST_TRIGGERS: u32 = 10_000;
 
 /// When to trigger.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trigger {
     /// The fraction of the exposure collected by then.
     pub u: f32,
@@ -16,53 +19,90 @@ pub struct Trigger {
     pub time: f32,
     /// The timer's ticks after the shutter starts to open.
     pub ticks: u32,
+    /// When to switch the lamp on and off, in the same ticks, where the scene asks for pulses.
+    pub pulse: Option<(u32, u32)>,
 }
 
 /// A scene that can be played.
 pub struct Plan {
+    /// The curve's numbers.
+    pub shape: Shape,
     /// The shutter.
     pub curve: ShutterCurve,
     /// The timer's ticks in a second.
     pub timer_hz: u32,
-    /// Seconds, as the scene asks.
+    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
+    /// asks.
     pub min_gap: f64,
-    /// Any number of triggers up to this one keeps the gap.
+    /// What the lamp does.
+    pub lamp: Lamp,
+    /// The exposure that the shutter's maker names, in seconds.
+    pub nominal: Option<f64>,
+    /// So many triggers keep what the scene asks for, and one more does not.
     pub most: u32,
     /// In order.
     pub triggers: Vec<Trigger>,
+    unit: Option<Unit>,
 }
 
 impl Plan {
+    /// The plan of the scene that `text` describes.
+    ///
+    /// ```
+    /// let plan = shutter::plan::Plan::parse(
+    ///     "unit = 'ms'\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 8\n\
+    ///      triggers = 3\ntimer_hz = 1000\nmin_gap = 1\n",
+    /// ).expect("a good scene");
+    /// assert!(plan.triggers.iter().map(|trigger| trigger.ticks).eq([2, 4, 6]));
+    /// ```
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scene, and where in the text.
+    pub fn parse(text: &str) -> Result<Self, Fault> {
+        Self::new(&crate::scene::parse(text)?)
+    }
+
     /// The plan of a scene.
     ///
     /// # Errors
     /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
-        let Scene { triggers, timer_hz, min_gap, .. } = scene;
-        let (&n, &hz, &gap) = (triggers.get_ref(), timer_hz.get_ref(), min_gap.get_ref());
+        let (n, timer_hz) = (scene.triggers.get_ref().get(), scene.timer_hz.get_ref().get());
         if n == 0 || n > MOST_TRIGGERS {
             let reason = format!("triggers: 1 to {MOST_TRIGGERS} can be planned");
-            return Err(Fault::at(triggers, reason));
+            return Err(Fault::at(&scene.triggers, reason));
         }
-        if !(gap.is_finite() && gap >= 0.0) {
-            return Err(Fault::at(min_gap, "min_gap: seconds, 0 or more, are required"));
-        }
-        let curve = scene.curve()?;
-        let ticks = ticks(&curve, n, hz).map_err(|error| Fault::at(timer_hz, error))?;
-        let least = whole_ticks(gap, hz);
-        let most = most_triggers(&curve, hz, least);
-        if let Some(i) = first_too_close(&ticks, least) {
-            let (next, apart) = (i + 1, ticks[i + 1] - ticks[i]);
-            let reason = format!(
-                "triggers {i} and {next} come {apart} ticks apart, and {least} are required; \
-                 up to {most} triggers keep that"
-            );
-            return Err(Fault::at(triggers, reason));
-        }
-        let u = (0..n).map(|i| (i as f32 + 0.5) / n as f32);
-        let triggers = u.zip(curve.trigger_times(n)).zip(ticks);
-        let triggers = triggers.map(|((u, time), ticks)| Trigger { u, time, ticks }).collect();
-        Ok(Self { curve, timer_hz: hz, min_gap: gap, most, triggers })
+        let shape = scene.shape()?;
+        let curve = shape.curve().map_err(|error| scene.fault(&shape, error))?;
+        // The rate is checked here, before anything is counted in ticks.
+        Lamp::Triggered
+            .frame(&curve, 0, timer_hz)
+            .map_err(|error| Fault::at(&scene.timer_hz, error))?;
+        let asked = Asked::new(scene, timer_hz)?;
+        let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let frames = Frames { curve, timer_hz, end: (end * f64::from(timer_hz)).round() as i64 };
+        let frame = match frames.checked(&asked, n) {
+            Ok(frame) => frame,
+            Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
+        };
+        let trigger = |((i, time), flash): ((u32, f32), &Flash)| Trigger {
+            u: (i as f32 + 0.5) / n as f32,
+            time,
+            ticks: flash.tick,
+            pulse: (asked.lamp != Lamp::Triggered).then_some((flash.on as u32, flash.off as u32)),
+        };
+        let triggers = (0..).zip(curve.trigger_times(n)).zip(&frame).map(trigger).collect();
+        Ok(Self {
+            shape,
+            curve,
+            timer_hz,
+            min_gap: asked.min_gap,
+            lamp: asked.lamp,
+            nominal: asked.nominal,
+            most: frames.most(&asked, n, MOST_TRIGGERS + 1),
+            triggers,
+            unit: scene.unit,
+        })
     }
 
     /// From opening to closed, in seconds.
@@ -70,9 +110,9 @@ impl Plan {
         f64::from(self.curve.close_end()) - f64::from(self.curve.open_start())
     }
 
-    /// The unit that suits this plan's times.
+    /// The scene's unit, or the one that suits its times.
     pub fn unit(&self) -> Unit {
-        Unit::fit(self.length())
+        self.unit.unwrap_or_else(|| Unit::fit(self.length()))
     }
 
     /// How long so many ticks last.
@@ -86,31 +126,195 @@ impl Plan {
     }
 }
 
-fn ticks(curve: &ShutterCurve, n: u32, timer_hz: u32) -> Result<Vec<u32>, ScheduleError> {
-    Ok(curve.trigger_ticks(n, timer_hz)?.collect())
+/// What a scene asks of each frame, in ticks.
+struct Asked {
+    lamp: Lamp,
+    min_gap: f64,
+    nominal: Option<f64>,
+    /// Between the end of one flash and the start of the next.
+    dark: u64,
+    /// What a pulse has to last.
+    lit: u64,
 }
 
-/// The first trigger that the next one follows in fewer than `least` ticks.
-fn first_too_close(ticks: &[u32], least: u64) -> Option<usize> {
-    ticks.windows(2).position(|pair| u64::from(pair[1] - pair[0]) < least)
+impl Asked {
+    fn new(scene: &Scene, timer_hz: u32) -> Result<Self, Fault> {
+        let min_gap = scene.seconds("min_gap", &scene.min_gap)?;
+        if min_gap < 0.0 {
+            return Err(Fault::at(&scene.min_gap, "min_gap: 0 or more is required"));
+        }
+        let positive = |key, value| {
+            let Some(value) = value else { return Ok(None) };
+            let seconds = scene.seconds(key, value)?;
+            if seconds > 0.0 {
+                return Ok(Some(seconds));
+            }
+            Err(Fault::at(value, format!("{key}: more than 0 is required")))
+        };
+        let nominal = positive("nominal", scene.nominal.as_ref())?;
+        let pulse = positive("pulse", scene.pulse.as_ref())?;
+        let min_pulse = positive("min_pulse", scene.min_pulse.as_ref())?;
+        let lamp = match (&scene.pulse, &scene.duty) {
+            (Some(_), Some(duty)) => {
+                let reason = "duty and pulse: a scene has one of them (pulse where the curve is \
+                              emulated, duty where the shutter is in the light's path)";
+                return Err(Fault::at(duty, reason));
+            }
+            (Some(place), None) => {
+                let ticks = (pulse.unwrap_or_default() * f64::from(timer_hz)).round();
+                if ticks == 0.0 {
+                    let reason = format!("pulse: it is less than half a tick of {timer_hz} Hz");
+                    return Err(Fault::at(place, reason));
+                }
+                // The cast saturates; what is so long is refused later.
+                Lamp::Equal { ticks: ticks as u32 }
+            }
+            (None, Some(place)) => {
+                let duty = place.get_ref().get() as f32;
+                if !(duty > 0.0 && duty <= 1.0) {
+                    return Err(Fault::at(place, "duty: above 0 and at most 1 is required"));
+                }
+                Lamp::Doses { duty }
+            }
+            (None, None) => Lamp::Triggered,
+        };
+        if let (Some(place), None) = (&scene.min_pulse, &scene.duty) {
+            let reason = "min_pulse: it goes with duty, which makes pulses of many lengths";
+            return Err(Fault::at(place, reason));
+        }
+        // A timer fires once a tick; a lamp that shines on needs no gap.
+        let least = u64::from(lamp == Lamp::Triggered);
+        let dark = whole_ticks(min_gap, timer_hz).max(least);
+        let lit = match lamp {
+            Lamp::Triggered => 0,
+            Lamp::Equal { .. } => 1,
+            Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer_hz).max(1),
+        };
+        Ok(Self { lamp, min_gap, nominal, dark, lit })
+    }
 }
 
-/// The fewest ticks that last as long as `gap`; at least one, as a timer fires once a tick.
+/// The frames of a shutter, of any number of triggers.
+struct Frames {
+    curve: ShutterCurve,
+    timer_hz: u32,
+    /// The ticks until the shutter is closed.
+    end: i64,
+}
+
+/// What is wrong with a frame.
+enum Problem {
+    /// A flash and the next, with so many ticks between them.
+    Close(usize, i64),
+    /// A pulse lasts so many ticks.
+    Short(usize, i64),
+    /// The first pulse begins too early, or the last one ends too late.
+    Outside,
+}
+
+impl Frames {
+    /// The frame of `n` triggers, if it keeps what is asked for.
+    fn checked(&self, asked: &Asked, n: u32) -> Result<Vec<Flash>, Problem> {
+        // The rate is known to be good.
+        let frame = asked.lamp.frame(&self.curve, n, self.timer_hz).unwrap_or_default();
+        let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
+        let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
+        if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), asked.dark)) {
+            return Err(Problem::Close(i, gap(&frame[i..])));
+        }
+        let length = |flash: &Flash| flash.off - flash.on;
+        if let Some(i) = frame.iter().position(|flash| less(length(flash), asked.lit)) {
+            return Err(Problem::Short(i, length(&frame[i])));
+        }
+        if frame.iter().any(|flash| flash.on < 0 || flash.off > self.end) {
+            return Err(Problem::Outside);
+        }
+        Ok(frame)
+    }
+
+    /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
+    fn most(&self, asked: &Asked, mut keep: u32, mut fail: u32) -> u32 {
+        while fail - keep > 1 {
+            let middle = keep + (fail - keep) / 2;
+            let kept = self.checked(asked, middle).is_ok();
+            *(if kept { &mut keep } else { &mut fail }) = middle;
+        }
+        keep
+    }
+
+    /// The longest equal pulse that `n` triggers leave room for, in ticks.
+    fn longest(&self, asked: &Asked, n: u32) -> i64 {
+        let ticks = Lamp::Triggered.frame(&self.curve, n, self.timer_hz).unwrap_or_default();
+        let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
+        let dark = i64::try_from(asked.dark).unwrap_or(i64::MAX);
+        let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));
+        // Half of it, rounded down, comes before its trigger.
+        let first = ticks.first().map(|first| 2 * first + 1);
+        let last = ticks.last().map(|last| 2 * (self.end - last));
+        apart.chain(first).chain(last).min().unwrap_or_default()
+    }
+}
+
+impl Problem {
+    /// What is wrong with the frame of `n` triggers, and what would help.
+    fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
+        let many = match frames.checked(asked, 1) {
+            Ok(_) => match frames.most(asked, 1, n) {
+                1 => "1 trigger keeps that".into(),
+                most => format!("up to {most} triggers keep that"),
+            },
+            Err(_) => "no number of triggers keeps that".to_string(),
+        };
+        let required = |ticks: u64| match ticks {
+            1 => "1 is required".into(),
+            _ => format!("{ticks} are required"),
+        };
+        let ticks = |ticks: i64| count(ticks.unsigned_abs(), "tick");
+        let apart = |i: usize, apart: i64, what: &str| match apart {
+            ..0 => format!("{what} {i} and {} overlap by {}", i + 1, ticks(apart)),
+            _ => format!("{what} {i} and {} come {} apart", i + 1, ticks(apart)),
+        };
+        let (dark, lit) = (required(asked.dark), required(asked.lit));
+        match (asked.lamp, self) {
+            (Lamp::Equal { ticks: length }, problem) => {
+                let pulses = format!("pulses of {}", count(length, "tick"));
+                let why = match *problem {
+                    Self::Close(i, gap) => {
+                        format!("{pulses}: {}, and {dark}", apart(i, gap, "pulses"))
+                    }
+                    _ => format!("{pulses}: they reach beyond the time that the shutter is open"),
+                };
+                let longest = match frames.longest(asked, n) {
+                    ..=0 => "none is short enough".into(),
+                    longest => format!("those of up to {} fit", ticks(longest)),
+                };
+                let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
+                let reason = format!("{why}; {longest}, or {many}");
+                Fault { at: Some(place), reason, notes: Vec::new() }
+            }
+            (Lamp::Doses { .. }, &Self::Close(i, gap)) => Fault::at(
+                &scene.triggers,
+                format!("{}, and {dark}; {many}, or a smaller duty", apart(i, gap, "pulses")),
+            ),
+            (Lamp::Doses { .. }, &Self::Short(i, length)) => Fault::at(
+                &scene.triggers,
+                format!("pulse {i} lasts {}, and {lit}; {many}, or a greater duty", ticks(length)),
+            ),
+            (_, &Self::Close(i, gap)) => Fault::at(
+                &scene.triggers,
+                format!("{}, and {dark}; {many}", apart(i, gap, "triggers")),
+            ),
+            _ => Fault::at(&scene.triggers, format!("the frame does not fit; {many}")),
+        }
+    }
+}
+
+/// The fewest ticks that last as long as `gap`.
 fn whole_ticks(gap: f64, timer_hz: u32) -> u64 {
     let hz = f64::from(timer_hz);
     // Compared in seconds: gap and quotient are both the nearest to what is meant, so a gap written as
     // a decimal fraction that is a whole number of ticks counts as one.
     let nearest = (gap * hz).round();
     let short = nearest / hz < gap;
-    (nearest as u64).saturating_add(short.into()).max(1)
-}
-
-/// The most triggers sure to come `least` ticks apart: those whose exact times do, less those that lose
-/// a tick in rounding, which are few.
-fn most_triggers(curve: &ShutterCurve, timer_hz: u32, least: u64) -> u32 {
-    let exact = curve.max_triggers((least as f64 / f64::from(timer_hz)) as f32).min(MOST_TRIGGERS);
-    let keeps = |n: &u32| {
-        ticks(curve, *n, timer_hz).is_ok_and(|ticks| first_too_close(&ticks, least).is_none())
-    };
-    (1..=exact).rev().find(keeps).unwrap_or(1)
+    (nearest as u64).saturating_add(short.into())
 }

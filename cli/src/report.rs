@@ -1,10 +1,12 @@
-//! The plan as text: the curve's facts, the drawing, the table.
+//! The plan as text for a terminal: its facts, the drawing, the table.
 
-use std::fmt::{self, Write};
+use std::fmt::{self, Display, Write};
 use std::iter::once;
 
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
+use crate::facts;
+use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
 use crate::unit::{Unit, decimals, short};
 
@@ -24,37 +26,16 @@ pub fn text(name: &str, plan: &Plan) -> String {
 
 fn write_text(out: &mut String, name: &str, plan: &Plan) -> fmt::Result {
     let unit = plan.unit();
-    facts(out, name, plan, unit)?;
+    for (name, fact) in facts::lines(name, plan) {
+        writeln!(out, "{name:11}  {fact}")?;
+    }
     let curve = &plan.curve;
-    writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name)?;
+    writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
     out.push_str(&drawing(plan, unit, |t| curve.opening(t)));
-    writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name)?;
+    writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
     out.push_str(&drawing(plan, unit, |t| curve.cdf(t)));
     writeln!(out)?;
     table(out, plan, unit)
-}
-
-fn facts(out: &mut String, name: &str, plan: &Plan, unit: Unit) -> fmt::Result {
-    let curve = &plan.curve;
-    let of = |seconds: f32| short(unit.of(seconds), 5);
-    writeln!(out, "scene        {name}")?;
-    writeln!(
-        out,
-        "shutter      opens from {} to {}, closes from {} to {} {}",
-        of(curve.open_start()),
-        of(curve.open_end()),
-        of(curve.close_start()),
-        of(curve.close_end()),
-        unit.name
-    )?;
-    writeln!(out, "exposure     {}", unit.show(curve.exposure()))?;
-    writeln!(out, "efficiency   {} %", short(100.0 * f64::from(curve.efficiency()), 4))?;
-    writeln!(out, "timer        {} Hz", plan.timer_hz)?;
-    write!(out, "gap          at least {}", unit.show(plan.min_gap))?;
-    if let Some(ticks) = plan.gaps().min() {
-        write!(out, "; the closest two come {} apart", unit.show(plan.seconds(ticks)))?;
-    }
-    writeln!(out, "\ntriggers     {}; up to {} keep the gap", plan.triggers.len(), plan.most)
 }
 
 /// The function `f` of time with a line up to it at each trigger.
@@ -91,22 +72,34 @@ fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
     // A digit more than tells one tick from the next, as far as f32 has them.
     let tick = unit.of(plan.seconds(1));
     let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
-    let (time, gap) = (format!("time ({})", unit.name), format!("gap ({})", unit.name));
-    writeln!(out, "    #        u  {time:>13}       ticks  {gap:>13}")?;
+    let has_pulses = plan.lamp != Lamp::Triggered;
+    let pulse = |on: &dyn Display, off: &dyn Display| match has_pulses {
+        true => format!("  {on:>10}  {off:>10}"),
+        false => String::new(),
+    };
+    let time = format!("time ({})", unit.name());
+    // Between pulses, the gap is darkness.
+    let gap = if has_pulses { "apart" } else { "gap" };
+    let gap = format!("{gap} ({})", unit.name());
+    writeln!(out, "    #        u  {time:>13}       ticks{}  {gap:>13}", pulse(&"on", &"off"))?;
     let n = plan.triggers.len();
     let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };
-    for (i, Trigger { u, time, ticks }) in plan.triggers.iter().enumerate() {
+    let mut last: Option<f64> = None;
+    for (i, trigger) in plan.triggers.iter().enumerate() {
         if i == hidden.start {
             writeln!(out, "  ...  {} more", hidden.len())?;
         }
+        // Rounded as it is printed, so that a gap is the difference of what stands there.
+        let rounding = 10f64.powi(places as i32);
+        let time = (unit.of(trigger.time) * rounding).round() / rounding;
+        let gap = last.replace(time).map_or("-".into(), |last| format!("{:.places$}", time - last));
         if hidden.contains(&i) {
             continue;
         }
-        let gap = match i.checked_sub(1).map(|last| ticks - plan.triggers[last].ticks) {
-            Some(gap) => format!("{:.places$}", unit.of(plan.seconds(gap))),
-            None => "-".into(),
-        };
-        writeln!(out, "{i:5}  {u:.5}  {:13.places$}  {ticks:10}  {gap:>13}", unit.of(*time))?;
+        let Trigger { u, ticks, pulse: times, .. } = trigger;
+        let (on, off) = times.unwrap_or_default();
+        let pulse = pulse(&on, &off);
+        writeln!(out, "{i:5}  {u:.5}  {time:13.places$}  {ticks:10}{pulse}  {gap:>13}")?;
     }
     Ok(())
 }

@@ -1,37 +1,73 @@
-//! Numbers as people write them.
+//! Units of time, and numbers as people write them.
 
-/// A unit of time, by how many of it are a second.
-#[derive(Clone, Copy)]
-pub struct Unit {
-    /// As it is written.
-    pub name: &'static str,
-    /// How many are a second.
-    pub per_second: f64,
+use serde::Deserialize;
+
+/// A unit of time, by the name that it has in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Unit {
+    /// `s`
+    #[serde(rename = "s")]
+    Second,
+    /// `ms`
+    #[serde(rename = "ms")]
+    Millisecond,
+    /// `µs`, with the micro sign or the Greek letter, or `us`
+    #[serde(rename = "µs", alias = "μs", alias = "us")]
+    Microsecond,
+    /// `ns`
+    #[serde(rename = "ns")]
+    Nanosecond,
 }
 
-const UNITS: [Unit; 4] = [
-    Unit { name: "s", per_second: 1.0 },
-    Unit { name: "ms", per_second: 1e3 },
-    Unit { name: "µs", per_second: 1e6 },
-    Unit { name: "ns", per_second: 1e9 },
-];
-
 impl Unit {
+    const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+
+    /// As it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Second => "s",
+            Self::Millisecond => "ms",
+            Self::Microsecond => "µs",
+            Self::Nanosecond => "ns",
+        }
+    }
+
+    /// How many of it are a second.
+    pub const fn per_second(self) -> f64 {
+        match self {
+            Self::Second => 1.0,
+            Self::Millisecond => 1e3,
+            Self::Microsecond => 1e6,
+            Self::Nanosecond => 1e9,
+        }
+    }
+
     /// The largest that `seconds` has at least one of.
     pub fn fit(seconds: f64) -> Self {
-        let fits = |unit: &Self| seconds * unit.per_second >= 1.0;
-        UNITS.into_iter().find(fits).unwrap_or(UNITS[3])
+        let fits = |unit: &Self| seconds * unit.per_second() >= 1.0;
+        Self::ALL.into_iter().find(fits).unwrap_or(Self::Nanosecond)
     }
 
     /// A time without its unit.
     pub fn of(self, seconds: impl Into<f64>) -> f64 {
-        seconds.into() * self.per_second
+        seconds.into() * self.per_second()
+    }
+
+    /// The seconds of a time in this unit; divided, so that 2.5 ms is the number nearest to 0.0025.
+    pub fn seconds(self, time: f64) -> f64 {
+        time / self.per_second()
     }
 
     /// A time with its unit, to five digits.
     pub fn show(self, seconds: impl Into<f64>) -> String {
-        format!("{} {}", short(self.of(seconds), 5), self.name)
+        format!("{} {}", short(self.of(seconds), 5), self.name())
     }
+}
+
+/// So many things by their name: `1 trigger`, `2 triggers`.
+pub fn count(n: impl Into<u64>, thing: &str) -> String {
+    let n = n.into();
+    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
 }
 
 /// `x` to so many significant digits, without the zeros that say nothing.

@@ -5,6 +5,9 @@ use std::fs;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use shutter::emit::{Form, emit};
+use shutter::plan::Plan;
+
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
 /// How a run ended, and what it wrote.
@@ -76,6 +79,83 @@ fn the_default_is_the_soft_scene() {
 }
 
 #[test]
+fn without_a_command_it_plans() {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    assert_eq!(shutter::command::run(["shutter".into()], &mut out, &mut err), 0);
+    assert_eq!(String::from_utf8(out).unwrap(), run([]).out);
+}
+
+#[test]
+fn a_form_is_all_that_is_printed() {
+    let soft = Plan::parse(include_str!("../scenes/soft.toml")).unwrap();
+    for (name, form) in
+        [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)]
+    {
+        let run = run([Path::new("--emit"), Path::new(name)]);
+        assert_eq!((run.code, run.err.as_str()), (0, ""));
+        assert_eq!(run.out, emit(form, "soft", &soft));
+    }
+    let run = run([Path::new("--emit"), Path::new("pascal")]);
+    assert_eq!((run.code, run.out.as_str()), (2, ""));
+    assert!(run.err.contains("[possible values: rust, c, csv, json]"), "{}", run.err);
+}
+
+/// And so they show the crate as it is. `cargo run -- plan --out docs/curve.svg --set-ups docs/set-ups.svg` draws them.
+#[test]
+fn the_pictures_of_the_docs_are_as_they_are_drawn() {
+    let dir = empty_dir("docs");
+    let [curve, set_ups] = ["curve.svg", "set-ups.svg"].map(|name| dir.join(name));
+    let run = run([Path::new("--out"), &curve, Path::new("--set-ups"), &set_ups]);
+    assert_eq!(run.code, 0);
+    for picture in [curve, set_ups] {
+        let kept = Path::new(SCENES).join("../../docs").join(picture.file_name().unwrap());
+        let same = fs::read_to_string(&picture).unwrap() == fs::read_to_string(&kept).unwrap();
+        assert!(same, "{} is old", kept.display());
+    }
+}
+
+#[test]
+fn both_set_ups_are_drawn_with_their_doses() {
+    let dir = empty_dir("set_ups");
+    for scene in ["soft", "led", "projector", "box", "strobe"] {
+        let picture = dir.join(scene).with_extension("svg");
+        let file = Path::new(SCENES).join(scene).with_extension("toml");
+        assert_eq!(run([&file, Path::new("--set-ups"), &picture]).code, 0, "{scene}");
+        let svg = fs::read_to_string(&picture).unwrap();
+        assert!(svg.contains("prefers-color-scheme: dark"));
+        let doses = |percent: &str| svg.matches(&format!("\n{percent}\n</text>")).count();
+        // What a flash has lost that comes where soft is open to 0.611.
+        match scene {
+            "soft" | "led" => {
+                assert_eq!((doses("100"), doses("61"), doses("96")), (12 + 8 + 12, 2, 2))
+            }
+            // And the axes of time end at 100 µs.
+            "box" => assert_eq!(doses("100"), 30 + 3),
+            _ => (),
+        }
+    }
+}
+
+#[test]
+fn a_picture_has_a_title_and_colours_for_the_dark() {
+    let picture = empty_dir("title").join("a & b <c>.svg");
+    let scene = picture.with_extension("toml");
+    fs::write(&scene, GOOD).unwrap();
+    assert_eq!(run([&scene, Path::new("--out"), &picture]).code, 0);
+    let svg = fs::read_to_string(&picture).unwrap();
+    let title = "<title>Openness and exposure of the shutter a &amp; b &lt;c> over time, with its triggers</title>";
+    assert_eq!(svg.lines().nth(1), Some(title));
+    let (head, drawn) = svg.split_once("</style>").unwrap();
+    assert!(head.contains("@media (prefers-color-scheme: dark)"));
+    // Each colour that is drawn has another for the dark.
+    for color in drawn.split([' ', '>']).filter_map(|word| {
+        word.strip_prefix("fill=").or(word.strip_prefix("stroke=")).filter(|c| c.starts_with("\"#"))
+    }) {
+        assert!(head.contains(&format!("[fill={color}]")), "{color}");
+    }
+}
+
+#[test]
 fn a_box_is_evenly_spaced() {
     let run = run([&Path::new(SCENES).join("box.toml")]);
     let rows = table(&run.out);
@@ -105,8 +185,11 @@ fn a_share_is_shaded_for_each_trigger() {
     assert_eq!(run([Path::new("--out"), &picture]).code, 0);
     let svg = fs::read_to_string(picture).unwrap();
     assert_eq!(svg.matches("<polygon").count(), 12);
-    // One dot on the openness and one on the cdf.
-    assert_eq!(svg.matches("<circle").count(), 24);
+    // One dot on the openness, one on the cdf, one in the legend.
+    assert_eq!(svg.matches(r##"r="32" opacity="1" fill="#D55E00""##).count(), 12 + 12 + 1);
+    // Eight control points and one in the legend, four handles and one.
+    assert_eq!(svg.matches(r##"r="40" opacity="1" fill="none""##).count(), 8 + 1);
+    assert_eq!(svg.matches(r##"stroke="#78818B" stroke-width="16""##).count(), 4 + 1);
 }
 
 /// A scene that is right. At 3/4 s of exposure and a gap of 1/10 s, 7 triggers are sure.
@@ -203,7 +286,9 @@ fn a_missing_key_is_named() {
 #[test]
 fn an_unknown_key_is_named() {
     let err = error_of(&empty_dir("unknown"), &with("colour", "3"));
-    assert!(err.contains("bad.toml:9: unknown field `colour`, expected one of `open_start`"));
+    assert!(
+        err.contains("bad.toml:9: unknown field `colour`, expected one of `unit`, `open_start`")
+    );
 }
 
 #[test]
@@ -222,16 +307,18 @@ fn what_is_not_toml_is_an_error() {
 
 #[test]
 fn a_wrong_type_is_an_error() {
+    const NUMBER: &str = "a number is required";
+    const COUNT: &str = "a whole number from 0 to 4294967295 is required";
     let dir = empty_dir("types");
     for (key, value, reason) in [
-        ("open_end", "\"soon\"", "invalid type: string \"soon\", expected f32"),
-        ("close_end", "true", "invalid type: boolean `true`, expected f32"),
-        ("triggers", "4.5", "invalid type: floating point `4.5`, expected u32"),
-        ("triggers", "-1", "invalid value: integer `-1`, expected u32"),
-        ("timer_hz", "5_000_000_000", "invalid value: integer `5000000000`, expected u32"),
-        ("min_gap", "\"\"", "invalid type: string \"\", expected f64"),
+        ("open_end", "\"soon\"", NUMBER),
+        ("close_end", "true", NUMBER),
+        ("triggers", "4.5", COUNT),
+        ("triggers", "-1", COUNT),
+        ("timer_hz", "5_000_000_000", COUNT),
+        ("min_gap", "\"\"", NUMBER),
         ("shutteropening", "0.5", "invalid type: floating point `0.5`, expected a sequence"),
-        ("shutteropening", "[0, 1, 'x']", "invalid type: string \"x\", expected f32"),
+        ("shutteropening", "[0, 1, 'x']", NUMBER),
     ] {
         fails(&dir, &with(key, value), line(key), reason);
     }
@@ -240,14 +327,13 @@ fn a_wrong_type_is_an_error() {
 #[test]
 fn a_number_out_of_range_is_an_error() {
     let dir = empty_dir("range");
-    let (count, gap) =
-        ("triggers: 1 to 10000 can be planned", "min_gap: seconds, 0 or more, are required");
+    let (count, gap) = ("triggers: 1 to 10000 can be planned", "min_gap: 0 or more is required");
     for (key, value, reason) in [
         ("triggers", "0", count),
         ("triggers", "10_001", count),
         ("min_gap", "-0.1", gap),
-        ("min_gap", "inf", gap),
-        ("min_gap", "nan", gap),
+        ("min_gap", "inf", "min_gap: a finite number is required"),
+        ("min_gap", "nan", "min_gap: a finite number is required"),
         (
             "shutteropening",
             "[0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9]",
@@ -272,9 +358,9 @@ fn a_bad_curve_is_an_error() {
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
     let length = "the interval's length is outside [2^-64, 2^64]";
     for (key, value, at, reason) in [
-        ("open_start", "nan", "open_start", "opening ramp: a control point is NaN or infinite"),
-        ("close_end", "-inf", "close_end", "closing ramp: a control point is NaN or infinite"),
-        ("close_end", "1e39", "close_end", "closing ramp: a control point is NaN or infinite"),
+        ("open_start", "nan", "open_start", "open_start: a finite number is required"),
+        ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
+        ("close_end", "1e39", "close_end", "close_end: 1e39 s is beyond f32"),
         ("open_start", "0.3", "open_end", order),
         ("open_end", "0.8", "close_start", order),
         ("close_end", "0.7", "close_end", order),
@@ -282,21 +368,273 @@ fn a_bad_curve_is_an_error() {
     ] {
         fails(&dir, &with(key, value), line(at), reason);
     }
-    for (numbers, reason) in [
-        ("[nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]", "opening ramp: a control point is NaN or infinite"),
-        (
-            "[0.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]",
-            "opening ramp: time turns back between the control points",
-        ),
-        (
-            "[0.1, 0, 0.15, 1, 0.1, 1, 0.9, 0]",
-            "closing ramp: time turns back between the control points",
-        ),
-        ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", "opening ramp: the openness falls below 0"),
-        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", "closing ramp: the openness rises above 1"),
-    ] {
+    for numbers in ["[nan, 0, 0.15, 1, 0.85, 1, 0.9, 0]", "[0.1, 0, 0.15, 1, 0.85, 1, 0.9, 1e39]"] {
+        let reason = "shutteropening: a finite number is required";
         fails(&dir, &with("shutteropening", numbers), line("shutteropening"), reason);
     }
+}
+
+/// What is told below an error of the inner control points.
+const CONVENTION: &str =
+    "  The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp,
+  each t as a fraction of the whole interval from open_start to close_end.
+";
+
+#[test]
+fn wrong_control_points_are_an_error_that_names_their_convention() {
+    let dir = empty_dir("convention");
+    let (opening, closing) = ("opening ramp", "closing ramp");
+    let back = "time turns back between the control points";
+    for (numbers, ramp, reason, hint) in [
+        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, back, ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, back, ""),
+        ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", opening, "the openness falls below 0", ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, "the openness rises above 1", ""),
+        (
+            "[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]",
+            opening,
+            back,
+            "  As fractions of each ramp they would fit; that is
+  shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
+",
+        ),
+    ] {
+        let scene = with("shutteropening", numbers);
+        let file = dir.join("bad.toml").display().to_string();
+        let expected = format!(
+            "error: {file}:9: {ramp}: {reason}\n  9 | shutteropening = {numbers}\n{CONVENTION}{hint}"
+        );
+        assert_eq!(error_of(&dir, &scene), expected);
+    }
+    // Milliseconds for fractions, on an interval of 10.
+    let times = [("open_end", "2.5"), ("close_start", "7.5"), ("close_end", "10")];
+    let scene = times.iter().fold(GOOD.to_string(), |text, (key, time)| {
+        let old = text.lines().find(|line| line.starts_with(key)).unwrap().to_string();
+        text.replace(&old, &format!("{key} = {time}"))
+    });
+    let scene = format!("unit = \"ms\"\n{scene}shutteropening = [1, 0, 1.5, 1, 8.5, 1, 9, 0]\n");
+    let err = error_of(&dir, &scene);
+    let hint = "  As times in ms they would fit; that is
+  shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
+";
+    assert!(err.ends_with(hint), "{err}");
+}
+
+#[test]
+fn a_time_that_f32_cannot_tell_from_another_is_an_error() {
+    let dir = empty_dir("rounded");
+    let scene = ["open_start", "open_end", "close_start", "close_end"]
+        .iter()
+        .fold(GOOD.to_string(), |text, key| {
+            text.replace(&format!("{key} = 0"), &format!("{key} = 1_700_000_000"))
+        })
+        .replace("close_end = 1.0", "close_end = 1_700_000_001.0");
+    let reason = "open_end: f32 is off by 25 % of the interval here; count the times from nearer to open_start";
+    let file = dir.join("bad.toml").display().to_string();
+    let expected = format!("error: {file}:3: {reason}\n  3 | open_end = 1_700_000_000.25\n");
+    assert_eq!(error_of(&dir, &scene), expected);
+}
+
+#[test]
+fn a_unit_scales_all_times() {
+    let dir = empty_dir("unit");
+    let plain = dir.join("good.toml");
+    fs::write(
+        &plain,
+        format!("{GOOD}nominal = 0.5\nduty = 0.5\nmin_pulse = 0.01\n")
+            .replace("min_gap = 0.1", "min_gap = 0.05"),
+    )
+    .unwrap();
+    let csv = |file: &Path| {
+        let run = run([file, Path::new("--emit"), Path::new("csv")]);
+        assert_eq!(run.err, "");
+        run.out
+    };
+    for (unit, factor) in
+        [("ms", 1e3), ("µs", 1e6), ("μs", 1e6), ("us", 1e6), ("ns", 1e9), ("s", 1.0)]
+    {
+        let text = format!(
+            "unit = \"{unit}\"\nopen_start = 0\nopen_end = {}\nclose_start = {}\nclose_end = {}\n\
+             triggers = 7\ntimer_hz = 1000\nmin_gap = {}\nnominal = {}\nduty = 0.5\nmin_pulse = {}\n",
+            0.25 * factor,
+            0.75 * factor,
+            factor,
+            0.05 * factor,
+            0.5 * factor,
+            0.01 * factor
+        );
+        let file = dir.join("scaled.toml");
+        fs::write(&file, text).unwrap();
+        assert_eq!(csv(&file), csv(&plain), "{unit}");
+        let report = run([&file]).out;
+        assert!(report.contains("ΔEV +0.58"), "{report}");
+    }
+    let minutes = format!("{GOOD}unit = \"min\"\n");
+    let reason = "unknown variant `min`, expected one of `s`, `ms`, `us`, `µs`, `μs`, `ns`";
+    let err = error_of(&empty_dir("minutes"), &minutes);
+    assert!(err.contains(&format!("bad.toml:9: {reason}")), "{err}");
+}
+
+#[test]
+fn facts_of_a_trapezoid_are_those_of_its_geometry() {
+    let file = empty_dir("facts").join("good.toml");
+    fs::write(&file, format!("{GOOD}nominal = 0.75\n")).unwrap();
+    let out = run([&file]).out;
+    for fact in [
+        "times        T1 0.25 s opening, T2 0.5 s fully open, T3 0.25 s closing\n",
+        "half open    TE 0.75 s,",
+        "exposure     TV 0.75 s,",
+        "efficiency   75 %\n",
+        "nominal      0.75 s, ΔEV +0.00\n",
+        "triggers     7; up to 7 keep the gap\n",
+    ] {
+        assert!(out.contains(fact), "{fact}\n{out}");
+    }
+}
+
+#[test]
+fn a_gap_is_the_difference_of_the_times_that_are_printed() {
+    for scene in fs::read_dir(SCENES).unwrap().map(|f| f.unwrap().path()) {
+        let run = run([&scene]);
+        let rows = table(&run.out);
+        for pair in rows.windows(2).filter(|pair| pair.iter().all(|row| row[0] != "...")) {
+            let number = |text: &str| text.parse::<f64>().unwrap();
+            let apart = number(pair[1][2]) - number(pair[0][2]);
+            let gap = pair[1].last().unwrap();
+            let places = gap.split_once('.').map_or(0, |(_, places)| places.len());
+            assert_eq!(*gap, format!("{apart:.places$}"), "{}: {pair:?}", scene.display());
+        }
+    }
+}
+
+/// `GOOD` with a box for its curve, and these lines.
+fn boxed(lines: &str) -> String {
+    format!(
+        "open_start = 0\nopen_end = 0\nclose_start = 1\nclose_end = 1\ntimer_hz = 1000\n{lines}\n"
+    )
+}
+
+#[test]
+fn pulses_come_around_the_triggers_or_take_equal_shares() {
+    let file = empty_dir("pulses").join("box.toml");
+    let pulses = |lines: &str| -> Vec<[u32; 2]> {
+        fs::write(&file, boxed(lines)).unwrap();
+        let run = run([&file]);
+        assert_eq!(run.err, "", "{lines}");
+        let edges = |row: Vec<&str>| [4, 5].map(|i| row[i].parse().unwrap());
+        table(&run.out).into_iter().map(edges).collect()
+    };
+    let [equal, doses] = ["pulse = 0.1", "duty = 0.4"]
+        .map(|lamp| pulses(&format!("triggers = 4\nmin_gap = 0.15\n{lamp}")));
+    assert_eq!(equal, [[75, 175], [325, 425], [575, 675], [825, 925]]);
+    assert_eq!(doses, equal);
+    // They touch where the lamp is always on, and a pulse of a whole share fits as well.
+    for lamp in ["pulse = 0.25", "duty = 1"] {
+        let all = pulses(&format!("triggers = 4\nmin_gap = 0\n{lamp}"));
+        assert_eq!(all, [[0, 250], [250, 500], [500, 750], [750, 1000]]);
+    }
+    // Half a tick of an odd length comes after the trigger.
+    assert_eq!(pulses("triggers = 1\nmin_gap = 0\npulse = 0.003"), [[499, 502]]);
+}
+
+/// On a curve that dims, each pulse lets the same dose through: the integral of the openness, here in closed form.
+#[test]
+fn doses_are_equal_through_the_curve() {
+    let file = empty_dir("doses").join("triangle.toml");
+    let triangle = "open_start = 0\nopen_end = 0.5\nclose_start = 0.5\nclose_end = 1\n";
+    let scene =
+        format!("{triangle}triggers = 7\ntimer_hz = 100_000_000\nmin_gap = 0\nduty = 0.3\n");
+    fs::write(&file, scene).unwrap();
+    let run = run([&file]);
+    let collected = |ticks: &str| {
+        let t = ticks.parse::<f64>().unwrap() / 1e8;
+        if t < 0.5 { t * t } else { 0.5 - (1.0 - t) * (1.0 - t) }
+    };
+    let rows = table(&run.out);
+    assert_eq!(rows.len(), 7);
+    for row in rows {
+        let dose = collected(row[5]) - collected(row[4]);
+        assert!((dose - 0.3 * 0.5 / 7.0).abs() < 1e-7, "{row:?}: {dose}");
+    }
+}
+
+#[test]
+fn wrong_pulses_are_an_error_that_says_what_fits() {
+    let dir = empty_dir("wrong_pulses");
+    let four = "triggers = 4\nmin_gap = 0.1\n";
+    for (lamp, at, reason) in [
+        ("pulse = 0", 8, "pulse: more than 0 is required"),
+        ("pulse = -1", 8, "pulse: more than 0 is required"),
+        ("pulse = nan", 8, "pulse: a finite number is required"),
+        ("pulse = 'x'", 8, "a number is required"),
+        ("pulse = 0.0004", 8, "pulse: it is less than half a tick of 1000 Hz"),
+        ("duty = 0", 8, "duty: above 0 and at most 1 is required"),
+        ("duty = 1.001", 8, "duty: above 0 and at most 1 is required"),
+        ("duty = nan", 8, "duty: above 0 and at most 1 is required"),
+        ("nominal = 0", 8, "nominal: more than 0 is required"),
+        ("nominal = inf", 8, "nominal: a finite number is required"),
+        ("min_pulse = 0.1", 8, "min_pulse: it goes with duty, which makes pulses of many lengths"),
+        (
+            "duty = 0.5\npulse = 0.1",
+            8,
+            "duty and pulse: a scene has one of them (pulse where the curve is emulated, duty where the shutter is in \
+             the light's path)",
+        ),
+        (
+            "pulse = 0.2",
+            8,
+            "pulses of 200 ticks: pulses 0 and 1 come 50 ticks apart, and 100 are required; those of up to 150 ticks \
+             fit, or up to 3 triggers keep that",
+        ),
+        (
+            "pulse = 0.3",
+            8,
+            "pulses of 300 ticks: pulses 0 and 1 overlap by 50 ticks, and 100 are required; those of up to 150 ticks \
+             fit, or up to 2 triggers keep that",
+        ),
+        (
+            "pulse = 1e30",
+            8,
+            "pulses of 4294967295 ticks: pulses 0 and 1 overlap by 4294967045 ticks, and 100 are required; those of \
+             up to 150 ticks fit, or no number of triggers keeps that",
+        ),
+        (
+            "duty = 0.8",
+            6,
+            "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that, or a smaller duty",
+        ),
+        (
+            "duty = 0.5\nmin_pulse = 0.2",
+            6,
+            "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that, or a greater duty",
+        ),
+        (
+            "duty = 1e-9",
+            6,
+            "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that, or a greater duty",
+        ),
+    ] {
+        fails(&dir, &boxed(&format!("{four}{lamp}")), Some(at), reason);
+    }
+    let one = boxed("triggers = 1\nmin_gap = 0\npulse = 1.002");
+    let reason = "pulses of 1002 ticks: they reach beyond the time that the shutter is open; those of up to 1000 ticks \
+                  fit, or no number of triggers keeps that";
+    fails(&dir, &one, Some(8), reason);
+}
+
+#[test]
+fn one_is_not_many() {
+    let dir = empty_dir("one");
+    let two = with("triggers", "2").replace("min_gap = 0.1", "min_gap = 0.5");
+    let reason =
+        "triggers 0 and 1 come 375 ticks apart, and 500 are required; 1 trigger keeps that";
+    fails(&dir, &two, Some(6), reason);
+    let file = dir.join("good.toml");
+    fs::write(&file, two.replace("triggers = 2", "triggers = 1")).unwrap();
+    let run = run([&file, Path::new("--out"), &dir.join("one.svg")]);
+    assert!(run.out.contains("triggers     1; 1 keeps the gap"), "{}", run.out);
+    let svg = fs::read_to_string(dir.join("one.svg")).unwrap();
+    assert!(svg.contains("1 trigger in the middle of the exposure"));
 }
 
 #[test]
@@ -309,7 +647,7 @@ fn triggers_too_close_are_an_error_that_says_how_many_fit() {
     // Two on one tick, though no gap is asked for.
     let slow = with("timer_hz", "6").replace("min_gap = 0.1", "min_gap = 0");
     let reason =
-        "triggers 1 and 2 come 0 ticks apart, and 1 are required; up to 4 triggers keep that";
+        "triggers 1 and 2 come 0 ticks apart, and 1 is required; up to 5 triggers keep that";
     fails(&dir, &slow, line("triggers"), reason);
 }
 

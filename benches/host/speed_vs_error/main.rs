@@ -1,8 +1,8 @@
 //! Speed against error: the report `docs/speed-vs-error.md` and its pictures, from one run.
 //!
 //! `cargo bench -p benches --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
-//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every `f32` on a dozen curves. The
-//! last two leave tables in `docs`, which the next report takes in.
+//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every
+//! `f32` on a dozen curves. The last two leave tables in `docs`, which the next report takes in.
 
 mod accuracy;
 mod aimed;

@@ -1,36 +1,31 @@
-//! How all the pictures look.
+//! How the report's pictures look: as those of `shutter`.
 
 use std::ops::Range;
 
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::{HPos, VPos};
+use shutter::picture::style::{self, dressed};
+pub use shutter::picture::style::{Area, BLUE, FAINT, GREY, Graph as Chart, INK, VERMILION};
 
-pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub type Chart<'a, 'b> =
-    ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// Drawn at twice the size, since the pen moves by whole units; whoever shows a picture scales it.
+/// Drawn at twice the size, since the pen moves by whole units.
 pub const SCALE: i32 = 2;
-
-pub const INK: RGBColor = RGBColor(45, 51, 59);
-pub const FAINT: RGBColor = RGBColor(232, 235, 239);
-pub const GREY: RGBColor = RGBColor(140, 149, 159);
-pub const BLUE: RGBColor = RGBColor(9, 105, 218);
-pub const ORANGE: RGBColor = RGBColor(225, 111, 36);
 
 /// Text, by its size and its place relative to the point it is put at.
 pub fn text(size: i32, h: HPos, v: VPos) -> TextStyle<'static> {
-    ("sans-serif", size * SCALE).into_font().color(&INK).pos(Pos::new(h, v))
+    style::text(size * SCALE, h, v)
 }
 
-/// An empty picture.
-pub fn picture(path: &str, size: (u32, u32)) -> Area<'_> {
-    let scale = SCALE as u32;
-    let area = SVGBackend::new(path, (size.0 * scale, size.1 * scale)).into_drawing_area();
-    area.fill(&WHITE).expect("a picture");
-    area
+/// A picture of this size and title, with what `draw` draws on it.
+pub fn picture(path: &str, size: (u32, u32), title: &str, draw: impl FnOnce(&Area)) {
+    let mut svg = String::new();
+    let drawn = (size.0 * SCALE as u32, size.1 * SCALE as u32);
+    {
+        let area = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
+        area.fill(&WHITE).expect("a picture");
+        draw(&area);
+        area.present().expect("a picture");
+    }
+    std::fs::write(path, dressed(&svg, drawn, size, title)).expect("the picture is written");
 }
 
 /// An axis: what it shows, from where to where, and how its numbers are written.
@@ -66,8 +61,8 @@ pub fn chart<'a, 'b>(area: &Area<'b>, title: &str, x: &Axis, y: &Axis) -> Chart<
         .light_line_style(TRANSPARENT)
         .bold_line_style(FAINT.stroke_width(2))
         .axis_style(GREY.stroke_width(2))
-        .label_style(("sans-serif", 13 * SCALE).into_font().color(&INK))
-        .axis_desc_style(("sans-serif", 14 * SCALE).into_font().color(&INK))
+        .label_style(style::font(13 * SCALE))
+        .axis_desc_style(style::font(14 * SCALE))
         .x_desc(x.name)
         .y_desc(y.name)
         .x_labels(x.labels)
@@ -88,7 +83,7 @@ pub fn legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>, position: SeriesLabelPositi
         .border_style(FAINT)
         .legend_area_size(30 * SCALE)
         .margin(8 * SCALE)
-        .label_font(("sans-serif", 13 * SCALE).into_font().color(&INK))
+        .label_font(style::font(13 * SCALE))
         .draw()
         .expect("a legend");
 }

@@ -1,12 +1,14 @@
 //! `shutter plan`: a scene file in, a checked list of trigger times out, with a picture of it.
 
+use std::error::Error;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{print, svg_path, write_whole};
+use crate::emit::Form;
 use crate::plan::Plan;
-use crate::{picture, report, scene};
+use crate::{emit, picture, report};
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
@@ -19,18 +21,34 @@ pub struct Args {
     /// Write the picture to this file
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     out: Option<PathBuf>,
+    /// Write the picture of both set-ups, the curve emulated and the shutter in the light's path, to this file
+    #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
+    set_ups: Option<PathBuf>,
+    /// Print this form alone
+    #[arg(long, value_name = "FORM")]
+    emit: Option<Form>,
 }
+
+type Draw = fn(&str, &Plan) -> Result<String, Box<dyn Error>>;
 
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
     let (name, plan) = match &args.scene {
         Some(path) => (stem(path), read(path)?),
         None => (DEFAULT.0.into(), checked(DEFAULT.0, DEFAULT.1)?),
     };
-    if let Some(path) = &args.out {
-        let svg = picture::svg(&name, &plan).map_err(|e| format!("the picture: {e}"))?;
-        write_whole(path, &svg)?;
-    }
-    print(out, &report::text(&name, &plan))
+    let draw = |path: &Option<PathBuf>, draw: Draw| match path {
+        Some(path) => {
+            write_whole(path, &draw(&name, &plan).map_err(|e| format!("the picture: {e}"))?)
+        }
+        None => Ok(()),
+    };
+    draw(&args.out, picture::svg)?;
+    draw(&args.set_ups, picture::set_ups)?;
+    let text = match args.emit {
+        Some(form) => emit::emit(form, &name, &plan),
+        None => report::text(&name, &plan),
+    };
+    print(out, &text)
 }
 
 fn stem(path: &Path) -> String {
@@ -44,5 +62,5 @@ fn read(path: &Path) -> Result<Plan, String> {
 }
 
 fn checked(file: &str, text: &str) -> Result<Plan, String> {
-    scene::parse(text).and_then(|scene| Plan::new(&scene)).map_err(|fault| fault.locate(file, text))
+    Plan::parse(text).map_err(|fault| fault.locate(file, text))
 }

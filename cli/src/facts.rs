@@ -1,0 +1,155 @@
+//! A plan's facts, in the words of those who test shutters.
+
+use shutter_curve::ShutterCurve;
+
+use crate::lamp::Lamp;
+use crate::plan::Plan;
+use crate::unit::{count, short};
+
+/// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facts {
+    /// T1: how long it opens.
+    pub opening: f64,
+    /// T2: how long it is fully open.
+    pub open: f64,
+    /// T3: how long it closes.
+    pub closing: f64,
+    /// TE: from half open to half closed.
+    pub half_open: f64,
+    /// TV: the effective exposure, as long as a shutter without ramps would be open for as much light.
+    pub exposure: f64,
+    /// The effective exposure as a part of the time from the start of opening to the end of closing.
+    pub efficiency: f64,
+    /// By how many stops the exposure is longer than the nominal one, where that is known; negative if it is shorter.
+    pub delta_ev: Option<f64>,
+}
+
+impl Facts {
+    /// The facts of a plan.
+    pub fn new(plan: &Plan) -> Self {
+        let curve = &plan.curve;
+        let [open_start, open_end, close_start, close_end] =
+            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
+                .map(f64::from);
+        let exposure = f64::from(curve.exposure());
+        Self {
+            opening: open_end - open_start,
+            open: close_start - open_end,
+            closing: close_end - close_start,
+            half_open: half_open(curve),
+            exposure,
+            efficiency: curve.efficiency().into(),
+            delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
+        }
+    }
+}
+
+/// From the first to the last time at which the shutter is half open.
+fn half_open(curve: &ShutterCurve) -> f64 {
+    let first = half(curve, curve.open_start(), curve.open_end());
+    let last = half(curve, curve.close_end(), curve.close_start());
+    f64::from(last) - f64::from(first)
+}
+
+/// The first time on the way from `dark` to `open` at which the shutter is half open.
+fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
+    const STEPS: u16 = 1024;
+    let is_half = |t: f32| curve.opening(t) >= 0.5;
+    let step = |i: u16| dark + (open - dark) * (f32::from(i) / f32::from(STEPS));
+    let Some(i) = (0..STEPS).find(|&i| is_half(step(i))) else { return open };
+    if i == 0 {
+        return dark;
+    }
+    // Between a step that is not and one that is: as near as f32 are.
+    let (mut below, mut above) = (step(i - 1), step(i));
+    loop {
+        let middle = below + 0.5 * (above - below);
+        if middle == below || middle == above {
+            return above;
+        }
+        *(if is_half(middle) { &mut above } else { &mut below }) = middle;
+    }
+}
+
+/// The facts as lines, each a name and what is to be said.
+pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
+    let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit());
+    let of = |seconds: f64| short(unit.of(seconds), 5);
+    let mut lines = vec![
+        ("scene", name.to_string()),
+        (
+            "shutter",
+            format!(
+                "opens from {} to {}, closes from {} to {} {}",
+                of(curve.open_start().into()),
+                of(curve.open_end().into()),
+                of(curve.close_start().into()),
+                of(curve.close_end().into()),
+                unit.name()
+            ),
+        ),
+        (
+            "times",
+            format!(
+                "T1 {} opening, T2 {} fully open, T3 {} closing",
+                unit.show(facts.opening),
+                unit.show(facts.open),
+                unit.show(facts.closing),
+            ),
+        ),
+        ("half open", format!("TE {}, between the half openings", unit.show(facts.half_open))),
+        ("exposure", format!("TV {}, fully open for as much light", unit.show(facts.exposure))),
+        ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
+    ];
+    if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
+        lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
+    }
+    lines.push(("timer", format!("{} Hz", plan.timer_hz)));
+    let mut gap = format!("at least {}", unit.show(plan.min_gap));
+    if plan.lamp != Lamp::Triggered {
+        gap += " of darkness between pulses";
+        let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
+        let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
+        if let Some(ticks) = dark.min() {
+            gap += &format!("; the least is {}", count(ticks, "tick"));
+        }
+    } else if let Some(ticks) = plan.gaps().min() {
+        gap += &format!("; the closest two come {} apart", count(ticks, "tick"));
+    }
+    lines.push(("gap", gap));
+    lines.extend(lamp(plan));
+    let keep = if plan.most == 1 {
+        "1 keeps the gap".into()
+    } else {
+        format!("up to {} keep the gap", plan.most)
+    };
+    lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
+    lines
+}
+
+/// What the lamp does, and for which set-up that is.
+fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
+    let unit = plan.unit();
+    let pulses = match plan.lamp {
+        Lamp::Triggered => None,
+        Lamp::Equal { ticks } => {
+            Some(format!("{} each, around the triggers", unit.show(plan.seconds(ticks))))
+        }
+        Lamp::Doses { duty } => {
+            let lengths = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
+            let lengths = lengths.map(|(on, off)| off - on);
+            let (least, most) = (lengths.clone().min(), lengths.max());
+            let [least, most] = [least, most].map(|ticks| plan.seconds(ticks.unwrap_or_default()));
+            let least = short(unit.of(least), 5);
+            Some(format!("{least} to {}, duty {duty}, of equal doses", unit.show(most)))
+        }
+    };
+    let set_up = match plan.lamp {
+        Lamp::Triggered => "emulated: equal flashes while the camera's own shutter stays open",
+        Lamp::Equal { .. } => "emulated: equal pulses while the camera's own shutter stays open",
+        Lamp::Doses { .. } => "the shutter is in the light's path; a lamp steady while it is on",
+    };
+    let pulses = pulses.map(|pulses| ("pulses", pulses));
+    pulses.into_iter().chain([("set-up", set_up.into())]).collect()
+}

@@ -1,0 +1,177 @@
+//! The two set-ups side by side: which doses of light the same shutter leaves of equal pulses, and of those made for it.
+
+use std::error::Error;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::style::{self, Area, BLUE, FAINT, GREY, VERMILION};
+use super::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture};
+use crate::lamp::Lamp;
+use crate::plan::Plan;
+use crate::unit::short;
+
+const SIZE: (i32, i32) = (1000, 760);
+const HEADING: i32 = 70;
+const TITLE: i32 = 34;
+const LEFT: i32 = 650;
+/// How much of each share the lamp is on, where the scene does not say.
+const DUTY: f32 = 0.5;
+/// With more pulses than this, their doses would not be legible below their bars.
+const MOST_LABELS: usize = 12;
+
+/// What exposes, in one of the set-ups.
+struct Row {
+    title: String,
+    /// The openness of what is in the light's path.
+    is_shuttered: bool,
+    /// When the lamp is on, in seconds.
+    pulses: Vec<(f32, f32)>,
+}
+
+/// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays open,
+/// the same with the shutter in the light's path, and pulses of equal doses there.
+///
+/// # Errors
+/// Where it cannot be drawn.
+pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
+    let n = plan.triggers.len();
+    let duty = match plan.lamp {
+        Lamp::Doses { duty } => duty,
+        _ => DUTY,
+    };
+    // As long as a pulse of the same dose where the shutter is fully open, so that both set-ups get the same light.
+    let length = duty * plan.curve.exposure() / n as f32;
+    let around = |t: f32| (t - 0.5 * length, t + 0.5 * length);
+    let equal: Vec<_> = plan.triggers.iter().map(|trigger| around(trigger.time)).collect();
+    let time = |fraction: f32| plan.curve.inverse_cdf(fraction / n as f32);
+    let doses = (0..n).map(|i| {
+        let middle = i as f32 + 0.5;
+        (time(middle - 0.5 * duty), time(middle + 0.5 * duty))
+    });
+    let rows = [
+        Row {
+            title:
+                "The curve is emulated: the camera stays open, equal pulses come at the triggers"
+                    .into(),
+            is_shuttered: false,
+            pulses: equal.clone(),
+        },
+        Row {
+            title: "The shutter is in the light's path: it dims the same pulses a second time"
+                .into(),
+            is_shuttered: true,
+            pulses: equal,
+        },
+        Row {
+            title: "The shutter is in the light's path: these pulses get equal doses through it"
+                .into(),
+            is_shuttered: true,
+            pulses: doses.collect(),
+        },
+    ];
+    let title = format!(
+        "The doses of {n} pulses with the shutter {name}, emulated and in the light's path"
+    );
+    picture(SIZE, &title, |page| {
+        let (heading, rest) = page.split_vertically(HEADING * SCALE);
+        let text = format!("{name}: the light of {n} pulses in the two set-ups");
+        let label = style::text(19 * SCALE, HPos::Left, VPos::Center);
+        heading.draw_text(&text, &label, (24 * SCALE, 26 * SCALE))?;
+        let text = "outlined: the lamp is on; filled: its light that arrives; dashed: the curve that is meant";
+        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
+        heading.draw_text(text, &label, (24 * SCALE, 52 * SCALE))?;
+        for (area, row) in rest.split_evenly((rows.len(), 1)).iter().zip(&rows) {
+            draw_row(area, plan, row, length)?;
+        }
+        Ok(())
+    })
+}
+
+fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
+    let (title, rest) = area.split_vertically(TITLE * SCALE);
+    let label = style::text(15 * SCALE, HPos::Left, VPos::Center);
+    title.draw_text(&row.title, &label, (24 * SCALE, 20 * SCALE))?;
+    let (left, right) = rest.split_horizontally(LEFT * SCALE);
+    draw_light(&left, plan, row)?;
+    let curve = &plan.curve;
+    // Against the equal pulse where nothing dims it.
+    let dose = |(on, off): (f32, f32)| match row.is_shuttered {
+        true => (curve.cdf(off) - curve.cdf(on)) * curve.exposure() / length,
+        false => (off - on) / length,
+    };
+    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(dose(pulse))).collect();
+    draw_doses(&right, &doses)
+}
+
+/// The lamp in outlines, and what of its light comes through.
+fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
+    let (curve, unit) = (&plan.curve, plan.unit());
+    let time = format!("time ({})", unit.name());
+    let mut graph = graph(area, plan, unit, "openness", Some(&time), 0.0..1.08)?;
+    let at = |t: f32| {
+        let openness = if row.is_shuttered { curve.opening(t) } else { 1.0 };
+        (unit.of(t), f64::from(openness))
+    };
+    graph.draw_series(
+        row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, unit, at), lit())),
+    )?;
+    graph.draw_series(row.pulses.iter().map(|&(on, off)| {
+        let (on, off) = (unit.of(on), unit.of(off));
+        PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
+    }))?;
+    if row.is_shuttered {
+        draw_curve(&mut graph, plan, unit, |t| curve.opening(t))
+    } else {
+        // The curve as it is meant, and the camera as it is.
+        let start = curve.open_start();
+        let curve = super::steps(start, curve.close_end(), 100)
+            .map(|t| (unit.of(t), f64::from(curve.opening(t))));
+        let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
+        graph.draw_series(dashes)?;
+        Ok(())
+    }
+}
+
+/// A bar for the dose of each pulse, 1 being that of an equal pulse which nothing dims.
+fn draw_doses(area: &Area, doses: &[f64]) -> Drawn {
+    let n = doses.len() as f64;
+    let mut graph = ChartBuilder::on(area)
+        .margin_right(24 * SCALE)
+        .margin_top(8 * SCALE)
+        .margin_bottom(8 * SCALE)
+        .x_label_area_size(50 * SCALE)
+        .y_label_area_size(62 * SCALE)
+        .build_cartesian_2d(-0.5..n - 0.5, 0.0..1.3)?;
+    graph
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(pen(FAINT, 1.0))
+        .axis_style(pen(GREY, 1.0))
+        .label_style(style::font(14 * SCALE))
+        .axis_desc_style(style::font(15 * SCALE))
+        .set_all_tick_mark_size(5 * SCALE)
+        .x_desc("pulse")
+        .y_desc("dose")
+        .x_labels(doses.len().min(12))
+        .y_labels(4)
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| format!("{:.0} %", 100.0 * y))
+        .draw()?;
+    let bars = (0u32..).zip(doses).map(|(i, &dose)| {
+        let i = f64::from(i);
+        Rectangle::new([(i - 0.36, 0.0), (i + 0.36, dose)], lit())
+    });
+    graph.draw_series(bars)?;
+    if doses.len() <= MOST_LABELS {
+        let label = style::text(10 * SCALE, HPos::Center, VPos::Bottom);
+        let labels = (0u32..).zip(doses).map(|(i, &dose)| {
+            let percent = short((100.0 * dose).round(), 3);
+            EmptyElement::at((f64::from(i), dose))
+                + Text::new(percent, (0, -3 * SCALE), label.clone())
+        });
+        graph.draw_series(labels)?;
+    }
+    Ok(())
+}

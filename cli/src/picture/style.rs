@@ -1,0 +1,71 @@
+//! How all pictures look, those of the benchmarks as well: on light and on dark backgrounds.
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// What is drawn on.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// A graph with its axes.
+pub type Graph<'a, 'b> =
+    ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// For the curve, and for what is ours.
+pub const BLUE: RGBColor = RGBColor(0, 114, 178);
+/// For what the lamp does, and for what others do.
+pub const VERMILION: RGBColor = RGBColor(213, 94, 0);
+/// Its light.
+pub const LIGHT: RGBColor = RGBColor(240, 171, 124);
+/// The two shades of neighbouring shares.
+pub const SHARES: [RGBColor; 2] = [RGBColor(164, 211, 240), RGBColor(217, 238, 250)];
+/// Text.
+pub const INK: RGBColor = RGBColor(45, 51, 59);
+/// Axes, handles and what is only compared with.
+pub const GREY: RGBColor = RGBColor(120, 129, 139);
+/// The lines of a grid.
+pub const FAINT: RGBColor = RGBColor(232, 235, 239);
+
+/// Each colour beside the one that it becomes on a dark background.
+const DARK: [(RGBColor, RGBColor); 9] = [
+    (WHITE, RGBColor(13, 17, 23)),
+    (BLUE, RGBColor(77, 171, 247)),
+    (VERMILION, RGBColor(255, 146, 72)),
+    (LIGHT, RGBColor(158, 84, 36)),
+    (SHARES[0], RGBColor(26, 62, 92)),
+    (SHARES[1], RGBColor(18, 40, 60)),
+    (INK, RGBColor(209, 215, 224)),
+    (GREY, RGBColor(139, 148, 158)),
+    (FAINT, RGBColor(38, 45, 54)),
+];
+
+/// A finished SVG as a page shows it: at the size `shown` of all that was `drawn`, with a title for those who hear it, and
+/// with the colours of the page's background.
+pub fn dressed(svg: &str, drawn: (u32, u32), shown: (u32, u32), title: &str) -> String {
+    let size = |(width, height)| format!(r#"width="{width}" height="{height}""#);
+    let svg = svg.replacen(&size(drawn), &format!(r#"{} role="img""#, size(shown)), 1);
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let hex = |RGBColor(r, g, b): RGBColor| format!("#{r:02X}{g:02X}{b:02X}");
+    let rules = DARK.map(|(light, dark)| {
+        let (light, dark) = (hex(light), hex(dark));
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}\n")
+    });
+    let head = format!(
+        "<title>{title}</title>\n<style>@media (prefers-color-scheme: dark) {{\n{}}}</style>\n",
+        rules.concat()
+    );
+    match svg.find(">\n") {
+        Some(end) => format!("{}{head}{}", &svg[..end + 2], &svg[end + 2..]),
+        None => svg,
+    }
+}
+
+/// Text of this size.
+pub fn font(size: i32) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&INK)
+}
+
+/// Text of this size, by its place relative to the point it is put at.
+pub fn text(size: i32, h: HPos, v: VPos) -> TextStyle<'static> {
+    font(size).pos(Pos::new(h, v))
+}
