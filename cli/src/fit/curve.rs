@@ -8,19 +8,23 @@ pub const PARAMETERS: usize = 12;
 /// Where the control numbers begin among them; the closing ramp's begin four later.
 pub const CONTROLS: usize = 4;
 
-/// A curve by its parameters: when it starts to open, and how long it opens, is fully open and closes.
+/// A curve by its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
+    /// When it starts to open.
     pub start: f64,
+    /// How long it opens.
     pub opening: f64,
+    /// How long it is fully open.
     pub plateau: f64,
+    /// How long it closes.
     pub closing: f64,
-    /// Of the opening ramp, and of the closing one seen backwards in time, so that both open.
+    /// The control numbers `x1, y1, x2, y2` of the opening ramp, and of the closing one seen backwards in time, so that both open.
     pub controls: [Controls; 2],
 }
 
 impl Curve {
-    pub fn trapezoid(start: f64, opening: f64, plateau: f64, closing: f64) -> Self {
+    pub(super) fn trapezoid(start: f64, opening: f64, plateau: f64, closing: f64) -> Self {
         Self { start, opening, plateau, closing, controls: [STRAIGHT; 2] }
     }
 
@@ -39,6 +43,7 @@ impl Curve {
         self.close_start() + self.closing
     }
 
+    /// From the start of opening to the end of closing.
     pub fn length(&self) -> f64 {
         self.opening + self.plateau + self.closing
     }
@@ -48,15 +53,25 @@ impl Curve {
         [self.start, self.open_end(), self.close_start(), self.end()]
     }
 
-    pub fn parameters(&self) -> [f64; PARAMETERS] {
+    pub(super) fn parameters(&self) -> [f64; PARAMETERS] {
         let [o, c] = self.controls;
         [
-            self.start, self.opening, self.plateau, self.closing,
-            o[0], o[1], o[2], o[3], c[0], c[1], c[2], c[3],
+            self.start,
+            self.opening,
+            self.plateau,
+            self.closing,
+            o[0],
+            o[1],
+            o[2],
+            o[3],
+            c[0],
+            c[1],
+            c[2],
+            c[3],
         ]
     }
 
-    pub fn from_parameters(p: &[f64; PARAMETERS]) -> Self {
+    pub(super) fn from_parameters(p: &[f64; PARAMETERS]) -> Self {
         Self {
             start: p[0],
             opening: p[1],
@@ -67,7 +82,7 @@ impl Curve {
     }
 
     /// The curve with time counted in other units from another zero: `t` becomes `t * scale + shift`.
-    pub fn mapped(&self, scale: f64, shift: f64) -> Self {
+    pub(super) fn mapped(&self, scale: f64, shift: f64) -> Self {
         Self {
             start: self.start * scale + shift,
             opening: self.opening * scale,
@@ -174,7 +189,11 @@ impl Exposure {
         let mut t = 0.5 * (low + high);
         for _ in 0..200 {
             let missing = self.collected(t).amount - target;
-            if missing < 0.0 { low = t } else { high = t }
+            if missing < 0.0 {
+                low = t
+            } else {
+                high = t
+            }
             let next = t - missing / self.openness(t);
             let next = if next > low && next < high { next } else { 0.5 * (low + high) };
             if next == t || high - low <= f64::EPSILON * high.abs().max(low.abs()) {
@@ -208,7 +227,8 @@ mod tests {
             let (n, mut sum) = (20_000, 0.0);
             let at = |i: f64| curve.start + curve.length() * (1.2 * i / f64::from(n) - 0.1);
             for i in 0..n {
-                sum += exposure.openness(at(f64::from(i) + 0.5)) * curve.length() * 1.2 / f64::from(n);
+                sum +=
+                    exposure.openness(at(f64::from(i) + 0.5)) * curve.length() * 1.2 / f64::from(n);
                 let here = exposure.collected(at(f64::from(i + 1))).amount;
                 assert!((sum - here).abs() < 1e-4, "{curve:?} at {i}: {sum}, {here}");
             }
@@ -233,7 +253,10 @@ mod tests {
                         Exposure::new(&Curve::from_parameters(&p)).trigger(u).0
                     };
                     let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
-                    assert!((slope - moves[k]).abs() < 1e-5, "{curve:?} {u} {k}: {slope} {moves:?}");
+                    assert!(
+                        (slope - moves[k]).abs() < 1e-5,
+                        "{curve:?} {u} {k}: {slope} {moves:?}"
+                    );
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! What the noise makes of the results: standard errors from the normal equations.
 
 use super::curve::{CONTROLS, Exposure, PARAMETERS};
-use super::frame::FrameFit;
+use super::frame::{FrameFit, Missed, fractions};
 use super::signal::Kind;
 use super::solve::Cholesky;
 
@@ -33,15 +33,15 @@ impl Covariance {
         let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
         let on_bound = |k: &usize| packed[*k] <= bounds[*k].0 || packed[*k] >= bounds[*k].1;
         let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
-        let cell = |i: usize, j: usize| {
-            solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 }
-        };
+        let cell =
+            |i: usize, j: usize| solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 };
         let matrix: Vec<Vec<f64>> =
             moving.iter().map(|i| moving.iter().map(|j| cell(*i, *j)).collect()).collect();
         let n = fit.samples.len() as f64;
         let free = (n - packed.len() as f64 * fit.correlation).max(0.5 * n);
         let curve = solution.signal.curve;
-        let edge = |ramp: f64| fit.step * fit.step / 12.0 * (1.0 - ramp / (2.0 * fit.step)).max(0.0);
+        let edge =
+            |ramp: f64| fit.step * fit.step / 12.0 * (1.0 - ramp / (2.0 * fit.step)).max(0.0);
         Self {
             kind,
             moving,
@@ -74,17 +74,18 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<M
     let exposure = Exposure::new(&curve);
     let whole = exposure.whole().moves;
     let (area, length) = (exposure.area(), curve.length());
-    let measured = |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
+    let measured =
+        |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
     let lengths: [f64; PARAMETERS] =
         std::array::from_fn(|k| if (1..CONTROLS).contains(&k) { 1.0 } else { 0.0 });
     let ratio = std::array::from_fn(|k| (whole[k] - area / length * lengths[k]) / length);
-    let mut triggers: Vec<Measured> = (0..n)
-        .map(|i| {
-            let (t, moves) = exposure.trigger((f64::from(i) + 0.5) / f64::from(n));
+    let mut triggers: Vec<Measured> = fractions(n)
+        .map(|u| {
+            let (t, moves) = exposure.trigger(u);
             measured(t, &moves)
         })
         .collect();
-    let beside = misfit(fit, kind, &exposure, &triggers);
+    let beside = misfit(fit, kind, &triggers);
     triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
     (measured(area, &whole), measured(area / length, &ratio), triggers)
 }
@@ -94,29 +95,16 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<M
 ///
 /// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
 /// by a random walk whose ends are tied.
-fn misfit(fit: &FrameFit, kind: Kind, exposure: &Exposure, triggers: &[Measured]) -> f64 {
+fn misfit(fit: &FrameFit, kind: Kind, triggers: &[Measured]) -> f64 {
     let fitted = &fit.kinds[kind as usize];
-    let [start, _, _, end] = exposure.curve.times();
-    let gain = fitted.solution.signal.gain;
+    let [start, _, _, end] = fitted.solution.signal.curve.times();
     let variance = fitted.squares / fit.samples.len() as f64 * fit.correlation * fit.step;
-    // What is missed from the start to each time: (time, sum).
-    let mut sum = 0.0;
-    let inside = fit.samples.iter().zip(&fitted.residuals);
-    let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
-    let sums: Vec<(f64, f64)> = inside
-        .map(|(bin, residual)| {
-            sum += residual * (bin.to - bin.from);
-            (bin.to, sum)
-        })
-        .collect();
-    let missed = |t: f64| sums[..sums.partition_point(|(to, _)| *to <= t)].last().map_or(0.0, |s| s.1);
-    let mut excess = 0.0;
-    for (i, trigger) in triggers.iter().enumerate() {
-        let u = (i as f64 + 0.5) / triggers.len() as f64;
-        let (t, f) = (trigger.value, exposure.openness(trigger.value).max(1e-3) * gain);
-        let off = (u * sum - missed(t)) / f;
-        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start)) / (f * f);
-        excess += off * off - (walk - trigger.error * trigger.error).max(0.0);
-    }
-    (excess / triggers.len() as f64).max(0.0).sqrt()
+    let missed = Missed::new(fit, kind);
+    let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
+        let t = trigger.value;
+        let (off, slope) = (missed.off(u, t), missed.slope(t));
+        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start));
+        off * off - (walk / (slope * slope) - trigger.error * trigger.error).max(0.0)
+    });
+    (excess.sum::<f64>() / triggers.len() as f64).max(0.0).sqrt()
 }

@@ -1,7 +1,7 @@
 //! One frame fitted: every kind of curve, with the columns that the frame asks for, in units of the frame's own.
 
 use super::bins::{self, Bin};
-use super::curve::Curve;
+use super::curve::{Curve, Exposure};
 use super::hum;
 use super::signal::{Hum, Kind, Signal};
 use super::solve::{Problem, Solution};
@@ -44,11 +44,6 @@ impl Units {
     /// How many seconds the unit of time is.
     pub fn pulse(&self) -> f64 {
         self.pulse
-    }
-
-    /// How much of the trace's own unit the unit of the signal is.
-    pub fn light(&self) -> f64 {
-        self.light
     }
 
     /// The signal in the trace's units, its drift and its hum around the pulse's middle.
@@ -143,6 +138,27 @@ impl FrameFit {
         self.samples.len() as f64 / self.correlation
     }
 
+    /// A kind's exposure.
+    pub fn area(&self, kind: Kind) -> f64 {
+        Exposure::new(&self.kinds[kind as usize].solution.signal.curve).area()
+    }
+
+    /// A kind's `n` trigger times.
+    pub fn triggers(&self, kind: Kind, n: u32) -> Vec<f64> {
+        let exposure = Exposure::new(&self.kinds[kind as usize].solution.signal.curve);
+        fractions(n).map(|u| exposure.trigger(u).0).collect()
+    }
+
+    /// The trigger times as the samples have them: those of the freest kind, put right by what it misses.
+    pub fn measured_triggers(&self, n: u32) -> Vec<f64> {
+        let missed = Missed::new(self, Kind::Free);
+        fractions(n)
+            .map(|u| missed.exposure.trigger(u).0)
+            .zip(fractions(n))
+            .map(|(t, u)| t + missed.off(u, t))
+            .collect()
+    }
+
     /// Schwarz's criterion.
     pub fn bic(&self, kind: Kind) -> f64 {
         self.kinds[kind as usize].bic(self.samples.len() as f64, self.correlation)
@@ -166,14 +182,53 @@ impl Fitted {
     }
 }
 
+/// The fractions of the exposure at which `n` triggers come.
+pub fn fractions(n: u32) -> impl Iterator<Item = f64> {
+    (0..n).map(move |i| (f64::from(i) + 0.5) / f64::from(n))
+}
+
+/// What a kind's curve misses of the samples, added up along the pulse.
+pub struct Missed {
+    pub exposure: Exposure,
+    gain: f64,
+    /// Up to each time.
+    sums: Vec<(f64, f64)>,
+}
+
+impl Missed {
+    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
+        let fitted = &fit.kinds[kind as usize];
+        let signal = fitted.solution.signal;
+        let [start, _, _, end] = signal.curve.times();
+        let inside = fit.samples.iter().zip(&fitted.residuals);
+        let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
+        let mut sum = 0.0;
+        let sums = inside
+            .map(|(bin, residual)| {
+                sum += residual * (bin.to - bin.from);
+                (bin.to, sum)
+            })
+            .collect();
+        Self { exposure: Exposure::new(&signal.curve), gain: signal.gain, sums }
+    }
+
+    /// The openness times the light at a time, not too near to 0.
+    pub fn slope(&self, t: f64) -> f64 {
+        self.exposure.openness(t).max(1e-3) * self.gain
+    }
+
+    /// By how much the samples put the time at which `u` is collected later than the curve, which says `t`.
+    pub fn off(&self, u: f64, t: f64) -> f64 {
+        let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];
+        let here = until.last().map_or(0.0, |(_, sum)| *sum);
+        let whole = self.sums.last().map_or(0.0, |(_, sum)| *sum);
+        (u * whole - here) / self.slope(t)
+    }
+}
+
 /// Every kind's best signal. Levels and columns start as they are in `like`: a hum's frequency, say, that the misfit of
 /// a simple kind has led astray is not handed on to the next.
-fn every_kind(
-    problem: &Problem,
-    crossings: &Crossings,
-    step: f64,
-    like: &Signal,
-) -> Vec<Solution> {
+fn every_kind(problem: &Problem, crossings: &Crossings, step: f64, like: &Signal) -> Vec<Solution> {
     let mut found: Vec<Solution> = Vec::new();
     for kind in Kind::ALL {
         found.push(starts::search(problem, kind, crossings, step, found.last(), like));

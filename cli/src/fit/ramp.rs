@@ -69,9 +69,8 @@ impl UnitRamp {
             return At::START;
         }
         let p = if z < 1.0 { self.place(z) } else { 1.0 };
-        let integral = |c: &Integral| {
-            p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))))
-        };
+        let integral =
+            |c: &Integral| p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))));
         At {
             openness: cubic(self.y, p),
             area: integral(&self.area),
@@ -95,7 +94,11 @@ impl UnitRamp {
             if missing.abs() <= 1e-14 {
                 break;
             }
-            if missing < 0.0 { low = p } else { high = p }
+            if missing < 0.0 {
+                low = p
+            } else {
+                high = p
+            }
             let [a, b, c] = self.x;
             let next = p - missing / (a + p * (2.0 * b + p * 3.0 * c));
             p = if next > low && next < high { next } else { 0.5 * (low + high) };

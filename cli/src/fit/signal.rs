@@ -63,7 +63,7 @@ impl Kind {
     }
 
     /// This kind's parameters of a curve; of a curve that is not of this kind, some of them.
-    pub fn pack(self, curve: &Curve) -> Vec<f64> {
+    pub(super) fn pack(self, curve: &Curve) -> Vec<f64> {
         let mut packed = vec![0.0; self.parameters()];
         for (k, p) in curve.parameters().into_iter().enumerate().rev() {
             if let Some(holder) = self.holder(k) {
@@ -74,7 +74,7 @@ impl Kind {
     }
 
     /// The curve with these parameters.
-    pub fn unpack(self, packed: &[f64]) -> Curve {
+    pub(super) fn unpack(self, packed: &[f64]) -> Curve {
         let mut p = Curve::trapezoid(0.0, 0.0, 0.0, 0.0).parameters();
         for (k, p) in p.iter_mut().enumerate() {
             if let Some(holder) = self.holder(k) {
@@ -85,7 +85,7 @@ impl Kind {
     }
 
     /// Moves with this kind's parameters, from moves with a curve's.
-    pub fn gather(self, moves: &[f64; PARAMETERS], into: &mut [f64]) {
+    pub(super) fn gather(self, moves: &[f64; PARAMETERS], into: &mut [f64]) {
         into[..self.parameters()].fill(0.0);
         for (k, m) in moves.iter().enumerate() {
             if let Some(holder) = self.holder(k) {
@@ -100,11 +100,14 @@ impl Kind {
 pub struct Hum {
     /// Periods in a unit of time.
     pub frequency: f64,
+    /// What its cosine is multiplied by.
     pub cosine: f64,
+    /// What its sine is multiplied by.
     pub sine: f64,
 }
 
 impl Hum {
+    /// Half of what it spans.
     pub fn amplitude(&self) -> f64 {
         self.cosine.hypot(self.sine)
     }
@@ -113,12 +116,17 @@ impl Hum {
 /// `v = dark + gain f(t) + drift t + hum(t)`
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
+    /// Which curves it may have.
     pub kind: Kind,
+    /// `f`
     pub curve: Curve,
+    /// The level in the dark.
     pub dark: f64,
+    /// What full light adds.
     pub gain: f64,
     /// By a unit of time.
     pub drift: Option<f64>,
+    /// Beside the light.
     pub hum: Option<Hum>,
 }
 
@@ -128,12 +136,14 @@ const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl Signal {
     /// How many numbers it takes.
-    pub fn len(&self) -> usize {
-        let columns = if self.drift.is_some() { 1 } else { 0 } + if self.hum.is_some() { 3 } else { 0 };
+    pub(super) fn len(&self) -> usize {
+        let columns =
+            if self.drift.is_some() { 1 } else { 0 } + if self.hum.is_some() { 3 } else { 0 };
         self.kind.parameters() + 2 + columns
     }
 
-    pub fn pack(&self) -> Vec<f64> {
+    /// Its numbers, the curve's first.
+    pub(super) fn pack(&self) -> Vec<f64> {
         let mut packed = self.kind.pack(&self.curve);
         packed.extend([self.dark, self.gain]);
         packed.extend(self.drift);
@@ -142,7 +152,7 @@ impl Signal {
     }
 
     /// The same with other numbers, as `pack` orders them.
-    pub fn unpack(&self, packed: &[f64]) -> Self {
+    pub(super) fn unpack(&self, packed: &[f64]) -> Self {
         let (curve, rest) = packed.split_at(self.kind.parameters());
         let (columns, at) = (&rest[2..], self.drift.map_or(0, |_| 1));
         Self {
@@ -160,7 +170,7 @@ impl Signal {
     }
 
     /// The bounds of each: no length below 0, and control numbers in [0, 1].
-    pub fn bounds(&self) -> Vec<Bounds> {
+    pub(super) fn bounds(&self) -> Vec<Bounds> {
         let mut bounds = vec![ANY; self.len()];
         for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
             *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { (0.0, 1.0) };
@@ -169,13 +179,13 @@ impl Signal {
     }
 
     /// The parameters that are control numbers, and what each is on a straight ramp.
-    pub fn controls(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub(super) fn controls(&self) -> impl Iterator<Item = (usize, f64)> {
         let n = self.kind.parameters();
         (CONTROLS..n.max(CONTROLS)).map(|k| (k, STRAIGHT[(k - CONTROLS) % 4]))
     }
 
     /// What works the signal's means out.
-    pub fn means(&self) -> Means<'_> {
+    pub(super) fn means(&self) -> Means<'_> {
         Means { signal: self, exposure: Exposure::new(&self.curve), last: None }
     }
 }

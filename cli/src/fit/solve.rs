@@ -94,12 +94,7 @@ impl Problem<'_> {
 }
 
 /// The parameters a damped step on.
-fn step(
-    here: &Solution,
-    packed: &[f64],
-    bounds: &[(f64, f64)],
-    damping: f64,
-) -> Option<Vec<f64>> {
+fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
     let outward = |k: usize| {
         let (low, high) = bounds[k];
         packed[k] <= low && here.gradient[k] > 0.0 || packed[k] >= high && here.gradient[k] < 0.0

@@ -5,7 +5,7 @@ mod read;
 mod told;
 
 pub use pulse::{Frame, Light, Pulses, pulses};
-pub use read::{Column, Options, read};
+pub use read::{Column, Options, decode, read};
 pub use told::{Refusal, Warning};
 
 /// A signal over time: seconds, in order, no two the same; values in the file's own unit.

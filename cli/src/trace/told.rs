@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::unit;
+
 /// Why a trace cannot be fitted.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -68,8 +70,11 @@ pub enum Refusal {
         /// As seen.
         seen: f64,
     },
-    /// No curve that can be written was found.
-    NoCurve,
+    /// No scene can be written that can be planned.
+    NoScene {
+        /// Why not.
+        reason: String,
+    },
 }
 
 impl fmt::Display for Refusal {
@@ -121,8 +126,9 @@ impl fmt::Display for Refusal {
                 "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the \
                  trace's own unit, the dark level included"
             ),
-            Self::NoCurve => out.write_str(
-                "no valid curve passes this trace; look at it: is there one rise, one plateau at most, one fall?",
+            Self::NoScene { reason } => write!(
+                out,
+                "no scene can be made of this: {reason}; look at the trace: is there one rise, one plateau at most, one fall?"
             ),
         }
     }
@@ -296,7 +302,6 @@ impl fmt::Display for Warning {
     }
 }
 
-/// `1 sample`, `2 samples`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+fn counted(n: usize, thing: &str) -> String {
+    unit::count(n as u64, thing)
 }
