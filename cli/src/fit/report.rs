@@ -60,7 +60,8 @@ fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
         out,
         "  lengths in {name}; shift: the most that a trigger lies from the free model's, in {name}"
     )?;
-    writeln!(out, "chosen       {}: {}", fit.chosen.title(), because(fit))?;
+    writeln!(out, "chosen       {}", fit.chosen.title())?;
+    writeln!(out, "because      {}", because(fit))?;
 
     let known = |m: super::Measured| plus_minus(unit.of(m.value), unit.of(m.error), name);
     writeln!(
@@ -130,14 +131,13 @@ pub fn because(fit: &Fit) -> String {
             fit.unit().show(seconds)
         ),
         Reason::Shots { shots, scatter } => format!(
-            "the simplest that meets shots left out of {} as well as these meet each other ({} % of the exposure)",
+            "the simplest that meets shots left out as well as {} meet each other, to {} %",
             count(shots as u64, "shot"),
             short(100.0 * scatter, 2)
         ),
-        Reason::Criterion { effective } => format!(
-            "least BIC, from one shot, whose samples count as {} independent ones",
-            trimmed(effective, 0)
-        ),
+        Reason::Criterion { effective } => {
+            format!("least BIC, from one shot of {} independent samples", trimmed(effective, 0))
+        }
     }
 }
 

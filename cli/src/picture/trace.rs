@@ -103,13 +103,11 @@ fn draw_residual(area: &Area, fit: &Fit) -> Drawn {
     let most = 1.4 * sizes[(sizes.len() - 1) * 99 / 100].max(1e-3);
     let time = format!("time ({})", unit.name());
     let mut graph = graph(area, fit, unit, "residual (% of the light)", Some(&time), -most..most)?;
-    let (first, last) = ends(fit);
-    graph.draw_series([PathElement::new(
-        [(unit.of(first), 0.0), (unit.of(last), 0.0)],
-        pen(BLUE, 1.5),
-    )])?;
     let kept = missed.into_iter().map(|(t, m)| (t, m.clamp(-most, most)));
     graph.draw_series(LineSeries::new(kept, pen(GREY, 1.0)))?;
+    let (first, last) = ends(fit);
+    let none = [(unit.of(first), 0.0), (unit.of(last), 0.0)];
+    graph.draw_series([PathElement::new(none, pen(BLUE, 2.5))])?;
     Ok(())
 }
 
