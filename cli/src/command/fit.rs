@@ -56,7 +56,7 @@ pub struct Args {
     #[arg(long)]
     model: Option<ModelName>,
     /// Take the simplest model whose triggers are as near to the free model's: 0.1% (of the exposure), 20us
-    #[arg(long, value_parser = tolerance, conflicts_with = "model")]
+    #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
     tolerance: Option<Tolerance>,
     /// How many triggers
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=10_000))]

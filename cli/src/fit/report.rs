@@ -56,10 +56,7 @@ fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
         }
     }
     let name = unit.name();
-    writeln!(
-        out,
-        "  lengths in {name}; shift: the most that a trigger lies from the free model's, in {name}"
-    )?;
+    writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
     writeln!(out, "chosen       {}", fit.chosen.title())?;
     writeln!(out, "because      {}", because(fit))?;
 

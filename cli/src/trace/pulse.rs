@@ -8,6 +8,8 @@ const SPIKE: f64 = 6.0;
 const CONTRAST: f64 = 8.0;
 /// The fewest samples of a trace, of a pulse, and in the dark on either side of it.
 const FEWEST: (usize, usize, usize) = (16, 8, 3);
+/// The beginning and the end of a trace that differ by this share of the light are not both dark.
+const CUT: f64 = 0.3;
 /// Between these shares of the light the state stays what it was.
 const SWITCH: (f64, f64) = (0.4, 0.6);
 
@@ -84,10 +86,13 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     let smooth = smoothed(&trace.values, window);
     let dark = dark(&smooth);
     let (low, high) = range(&smooth);
+    let (first, last) = ends(&smooth);
+    // One end in the light: which one, nothing tells but that light mostly raises a signal.
+    let is_cut = (first - last).abs() > CUT * (high - low);
     let inverted = match light {
         Light::Up => false,
         Light::Down => true,
-        Light::Auto => dark - low > high - dark,
+        Light::Auto => !is_cut && dark - low > high - dark,
     };
     let turned = |v: f64| if inverted { -v } else { v };
     trace.values.iter_mut().for_each(|v| *v = turned(*v));
@@ -236,7 +241,7 @@ fn full(smooth: &[f64], dark: f64, height: f64) -> f64 {
 fn check_ends(smooth: &[f64], dark: f64, height: f64) -> Result<(), Refusal> {
     let (first, last) = ends(smooth);
     // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
-    if (first - last).abs() > 0.3 * height {
+    if (first - last).abs() > CUT * height {
         return Err(if first > last { Refusal::BeginsInPulse } else { Refusal::EndsInPulse });
     }
     if first > dark + SWITCH.0 * height {
