@@ -66,11 +66,43 @@ impl Covariance {
     }
 }
 
-/// The exposure, the efficiency and the times of `n` triggers, in the frame's unit of time.
-pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<Measured>) {
+/// What a curve is good for, in the frame's unit of time.
+pub struct Results {
+    pub exposure: Measured,
+    pub efficiency: Measured,
+    pub triggers: Vec<Measured>,
+}
+
+/// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
+///
+/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
+/// Akaike weight, with its own variance and how far it lies from this one.
+pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
+    let mut chosen = of_kind(fit, kind, n);
+    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
+    let least = freer().map(|k| fit.aic(k)).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fit.aic(k))).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    let all: Vec<(f64, Results)> = freer()
+        .zip(weights)
+        .filter(|(_, weight)| *weight > 1e-3 * sum)
+        .map(|(k, weight)| (weight / sum, of_kind(fit, k, n)))
+        .collect();
+    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
+        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
+        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
+    };
+    widen(&mut chosen.exposure, &|results| results.exposure);
+    widen(&mut chosen.efficiency, &|results| results.efficiency);
+    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
+        widen(trigger, &|results| results.triggers[i]);
+    }
+    chosen
+}
+
+fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     let covariance = Covariance::new(fit, kind);
-    let signal = fit.kinds[kind as usize].solution.signal;
-    let curve = signal.curve;
+    let curve = fit.kinds[kind as usize].solution.signal.curve;
     let exposure = Exposure::new(&curve);
     let whole = exposure.whole().moves;
     let (area, length) = (exposure.area(), curve.length());
@@ -87,7 +119,11 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> (Measured, Measured, Vec<M
         .collect();
     let beside = misfit(fit, kind, &triggers);
     triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
-    (measured(area, &whole), measured(area / length, &ratio), triggers)
+    Results {
+        exposure: measured(area, &whole),
+        efficiency: measured(area / length, &ratio),
+        triggers,
+    }
 }
 
 /// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond

@@ -163,6 +163,12 @@ impl FrameFit {
     pub fn bic(&self, kind: Kind) -> f64 {
         self.kinds[kind as usize].bic(self.samples.len() as f64, self.correlation)
     }
+
+    /// Akaike's criterion.
+    pub fn aic(&self, kind: Kind) -> f64 {
+        let parameters = self.kinds[kind as usize].solution.signal.len() as f64;
+        self.bic(kind) + parameters * (2.0 - self.effective().ln())
+    }
 }
 
 impl Fitted {

@@ -199,7 +199,7 @@ pub fn fit(
     let candidates = candidates(fitted, shots.as_ref(), options.triggers);
     let (chosen, reason) = choose(options, &candidates, fitted, shots.as_ref());
     let units = fitted.units;
-    let (mut exposure, mut efficiency, triggers) =
+    let errors::Results { mut exposure, mut efficiency, triggers } =
         errors::results(fitted, chosen, options.triggers.max(1));
     let seconds =
         |m: Measured| Measured { value: units.seconds(m.value), error: units.pulse() * m.error };
