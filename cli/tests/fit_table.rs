@@ -211,7 +211,9 @@ fn table() {
             print(&format!("{shutter:?}"), &is_box_or(&rows, shutter));
         }
         print("all", &rows.iter().collect::<Vec<_>>());
-        judge(&rows, failed, limits, (0.9, 0.99));
+        {
+            judge(&rows, failed, limits, (0.9, 0.99));
+        }
         if is_white {
             white = rows;
         }
