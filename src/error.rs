@@ -19,22 +19,28 @@ pub enum Ramp {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum CurveError {
-    /// A control point of the ramp is NaN or infinite.
+    /// A control point of the ramp is NaN or infinite, which is also what becomes of a number above 3.4e38 in `f32`.
     NotFinite(Ramp),
     /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`
     /// (for a single curve: it ends before it starts).
     TimesOutOfOrder,
+    /// `open_start` and `close_end` are the same `f32`: there is no interval, or it is so short for its distance from time 0
+    /// that `f32` cannot tell its ends apart. Count times from nearer by.
+    IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
     /// Time turns back along the ramp: `t'(p) < 0` somewhere in [0, 1].
     TimeTurnsBack(Ramp),
+    /// The same by the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening), whose times are
+    /// fractions of the whole interval, not of their ramp, nor times themselves.
+    InnerTimesTurnBack(Ramp),
     /// The openness falls below 0 somewhere on the ramp.
     NegativeOpenness(Ramp),
     /// The openness rises above 1 somewhere on the ramp.
     OpennessAboveOne(Ramp),
     /// The area under the curve is 0: nothing is ever exposed.
     ZeroArea,
-    /// The area under the curve, or its reciprocal, is beyond the normal range of `f32`.
+    /// The area under the curve, or its reciprocal, is beyond the normal range of `f32`: it is outside [2⁻¹²⁶, 2¹²⁶].
     AreaOutOfRange,
 }
 
@@ -53,16 +59,34 @@ impl CurveError {
     pub const fn message(&self) -> &'static str {
         use CurveError as E;
         match self {
-            E::NotFinite(r) => at!(r, "a control point is NaN or infinite"),
+            E::NotFinite(r) => at!(r, "a control point is NaN, infinite or beyond f32 (3.4e38)"),
             E::TimesOutOfOrder => {
                 "times out of order: open_start <= open_end <= close_start <= close_end is required"
             }
-            E::IntervalOutOfRange => "the interval's length is outside [2^-64, 2^64]",
-            E::TimeTurnsBack(r) => at!(r, "time turns back between the control points"),
+            E::IntervalUnresolved => {
+                "the interval has no length, or is too short for f32 so far from time 0: \
+                 it starts and ends at the same f32"
+            }
+            E::IntervalOutOfRange => {
+                "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"
+            }
+            E::TimeTurnsBack(r) => {
+                at!(r, "time turns back along it; with control times in order it does not")
+            }
+            E::InnerTimesTurnBack(Ramp::Closing) => {
+                "closing ramp: time turns back along it; \
+                 t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end"
+            }
+            E::InnerTimesTurnBack(_) => {
+                "opening ramp: time turns back along it; \
+                 t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end"
+            }
             E::NegativeOpenness(r) => at!(r, "the openness falls below 0"),
             E::OpennessAboveOne(r) => at!(r, "the openness rises above 1"),
             E::ZeroArea => "the area under the curve is 0",
-            E::AreaOutOfRange => "the area under the curve is beyond the range of f32",
+            E::AreaOutOfRange => {
+                "the area under the curve is below 2^-126 (1.2e-38) or above 2^126 (8.5e37)"
+            }
         }
     }
 }
@@ -104,34 +128,52 @@ pub const fn valid<T: Copy>(curve: Result<T, CurveError>) -> T {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ScheduleError {
-    /// The timer's rate is 0 Hz.
+    /// The timer's rate is 0.
     TickRateZero,
     /// The interval is longer than 2³¹ ticks at this rate.
-    TickRateTooHigh,
-    /// More triggers than the schedule can hold.
-    CapacityExceeded,
-    /// Two triggers would come closer than the minimum gap.
-    GapTooSmall {
-        /// So many triggers, at least 1, keep the gap on this curve at this rate, and one more does not.
+    TickRateTooHigh {
+        /// The greatest rate at which it is not; 0 where none is low enough.
         most: u32,
+    },
+    /// More triggers than the schedule can hold.
+    CapacityExceeded {
+        /// So many it can hold.
+        capacity: u32,
+    },
+    /// Two triggers would come closer than the minimum gap. How many would keep it,
+    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds.
+    GapTooSmall {
+        /// The first trigger that comes too early, by its index.
+        trigger: u32,
+        /// So many ticks it comes after the one before it.
+        gap: u32,
+        /// So many are required.
+        min_gap: u32,
     },
 }
 
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            ScheduleError::TickRateZero => out.write_str("the tick rate is 0 Hz"),
-            ScheduleError::TickRateTooHigh => {
-                out.write_str("the interval is longer than 2^31 ticks")
+            Self::TickRateZero => out.write_str("the tick rate is 0"),
+            Self::TickRateTooHigh { most: 0 } => out.write_str(
+                "the interval is longer than 2^31 ticks, whatever the rate: its unit of time is too small",
+            ),
+            Self::TickRateTooHigh { most } => {
+                write!(
+                    out,
+                    "the interval is longer than 2^31 ticks; a rate of up to {most} ticks in the curve's unit of time keeps to that"
+                )
             }
-            ScheduleError::CapacityExceeded => {
-                out.write_str("more triggers than the schedule can hold")
+            Self::CapacityExceeded { capacity } => {
+                write!(out, "more triggers than the {capacity} that the schedule can hold")
             }
-            ScheduleError::GapTooSmall { most: 1 } => {
-                out.write_str("triggers closer than the minimum gap; 1 trigger keeps it")
-            }
-            ScheduleError::GapTooSmall { most } => {
-                write!(out, "triggers closer than the minimum gap; up to {most} triggers keep it")
+            Self::GapTooSmall { trigger, gap, min_gap } => {
+                let plural = if *gap == 1 { "" } else { "s" };
+                write!(
+                    out,
+                    "trigger {trigger} comes {gap} tick{plural} after the one before, and {min_gap} are required"
+                )
             }
         }
     }

@@ -59,6 +59,9 @@ impl Exposure {
         if !(start <= open && open <= close && close <= end) {
             return Err(CurveError::TimesOutOfOrder);
         }
+        if start == end {
+            return Err(CurveError::IntervalUnresolved);
+        }
         const LONGEST: f64 = 18446744073709551616.0; // 2⁶⁴
         let length = end as f64 - start as f64;
         if !(length >= 1.0 / LONGEST && length <= LONGEST) {

@@ -44,6 +44,7 @@ mod solve;
 pub use bezier::CubicBezier;
 pub use error::{CurveError, Ramp, ScheduleError, valid};
 pub use pdf::BezierPdf;
+pub use schedule::{TriggerTicks, TriggerTimes};
 pub use shutter::ShutterCurve;
 pub use solve::MAX_EVALUATIONS;
 

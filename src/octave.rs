@@ -12,14 +12,15 @@
 use crate::exposure::Exposure;
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
-/// the octave, or somewhat less.
+/// the part of the octave that it serves, or somewhat less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     middle: i64,
     /// A power of two, or minus that from the later side; 0 where there is no polynomial.
     factor: i32,
-    /// The bits of the greatest `f32` in it.
-    pub(crate) top: u32,
+    /// From where `x` counts: a place of the octave, as [`Octave::offset`] has it; the lowest bits tell by which power of two
+    /// `x` counts finer than that.
+    center: u32,
     /// `P(x) = c[0] x + c[1] x² + ...`
     c: [i32; DEGREE],
 }
@@ -56,6 +57,9 @@ const PEAKS: [f64; DEGREE + 2] = [
     1.0,
 ];
 
+/// The bits of a center that are a power of two.
+const FINER: u32 = 31;
+
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
 const TIME_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
 /// The error in `u` that it may have, in ulp. Below 1/2 no two neighbouring `u` can change places,
@@ -76,38 +80,51 @@ pub(crate) struct Unit {
 /// The bits of the least top: below 2⁻³⁰ there are no octaves, so that the bits of 0 are not among theirs.
 pub(crate) const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
 
-/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none: some to choose from, the best first.
+/// How far beyond the end of the near ramp a top may be. A ramp's last octave is often too much for one polynomial; so
+/// cut, its last fifth has one of its own, and the next one ends before time runs too differently.
+const STRETCH: f64 = 1.625;
+
+/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none: the one to try first, and another
+/// where that leaves an octave without a polynomial.
 ///
 /// It is 1/2 if the near ramp goes beyond that, or else where the near ramp ends. If the far ramp begins below 1/2, too, it is that
-/// times a power of two, so that the octaves reach 1/2. Otherwise it may as well be somewhat more, which leaves the widest
-/// octave less to serve.
-pub(crate) const fn tops(exposure: &Exposure, side: usize) -> [u32; 3] {
+/// times a power of two, so that the octaves reach 1/2. The other one is greater by [`STRETCH`], or by as much as leaves the far
+/// ramp in another octave.
+pub(crate) const fn tops(exposure: &Exposure, side: usize) -> [u32; 2] {
     const HALF: u32 = 0.5f32.to_bits();
     let [near, far] = exposure.joins(side);
     let join = if near > 0.0 { near } else { far };
     let floor = floor_bits(join);
     // Next to 1/2 is 1/2 for a polynomial.
     if floor + 4 >= HALF {
-        return [if near > 0.0 { HALF } else { 0 }, 0, 0];
+        return if near > 0.0 { [HALF, floor_bits(STRETCH * 0.5)] } else { [0, 0] };
     }
     // Up to the join, and where the plateau's line follows, which is asked before, to the next `f32`.
     let is_plateau = near > 1.0 / 512.0 && near < far;
     let bits = if is_plateau && (f32::from_bits(floor) as f64) < join { floor + 1 } else { floor };
     // Below 2⁻⁹ the line does not serve, and what is beyond the join has to be searched for.
-    if far >= 0.5 && near <= 1.0 / 512.0 {
-        [bits, 0, 0]
-    } else if far >= 0.5 {
-        [bits, floor_bits(1.25 * near), floor_bits(1.375 * near)]
-    } else if bits < LEAST {
-        [HALF, 0, 0]
+    let stretched = if near <= 1.0 / 512.0 {
+        0
+    } else if far < STRETCH * near {
+        floor_bits(far)
     } else {
-        // As many octaves up as reach 1/2.
-        [bits + ((HALF - bits + (1 << 23) - 1) >> 23 << 23), 0, 0]
+        floor_bits(STRETCH * near)
+    };
+    if far >= 0.5 {
+        [bits, stretched]
+    } else {
+        [up_to_half(bits), if stretched > bits { up_to_half(stretched) } else { 0 }]
     }
 }
 
+/// The top that is so many octaves above one below 1/2 that it reaches 1/2; 1/2 where none would be left.
+const fn up_to_half(top: u32) -> u32 {
+    const HALF: u32 = 0.5f32.to_bits();
+    if top < LEAST { HALF } else { top + ((HALF - top + (1 << 23) - 1) >> 23 << 23) }
+}
+
 impl Octave {
-    pub(crate) const NONE: Self = Self { middle: NO_TIME, factor: 0, top: 0, c: [0; DEGREE] };
+    pub(crate) const NONE: Self = Self { middle: NO_TIME, factor: 0, center: 0, c: [0; DEGREE] };
 
     /// Is there a polynomial?
     #[inline(always)]
@@ -115,14 +132,16 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset of a significand, whose top bit is set, from the octave's middle.
+    /// The `x` of a place, in 2⁻³².
+    ///
+    /// A place is how far a significand is above 2³¹, if its exponent is that of the octave's top. If it is the one below, it is
+    /// how far it is below 2³², negative, and counts half as much.
     #[inline(always)]
-    pub(crate) const fn offset(top: u32, significand: u32) -> i32 {
-        let top = top << 8 | 1 << 31;
-        // What is above the octave's top has the exponent below.
-        let down = (significand > top) as u32;
-        // Doubled, so that the offset fills the word; what passes its end comes back.
-        (significand >> down << 1).wrapping_sub(top.wrapping_add(top >> 1)) as i32
+    pub(crate) const fn offset(&self, place: i32) -> i32 {
+        let ahead = place & !(place >> 31);
+        // What passes the ends of the word comes back.
+        let x = place.wrapping_add(ahead).wrapping_sub(self.center as i32);
+        x << (self.center & FINER)
     }
 
     /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
@@ -146,51 +165,29 @@ impl Octave {
         times_high(value, x)
     }
 
-    /// The polynomial of a side's octave below the bits of its `top`, without one where none keeps the promised error.
-    pub(crate) const fn fit(exposure: &Exposure, unit: &Unit, side: usize, top: u32) -> Self {
-        let high = f32::from_bits(top) as f64;
-        let [near, far] = exposure.joins(side);
-        // The part that lies on a ramp: on the near one, or behind what is not.
-        let (half, high_or_half) = (0.5 * high, if high > 0.5 { 0.5 } else { high });
-        let (from, to) = if near > half {
-            // Where the far ramp follows within a trace, the polynomial has to serve its start, too.
-            (half, if near < far && near < high { near } else { high_or_half })
-        } else {
-            (if far > half { far } else { half }, high_or_half)
-        };
-        let none = Self { top, ..Self::NONE };
-        // Below 2⁻⁹ the plateau's line has not all of it.
-        let is_beside_plateau = near < far && (from > half || near > half && near < high);
-        if from >= to || is_beside_plateau && high < 1.0 / 128.0 {
-            return none;
-        }
-        let part = Part { side, top, high, middle: 0.5 * (from + to), half: 0.5 * (to - from) };
-        part.fitted(exposure, unit, none)
-    }
-
     /// The error where it peaks, through the very arithmetic that will run: small in time, and small
     /// in `u`, in which time's slope across the octave measures it.
     const fn keeps_promise(
         &self,
         exposure: &Exposure,
-        part: &Part,
+        span: &Span,
         middle: f64,
         scale: f64,
     ) -> bool {
         let mut i = 0;
         while i < PEAKS.len() {
-            let x = part.offset(PEAKS[i]);
-            let exact = part.exact(exposure, x);
+            let x = span.offset(PEAKS[i]);
+            let exact = span.exact(exposure, x);
             let error = (middle + (self.rest(x) as f64 + 0.5) * scale) - exact;
             // What `f64` cannot tell of a time so far from the side's start counts, too.
             let error = error.abs() + exact / (1u64 << 51) as f64;
-            let size = exposure.size_of_time(part.side, exact);
+            let size = exposure.size_of_time(span.side, exact);
             // What an ulp of u is in time: at the ends the lesser one, since time may run slower beyond a join.
-            let ulp = self.slope(x) * scale * part.ulp() / part.width();
+            let ulp = self.slope(x) * scale * span.ulp() / span.width;
             let beyond = if i == 0 {
-                exact - exposure.elapsed(part.side, part.middle - part.half - part.ulp())
+                exact - exposure.elapsed(span.side, span.middle - span.half - span.ulp())
             } else if i + 1 == PEAKS.len() {
-                exposure.elapsed(part.side, part.middle + part.half + part.ulp()) - exact
+                exposure.elapsed(span.side, span.middle + span.half + span.ulp()) - exact
             } else {
                 ulp
             };
@@ -218,21 +215,51 @@ impl Octave {
 }
 
 /// The part of an octave that its polynomial serves, in `a`.
-struct Part {
+pub(crate) struct Span {
     side: usize,
-    top: u32,
-    /// The octave's upper end.
-    high: f64,
     middle: f64,
     half: f64,
+    /// What an offset of 1, that is 2³² units, is in `a`.
+    width: f64,
+    /// By which power of two that is less than the octave.
+    finer: u32,
 }
 
-impl Part {
-    /// What an offset of 1, that is 2³² units, is in `a`.
-    const fn width(&self) -> f64 {
-        // The significand of the top counts 2³¹ to 2³², and a unit of the offset is half of one of its.
-        let significand = (self.top << 8 | 1 << 31) as f64;
-        0.5 * self.high / significand * WORD
+impl Span {
+    /// Of a side's octave below the bits of its `top`; none where all of it is on the plateau, or where the search has to serve
+    /// what the plateau's line does not.
+    pub(crate) const fn new(exposure: &Exposure, side: usize, top: u32) -> Option<Self> {
+        let high = f32::from_bits(top) as f64;
+        let [near, far] = exposure.joins(side);
+        // The part that lies on a ramp: on the near one, or behind what is not.
+        let (half, high_or_half) = (0.5 * high, if high > 0.5 { 0.5 } else { high });
+        let (from, to) = if near > half {
+            // Where the far ramp follows within a trace, the polynomial has to serve its start, too.
+            (half, if near < far && near < high { near } else { high_or_half })
+        } else {
+            (if far > half { far } else { half }, high_or_half)
+        };
+        // Below 2⁻⁹ the plateau's line has not all of it.
+        let is_beside_plateau = near < far && (from > half || near > half && near < high);
+        if from >= to || is_beside_plateau && high < 1.0 / 128.0 {
+            return None;
+        }
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        // The significand of the top counts 2³¹ to 2³², and a unit of a place is half of one of its.
+        let significand = (top << 8 | 1 << 31) as f64;
+        let (mut width, mut finer) = (0.5 * high / significand * WORD, 0);
+        // A small part of an octave fills the word, too, or else the coefficients would have few bits.
+        while finer < FINER && half <= 0.25 * width {
+            width *= 0.5;
+            finer += 1;
+        }
+        Some(Self { side, middle, half, width, finer })
+    }
+
+    /// Twice the significand of the middle, nearly: where offsets count from.
+    const fn center(&self) -> u64 {
+        let octave = self.width * (1 << self.finer) as f64;
+        (self.middle / octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
     }
 
     /// The least ulp of `a` in the part.
@@ -244,36 +271,37 @@ impl Part {
     /// The offset of a point of [-1, 1], in units of 2⁻³².
     const fn offset(&self, point: f64) -> i32 {
         // A cast saturates.
-        ((self.middle + self.half * point - 0.75 * self.high) / self.width() * WORD) as i32
+        (self.half * point / self.width * WORD) as i32
     }
 
     /// The exact time from the side's start at an offset.
     const fn exact(&self, exposure: &Exposure, x: i32) -> f64 {
-        exposure.elapsed(self.side, 0.75 * self.high + x as f64 / WORD * self.width())
+        let center = (self.center() * (1 << self.finer)) as f64;
+        exposure.elapsed(self.side, (center + x as f64) / WORD * self.width)
     }
 
-    /// The octave with the polynomial, where it keeps the promise.
-    const fn fitted(&self, exposure: &Exposure, unit: &Unit, none: Octave) -> Octave {
+    /// The octave with a polynomial, where one keeps the promise.
+    pub(crate) const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
         let c = self.interpolate(exposure);
 
         // The largest value that Horner's rule meets fills 31 bits.
         let (mut bound, mut most, mut k) = (0.0, 0.0, DEGREE);
         while k > 0 {
-            bound = c[k].abs() + bound / 2.0;
+            bound = c[k].abs() + bound * (self.half / self.width);
             most = if bound > most { bound } else { most };
             k -= 1;
         }
         if !(most > 0.0 && most < f64::MAX) {
-            return none;
+            return Octave::NONE;
         }
         let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
         let exponent = if exponent < unit.exponent { unit.exponent } else { exponent };
         if exponent - unit.exponent > 30 {
-            return none;
+            return Octave::NONE;
         }
         let scale = power_of_two(exponent);
         let factor = 1 << (exponent - unit.exponent);
-        let mut octave = Octave { factor, ..none };
+        let mut octave = Octave { center: self.center() as u32, ..Octave::NONE };
         let mut k = 0;
         while k < DEGREE {
             octave.c[k] = round(c[k + 1] / scale);
@@ -284,7 +312,7 @@ impl Part {
         let start = unit.starts[self.side & 1];
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        if octave.keeps_promise(exposure, self, c[0], scale) { octave } else { none }
+        if octave.keeps_promise(exposure, self, c[0], scale) { octave } else { Octave::NONE }
     }
 
     /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.

@@ -7,7 +7,8 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::plan::Plan;
 
-/// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`.
+/// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`, and any unit of time, the same
+/// for what goes in and what comes out.
 ///
 /// `cdf(p) = K ∫ f t' dp` and `K = 1 / ∫₀¹ f t' dp`, in closed form.
 ///
@@ -44,7 +45,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
     /// The density of `curve`, with `CELLS` octaves a side.
     ///
     /// # Errors
-    /// A coordinate that is not finite; time that runs back; a negative density; an interval outside
+    /// A coordinate that is not finite; time that runs back; a negative density; an interval without length, or outside
     /// [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose reciprocal `f32` cannot hold.
     pub const fn with_cells(curve: CubicBezier) -> Result<Self, CurveError> {
         let end = curve.points()[3].0;
@@ -56,7 +57,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
         }
     }
 
-    /// The normalised density at `t`; 0 outside the curve and for NaN.
+    /// The normalised density at the time `t`, in fractions per unit of time; 0 outside the curve and for NaN.
     pub fn pdf(&self, t: f32) -> f32 {
         self.plan.exposure.density(self.plan.exposure.openness(t))
     }
@@ -66,17 +67,17 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
         self.plan.exposure.cdf(t)
     }
 
-    /// The `t` with `cdf(t) = u`; `u` is clamped to [0, 1], and NaN counts as 0.
+    /// The time `t` with `cdf(t) = u`, in the curve's unit; `u` is clamped to [0, 1], and NaN counts as 0.
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         batch::inverse_cdf(&self.plan, u)
     }
 
-    /// `∫ f dt`, before normalisation.
+    /// `∫ f dt`, before normalisation: `f` times the curve's unit of time.
     pub const fn area(&self) -> f32 {
         self.plan.exposure.area() as f32
     }
 
-    /// `K`, the reciprocal of the area.
+    /// `K`, the reciprocal of the area, in its unit.
     pub const fn normalization(&self) -> f32 {
         self.plan.exposure.normalization as f32
     }

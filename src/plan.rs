@@ -17,11 +17,12 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{LEAST, NO_TIME, Octave, Unit, floor_bits, tops};
+use crate::octave::{LEAST, NO_TIME, Octave, Span, Unit, floor_bits, tops};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
 /// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first, and by its bounds.
+#[derive(Clone)]
 pub(crate) struct Words {
     first: u32,
     count: u32,
@@ -38,6 +39,8 @@ pub(crate) struct Plan<const CELLS: usize> {
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
+    /// For each side, the bits of the greatest `f32` that its octaves serve.
+    tops: [u32; 2],
     /// For each side, the octaves of `a`, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
@@ -82,28 +85,29 @@ impl<const CELLS: usize> Plan<CELLS> {
                     [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
             }
         }
-        let mut octaves = [[Octave::NONE; CELLS]; 2];
+        let unit = Unit { exponent: unit, starts };
+        let (mut octaves, mut greatest) = ([[Octave::NONE; CELLS]; 2], [0; 2]);
         let mut side = 0;
-        while side < 2 {
-            let unit = Unit { exponent: unit, starts };
+        while serves && side < 2 {
             let tops = tops(&exposure, side);
-            let (mut top, mut i) = (if serves { tops[0] } else { 0 }, 1);
-            while CELLS > 0 && i < tops.len() && tops[i] >= LEAST && top >= LEAST {
-                if Octave::fit(&exposure, &unit, side, top).exists() {
-                    break;
-                }
-                top = tops[i];
-                i += 1;
-            }
-            let mut index = 0;
-            while index < CELLS && top >= LEAST {
-                octaves[side][index] = Octave::fit(&exposure, &unit, side, top);
-                top -= 1 << 23;
-                index += 1;
+            let is_whole = fit_all(&exposure, &unit, side, tops[0], &mut octaves[side]);
+            greatest[side] = tops[0];
+            if !is_whole && tops[1] > 0 {
+                fit_all(&exposure, &unit, side, tops[1], &mut octaves[side]);
+                greatest[side] = tops[1];
             }
             side += 1;
         }
-        Ok(Self { exposure, scale: power_of_two(unit + 32), plateau, base, slope, octaves })
+        let unit = unit.exponent;
+        Ok(Self {
+            exposure,
+            scale: power_of_two(unit + 32),
+            plateau,
+            base,
+            slope,
+            tops: greatest,
+            octaves,
+        })
     }
 
     /// The exponent of the unit of time.
@@ -143,22 +147,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// The octave of an `a`, by the bits of the `f32` at it or above, and what of them is the octaves' top. What is no
-    /// fraction above 0 has none.
+    /// The octave of an `a` with these bits, and its place in it. What is no fraction above 0 has none.
     #[inline(always)]
-    fn octave(&self, side: usize, ceil: u32) -> Option<(&Octave, u32)> {
-        let side = &self.octaves[side & 1];
-        let top = side.first()?.top;
-        let octave = side.get((top.wrapping_sub(ceil) >> 23) as usize)?;
-        Some((octave, top))
-    }
-
-    /// The time by an octave's polynomial, in units, if it has one: for `a` with this significand, not above the `f32` with
-    /// the bits `ceil`.
-    #[inline(always)]
-    fn by_octave(&self, side: usize, ceil: u32, significand: u32) -> Option<i64> {
-        let (octave, top) = self.octave(side, ceil)?;
-        octave.exists().then(|| octave.time(Octave::offset(top, significand)))
+    fn octave(&self, side: usize, bits: u32) -> Option<(&Octave, i32)> {
+        let top = self.tops[side & 1];
+        let below = top.wrapping_sub(bits);
+        let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
+        // Without the exponents, in significands of 32 bits.
+        Some((octave, (top << 9 >> 1) as i32 - (below << 9 >> 1) as i32))
     }
 
     /// The time on the plateau's line, in units, if `u` is on it.
@@ -179,7 +175,7 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (side, a) = Self::count(u);
                 let bits = a.to_bits();
                 match self.octave(side, bits) {
-                    Some((octave, top)) => octave.time(Octave::offset(top, bits << 8 | 1 << 31)),
+                    Some((octave, place)) => octave.time(octave.offset(place)),
                     None => return self.searched(u),
                 }
             }
@@ -223,10 +219,39 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time, in units, if no search is needed.
     #[inline(always)]
-    fn direct(&self, u: f32) -> Option<i64> {
+    pub(crate) fn direct(&self, u: f32) -> Option<i64> {
         let (side, a) = Self::count(u);
         let bits = a.to_bits();
-        self.by_line(u).or_else(|| self.by_octave(side, bits, bits << 8 | 1 << 31))
+        self.by_line(u).or_else(|| {
+            let (octave, place) = self.octave(side, bits)?;
+            octave.exists().then(|| octave.time(octave.offset(place)))
+        })
+    }
+
+    /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
+    pub(crate) const fn least_direct(&self, side: usize) -> f64 {
+        let [near, far] = self.exposure.joins(side);
+        // The plateau's line begins there.
+        let line = f32::from_bits(FINE) as f64;
+        let least = if near < far && near < line { line } else { 0.0 };
+        let top = self.tops[side & 1];
+        if top == 0 {
+            // The plateau alone, or nothing at all.
+            return if self.plateau[0] < self.plateau[1] { least } else { 0.5 };
+        }
+        let (mut high, mut index) = (f32::from_bits(top) as f64, 0);
+        while index < CELLS && high > least {
+            let half = 0.5 * high;
+            let is_open_above = far >= 0.5 || far >= high;
+            let is_served = self.octaves[side & 1][index].exists() || near <= half && is_open_above;
+            if !is_served {
+                high = if is_open_above && near < high { near } else { high };
+                break;
+            }
+            high = half;
+            index += 1;
+        }
+        if high > least { high } else { least }
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -267,18 +292,47 @@ impl<const CELLS: usize> Plan<CELLS> {
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
-        let zeros = high.leading_zeros();
         if high == 0 {
             return None;
         }
+        let zeros = high.leading_zeros();
         // Its last bit tells whether there is anything behind it.
         let rest = low << (zeros & 31);
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-        let significand = significand | (rest != 0) as u32;
-        let ceil =
-            ((126 - zeros) << 23) + (significand << 1 >> 9) + (significand & 0xFF != 0) as u32;
-        self.by_octave(side, ceil, significand)
+        let significand = significand & !(1 << 31) | (rest != 0) as u32;
+        // As in `octave`, but that the exponents stand apart.
+        let top = self.tops[side & 1];
+        let (exponent, top) = (top >> 23, (top << 9 >> 1) as i32);
+        let below = top - significand as i32;
+        let index =
+            exponent.wrapping_add(zeros).wrapping_sub(126).wrapping_add((below >> 31) as u32);
+        let octave = self.octaves[side & 1].get(index as usize)?;
+        let place = top - (below & i32::MAX);
+        octave.exists().then(|| octave.time(octave.offset(place)))
     }
+}
+
+/// The octaves of a side below the bits of its `top`. Has each of them that needs a polynomial got one?
+const fn fit_all<const CELLS: usize>(
+    exposure: &Exposure,
+    unit: &Unit,
+    side: usize,
+    top: u32,
+    octaves: &mut [Octave; CELLS],
+) -> bool {
+    let (mut top, mut is_whole, mut index) = (top, true, 0);
+    while index < CELLS {
+        octaves[index] = Octave::NONE;
+        if top >= LEAST
+            && let Some(span) = Span::new(exposure, side, top)
+        {
+            octaves[index] = span.fitted(exposure, unit);
+            is_whole = is_whole && octaves[index].exists();
+        }
+        top = top.saturating_sub(1 << 23);
+        index += 1;
+    }
+    is_whole
 }
 
 /// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².

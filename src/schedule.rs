@@ -1,5 +1,9 @@
 //! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
 
+use core::fmt;
+use core::iter::FusedIterator;
+use core::ops::Range;
+
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
 use crate::pair::{Pair, fixed};
@@ -15,22 +19,34 @@ const EXACT_HALVES: u32 = 1 << 23;
 const MOST_TICKS: i32 = 31;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
-    /// The `n` times that split the exposure evenly, each in the middle of its share:
+    /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
     /// `inverse_cdf((i + 1/2) / n)`; never a step back.
-    pub fn trigger_times(&self, n: u32) -> impl ExactSizeIterator<Item = f32> {
-        let fractions = Fractions::new(n);
-        (0..n).map(move |i| {
-            if n <= EXACT_HALVES {
-                self.inverse_cdf((i as f32 + 0.5) / n as f32)
-            } else {
-                place(&self.plan, &fractions, 2 * i as u64 + 1).time()
-            }
-        })
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// // A box of 8 ms, its times in ms.
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 8.0, 8.0));
+    /// assert!(curve.trigger_times(4).eq([1.0, 3.0, 5.0, 7.0]));
+    /// // From the back, or any one at once: each costs the same.
+    /// assert_eq!(curve.trigger_times(4).next_back(), Some(7.0));
+    /// assert_eq!(curve.trigger_times(4_000_000_000).nth(2_000_000_000), Some(4.0));
+    /// ```
+    pub fn trigger_times(&self, n: u32) -> TriggerTimes<'_, CELLS> {
+        TriggerTimes { frame: Times { curve: self, fractions: Fractions::new(n) }, left: 0..n }
     }
 
     /// So many triggers are sure to keep `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since
-    /// the openness is at most 1; a curve that never fully opens may take more. `u32::MAX` where nothing is
-    /// required, that is a gap of 0, below, or NaN.
+    /// the openness is at most 1; a curve that never fully opens may take more. The gap is in the curve's unit;
+    /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required, that is a gap of 0,
+    /// below, or NaN.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// // In ms: an exposure of 7.5 ms has room for a pulse every 0.5 ms, 15 times.
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 2.5, 7.5, 10.0));
+    /// const N: u32 = SHUTTER.max_triggers(0.5);
+    /// assert_eq!(N, 15);
+    /// ```
     pub const fn max_triggers(&self, min_gap: f32) -> u32 {
         if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
@@ -42,14 +58,62 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if most > 1 { most } else { 1 }
     }
 
-    /// The `n` trigger times in ticks of a timer that runs at `tick_hz`, counted from
-    /// [`open_start`](Self::open_start), for times in seconds; never a step back. Add the timer's own base
-    /// with `wrapping_add`.
+    /// Each trigger of a frame of up to so many costs at most the worst direct answer: it is placed by a polynomial or by the
+    /// plateau's line, never by a search. This holds for [`trigger_times`](Self::trigger_times), and for
+    /// [`trigger_ticks`](Self::trigger_ticks) on intervals of up to 2²⁴ ticks. The README has both costs in cycles.
+    ///
+    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more. 0 says that there is no such
+    /// frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too difficult for polynomials.
+    ///
+    /// Being constant, it makes a deadline that the compiler checks:
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
+    /// ```
+    ///
+    /// The same with a shutter whose ramps nearly stand still, which needs searches, does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::new(
+    ///     CubicBezier::new([(0.0, 0.0), (0.0025, 0.0), (0.0, 1.0), (0.0025, 1.0)]),
+    ///     CubicBezier::new([(0.0075, 1.0), (0.010, 1.0), (0.0075, 0.0), (0.010, 0.0)]),
+    /// ));
+    /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
+    /// ```
+    pub const fn direct_triggers(&self) -> u32 {
+        let least = [self.plan.least_direct(0), self.plan.least_direct(1)];
+        let least = if least[0] > least[1] { least[0] } else { least[1] };
+        // The first and the last trigger come nearest to the ends: 1/2n away, in units of 2⁻⁶⁴, and as `f32` 2⁻²⁴ less.
+        let least = (least * 18446744073709551616.0) as u64 + (1 << 40);
+        let most = (1 << 63) / least;
+        if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
+    }
+
+    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start); never a step back. Add the
+    /// timer's own base with `wrapping_add`.
+    ///
+    /// `tick_hz` is the number of ticks in one unit of the curve's time: for a curve in seconds the timer's rate in Hz, for a
+    /// curve in ms a thousandth of that. No error can tell a rate that was meant for another unit.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// // The same box of 8 ms in seconds and in ms, on a timer of 1 MHz.
+    /// let in_s: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
+    /// assert!(in_s.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
+    /// let in_ms: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 8.0, 8.0));
+    /// assert!(in_ms.trigger_ticks(4, 1_000)?.eq([1000, 3000, 5000, 7000]));
+    /// // A million ticks in a millisecond are a timer of 1 GHz.
+    /// assert!(in_ms.trigger_ticks(4, 1_000_000)?.eq([1_000_000, 3_000_000, 5_000_000, 7_000_000]));
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
     ///
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
     /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: above 2²⁴, the direct polynomials are
     /// left aside for the solver, which places to a thousandth of a tick. Only where the openness touches 0 between the
-    /// ends, so that many times have next to the same exposure, it is this that is kept, to 2⁻³⁸.
+    /// ends, so that many times have next to the same exposure, it is this that is kept, to 2⁻³⁶.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
@@ -57,17 +121,55 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         &self,
         n: u32,
         tick_hz: u32,
-    ) -> Result<impl ExactSizeIterator<Item = u32>, ScheduleError> {
-        let ticks = Ticks::new(&self.plan, n, tick_hz)?;
-        Ok((0..n).map(move |i| ticks.at(i)))
+    ) -> Result<TriggerTicks<'_, CELLS>, ScheduleError> {
+        Ok(TriggerTicks { frame: Ticks::new(&self.plan, n, tick_hz)?, left: 0..n })
     }
 
-    /// A checked schedule: the ticks of [`trigger_ticks`](Self::trigger_ticks), no two closer than
-    /// `min_gap` ticks.
+    /// A checked schedule: as many triggers as `ticks` has places, at the ticks of [`trigger_ticks`](Self::trigger_ticks), no
+    /// two closer than `min_gap` ticks. `tick_hz` counts ticks in one unit of the curve's time, as there.
+    ///
+    /// ```
+    /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// let mut ticks = [0; 5];
+    /// SHUTTER.schedule_into(&mut ticks, 1_000_000, 1_000)?;
+    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
+    /// // Too many for a gap of 1 ms, and how many are not.
+    /// let error = SHUTTER.schedule_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
+    /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
+    /// assert_eq!(SHUTTER.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// # Ok::<(), ScheduleError>(())
+    /// ```
     ///
     /// # Errors
-    /// More triggers than `N`; a gap not kept, with how many triggers would keep it; and those of
-    /// [`trigger_ticks`](Self::trigger_ticks).
+    /// A gap not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). What the slice then
+    /// holds is no schedule.
+    pub fn schedule_into(
+        &self,
+        ticks: &mut [u32],
+        tick_hz: u32,
+        min_gap: u32,
+    ) -> Result<(), ScheduleError> {
+        let Ok(n) = u32::try_from(ticks.len()) else {
+            return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
+        };
+        let mut last = None;
+        for (i, (place, tick)) in (0..n).zip(ticks.iter_mut().zip(self.trigger_ticks(n, tick_hz)?))
+        {
+            if let Some(last) = last
+                && tick - last < min_gap
+            {
+                return Err(ScheduleError::GapTooSmall { trigger: i, gap: tick - last, min_gap });
+            }
+            (*place, last) = (tick, Some(tick));
+        }
+        Ok(())
+    }
+
+    /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers, with feature `heapless-v0_9`.
+    ///
+    /// # Errors
+    /// More triggers than `N`, and those of [`schedule_into`](Self::schedule_into).
     #[cfg(feature = "heapless-v0_9")]
     pub fn schedule<const N: usize>(
         &self,
@@ -76,44 +178,195 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
-        if n as usize > N {
-            return Err(ScheduleError::CapacityExceeded);
+        if schedule.resize_default(n as usize).is_err() {
+            return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        let ticks = Ticks::new(&self.plan, n, tick_hz)?;
-        for i in 0..n {
-            let tick = ticks.at(i);
-            if schedule.last().is_some_and(|last| tick - last < min_gap) {
-                return Err(ScheduleError::GapTooSmall { most: self.most(n, tick_hz, min_gap)? });
-            }
-            let _ = schedule.push(tick);
-        }
+        self.schedule_into(&mut schedule, tick_hz, min_gap)?;
         Ok(schedule)
     }
 
-    /// So many triggers keep `min_gap`, and one more does not, where `n` do not: by bisection, in log2(n) schedules.
-    #[cfg(feature = "heapless-v0_9")]
-    #[cold]
-    #[inline(never)]
-    fn most(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
-        let (mut keep, mut fail) = (1, n);
+    /// As many of `wanted` triggers as keep a gap of `min_gap` ticks: all of them, or so many that keep it while one more does
+    /// not; at least 1, unless none are wanted. `tick_hz` counts ticks in one unit of the curve's time.
+    ///
+    /// It tries frames, each up to where the gap is too small: those around the exposure over the gap, which is next to the
+    /// answer for a shutter that opens fully, and from there on by doubled steps and bisection. So it costs a few frames
+    /// at best, and `2 log2(wanted)` at worst.
+    ///
+    /// # Errors
+    /// Those of [`trigger_ticks`](Self::trigger_ticks).
+    pub fn most_triggers(
+        &self,
+        wanted: u32,
+        tick_hz: u32,
+        min_gap: u32,
+    ) -> Result<u32, ScheduleError> {
+        if self.keeps(wanted, tick_hz, min_gap)? {
+            return Ok(wanted);
+        }
+        // One trigger keeps any gap, so at least two are wanted, and a gap of at least 1.
+        let (mut keep, mut fail) = (1, wanted);
+        let guess = tick_hz as f32 / (self.normalization() * min_gap as f32);
+        let mut n = (guess as u32).min(wanted - 1).max(2);
+        let mut step = 1u32;
         while fail - keep > 1 {
+            let keeps = self.keeps(n, tick_hz, min_gap)?;
+            *(if keeps { &mut keep } else { &mut fail }) = n;
             let middle = keep + (fail - keep) / 2;
-            let mut last = None;
-            let keeps = self.trigger_ticks(middle, tick_hz)?.all(|tick| {
-                let gap = last.map_or(u32::MAX, |last| tick - last);
-                last = Some(tick);
-                gap >= min_gap
-            });
-            *(if keeps { &mut keep } else { &mut fail }) = middle;
+            n = if keeps {
+                middle.min(keep.saturating_add(step))
+            } else {
+                middle.max(fail.saturating_sub(step))
+            };
+            step = step.saturating_mul(2);
         }
         Ok(keep)
     }
+
+    /// Do the ticks of `n` triggers keep the gap?
+    fn keeps(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<bool, ScheduleError> {
+        let mut last = None;
+        Ok(self.trigger_ticks(n, tick_hz)?.all(|tick| {
+            let gap = last.map_or(u32::MAX, |last| tick - last);
+            last = Some(tick);
+            gap >= min_gap
+        }))
+    }
 }
+
+/// The times of a frame's triggers, of [`ShutterCurve::trigger_times`]: any of them in constant time, from either end.
+#[derive(Clone)]
+pub struct TriggerTimes<'a, const CELLS: usize = 8> {
+    frame: Times<'a, CELLS>,
+    left: Range<u32>,
+}
+
+/// The ticks of a frame's triggers, of [`ShutterCurve::trigger_ticks`]: any of them in constant time, from either end.
+///
+/// An interrupt handler can keep one of a curve in a `static`, and take a tick whenever one has been served:
+///
+/// ```
+/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
+/// use std::sync::Mutex;
+///
+/// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
+/// static FRAME: Mutex<Option<TriggerTicks<'static>>> = Mutex::new(None);
+///
+/// fn begin() -> Result<(), ScheduleError> {
+///     *FRAME.lock().unwrap() = Some(SHUTTER.trigger_ticks(16, 1_000_000)?);
+///     Ok(())
+/// }
+///
+/// fn on_interrupt(base: u32, set_compare: impl Fn(u32)) {
+///     if let Some(tick) = FRAME.lock().unwrap().as_mut().and_then(Iterator::next) {
+///         set_compare(base.wrapping_add(tick));
+///     }
+/// }
+/// # begin()?;
+/// # on_interrupt(5, |tick| assert_eq!(tick, 5 + 1083));
+/// # Ok::<(), ScheduleError>(())
+/// ```
+#[derive(Clone)]
+pub struct TriggerTicks<'a, const CELLS: usize = 8> {
+    frame: Ticks<'a, CELLS>,
+    left: Range<u32>,
+}
+
+impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
+    /// Is trigger `i` of the frame placed without a search? For measurements.
+    #[doc(hidden)]
+    pub fn is_direct(&self, i: u32) -> bool {
+        self.frame.direct(2 * i as u64 + 1).is_some()
+    }
+}
+
+/// The iterators: what is left of a frame, whose trigger `i` is at `frame.at(i)`.
+macro_rules! iterate {
+    ($name:ident, $item:ty) => {
+        impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
+            type Item = $item;
+
+            #[inline]
+            fn next(&mut self) -> Option<$item> {
+                let i = self.left.next()?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn nth(&mut self, n: usize) -> Option<$item> {
+                let i = self.left.nth(n)?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn size_hint(&self) -> (usize, Option<usize>) {
+                self.left.size_hint()
+            }
+
+            #[inline]
+            fn count(self) -> usize {
+                self.left.count()
+            }
+
+            #[inline]
+            fn last(mut self) -> Option<$item> {
+                self.next_back()
+            }
+        }
+
+        impl<const CELLS: usize> DoubleEndedIterator for $name<'_, CELLS> {
+            #[inline]
+            fn next_back(&mut self) -> Option<$item> {
+                let i = self.left.next_back()?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn nth_back(&mut self, n: usize) -> Option<$item> {
+                let i = self.left.nth_back(n)?;
+                Some(self.frame.at(i))
+            }
+        }
+
+        impl<const CELLS: usize> ExactSizeIterator for $name<'_, CELLS> {}
+
+        impl<const CELLS: usize> FusedIterator for $name<'_, CELLS> {}
+
+        impl<const CELLS: usize> fmt::Debug for $name<'_, CELLS> {
+            fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let (n, left) = (self.frame.fractions.n, &self.left);
+                out.debug_struct(stringify!($name))
+                    .field("n", &n)
+                    .field("left", left)
+                    .finish_non_exhaustive()
+            }
+        }
+
+        #[cfg(feature = "defmt")]
+        impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
+            fn format(&self, out: defmt::Formatter<'_>) {
+                let (n, left) = (self.frame.fractions.n, &self.left);
+                defmt::write!(
+                    out,
+                    "{=str} {{ n: {}, left: {}..{}, .. }}",
+                    stringify!($name),
+                    n,
+                    left.start,
+                    left.end
+                );
+            }
+        }
+    };
+}
+
+iterate!(TriggerTimes, f32);
+iterate!(TriggerTicks, u32);
 
 /// Frames of more triggers are searched for throughout: a polynomial might put neighbours in the wrong order.
 const DIRECT_TRIGGERS: u32 = 1 << 22;
 
 /// The fractions `(2i + 1) / 2n` of the exposure.
+#[derive(Clone)]
 struct Fractions {
     n: u32,
     /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
@@ -154,12 +407,34 @@ impl Fractions {
     }
 }
 
+/// What times the triggers of one frame.
+#[derive(Clone)]
+struct Times<'a, const CELLS: usize> {
+    curve: &'a ShutterCurve<CELLS>,
+    fractions: Fractions,
+}
+
+impl<const CELLS: usize> Times<'_, CELLS> {
+    /// The time of trigger `i`.
+    #[inline(always)]
+    fn at(&self, i: u32) -> f32 {
+        let n = self.fractions.n;
+        if n <= EXACT_HALVES {
+            self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
+        } else {
+            place(&self.curve.plan, &self.fractions, 2 * i as u64 + 1).time()
+        }
+    }
+}
+
 /// What places the triggers of one frame.
+#[derive(Clone)]
 struct Ticks<'a, const CELLS: usize> {
     plan: &'a Plan<CELLS>,
     fractions: Fractions,
     tick_hz: u32,
     plateau: Words,
+    /// None for frames that are searched for throughout.
     direct: Option<Direct>,
 }
 
@@ -171,10 +446,10 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let start = plan.start_in_units(0);
         let length = (plan.start_in_units(1) - start) as u64;
         if exceeds(length, tick_hz, plan.unit(), MOST_TICKS) {
-            return Err(ScheduleError::TickRateTooHigh);
+            return Err(too_high(length, tick_hz, plan.unit()));
         }
         let searched = n > DIRECT_TRIGGERS || exceeds(length, tick_hz, plan.unit(), DIRECT_TICKS);
-        let direct = if searched { None } else { Direct::new(start, length, tick_hz, plan.unit()) };
+        let direct = (!searched).then(|| Direct::new(start, length, tick_hz, plan.unit()));
         let (fractions, plateau) = (Fractions::new(n), plan.plateau_in_words());
         Ok(Self { plan, fractions, tick_hz, plateau, direct })
     }
@@ -183,13 +458,18 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     #[inline(always)]
     fn at(&self, i: u32) -> u32 {
         let odd = 2 * i as u64 + 1;
-        if let Some(direct) = &self.direct
-            && let Some(time) =
-                self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)
-        {
-            return direct.tick(time);
+        match self.direct(odd) {
+            Some(tick) => tick,
+            None => self.searched(odd),
         }
-        self.searched(odd)
+    }
+
+    /// The tick at the fraction `odd / 2n`, if no search is needed.
+    #[inline(always)]
+    fn direct(&self, odd: u64) -> Option<u32> {
+        let direct = self.direct.as_ref()?;
+        let time = self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)?;
+        Some(direct.tick(time))
     }
 
     /// The same by a search; out of line, so that the direct way saves no registers for it.
@@ -203,7 +483,9 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
             // Rounded as the direct way rounds, so that neighbours keep their order.
             return direct.tick(direct.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
         }
-        let ticks = scaled(delay.times(Pair::from_u32(self.tick_hz)), unit);
+        let Pair { hi, lo } = scaled(delay.times(Pair::from_u32(self.tick_hz)), unit);
+        // A product's second half may be some ulp of the first.
+        let ticks = Pair::sum(hi, lo);
         // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
         let whole = ticks.hi as u32;
         let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
@@ -227,7 +509,21 @@ fn exceeds(length: u64, tick_hz: u32, unit: i32, most: i32) -> bool {
     shift < 96 && ticks > if shift < 0 { 0 } else { 1 << shift }
 }
 
+/// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
+#[cold]
+#[inline(never)]
+fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
+    let (mut most, mut fail) = (0, tick_hz);
+    while fail - most > 1 {
+        let middle = most + (fail - most) / 2;
+        let fits = !exceeds(length, middle, unit, MOST_TICKS);
+        *(if fits { &mut most } else { &mut fail }) = middle;
+    }
+    ScheduleError::TickRateTooHigh { most }
+}
+
 /// From times in the plan's unit to ticks, in fixed point.
+#[derive(Clone)]
 struct Direct {
     start: i64,
     /// What brings a time after the start down to 31 bits, and the ticks in a unit of these, which count 2⁻⁶⁴.
@@ -236,9 +532,8 @@ struct Direct {
 }
 
 impl Direct {
-    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`; none where a tick is next to
-    /// all of it.
-    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Option<Self> {
+    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
+    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
         let down = 33u32.saturating_sub(length.leading_zeros());
         let up = unit + 64 + down as i32;
         let rate = tick_hz as u64;
@@ -247,8 +542,8 @@ impl Direct {
         } else {
             rate.checked_shl(up.unsigned_abs())
         };
-        let factor = factor.unwrap_or(0);
-        (factor >> 32 != 0).then_some(Self { start, down, factor })
+        // Where a tick is next to all of the interval, nothing is left of it, and all is tick 0, to which it rounds.
+        Self { start, down, factor: factor.unwrap_or(0) }
     }
 
     #[inline(always)]

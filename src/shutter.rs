@@ -12,13 +12,14 @@ use crate::ramp::scaled;
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
 ///
-/// Times may be in any unit, the same throughout. Either ramp may have no length (a box), the plateau
-/// may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
+/// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density is per
+/// that unit, and the rate of a timer counts ticks in one of it (Hz, if it is the second). Either ramp may have no length (a
+/// box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
 ///
 /// `CELLS` is the number of octaves of `u` a side that are answered directly by a polynomial: a curve takes
-/// 480 bytes, and 96 more for each. Eight leave one `u` in 256 to the solver that `CELLS = 0` uses throughout; the
+/// 488 bytes, and 96 more for each. Eight leave one `u` in 256 to the solver that `CELLS = 0` uses throughout; the
 /// accuracy is the same for all. More than 64 do not compile, and in a constant the compiler's limit on
-/// evaluation may come before, beyond 16.
+/// evaluation may come before, beyond 16. For another number than 8 each constructor has a form `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {
     pub(crate) plan: Plan<CELLS>,
@@ -27,6 +28,18 @@ pub struct ShutterCurve<const CELLS: usize = 8> {
 impl ShutterCurve {
     /// The shutter with these ramps, with 8 octaves a side.
     ///
+    /// ```
+    /// use shutter_curve::{CubicBezier, ShutterCurve};
+    /// // A soft edge of 2 ms at either end, control points as (time in ms, openness).
+    /// let curve = ShutterCurve::new(
+    ///     CubicBezier::new([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]),
+    ///     CubicBezier::new([(8.0, 1.0), (9.0, 1.0), (9.0, 0.0), (10.0, 0.0)]),
+    /// )?;
+    /// assert_eq!(curve.opening(1.0), 0.5);
+    /// assert_eq!(curve.exposure(), 8.0);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`with_cells`](Self::with_cells).
     pub const fn new(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
@@ -34,8 +47,15 @@ impl ShutterCurve {
     }
 
     /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from
-    /// `close_start` to `close_end`: a trapezoid; a box where the ramps have no length, a triangle where
+    /// `close_start` to `close_end`, times in any unit: a trapezoid; a box where the ramps have no length, a triangle where
     /// the plateau has none.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// // 1/100 s from first light to last, of which the ramps take half: in seconds.
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// assert_eq!(SHUTTER.exposure(), 0.0075);
+    /// ```
     ///
     /// # Errors
     /// As [`with_cells`](Self::with_cells).
@@ -45,30 +65,48 @@ impl ShutterCurve {
         close_start: f32,
         close_end: f32,
     ) -> Result<Self, CurveError> {
-        Self::new(
-            CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
-            CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
-        )
+        Self::linear_with_cells(open_start, open_end, close_start, close_end)
     }
 
-    /// The shutter in the form of RenderMan's `shutteropening`: the `times` at which it starts and ends
+    /// The shutter in the form of RenderMan's `shutteropening`: the `times`, in any unit, at which it starts and ends
     /// to open and starts and ends to close, and its inner control points `[t1, y1, t2, y2, t5, y5, t6,
-    /// y6]`, whose times are fractions of the interval from the first of the `times` to the last.
+    /// y6]`, whose times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, also those of
+    /// the closing ramp.
+    ///
+    /// ```
+    /// use shutter_curve::{CurveError, Ramp, ShutterCurve};
+    /// // In ms. The opening ramp takes the first quarter of the interval, so t1 and t2 are below 0.25.
+    /// let times = [0.0, 2.5, 7.5, 10.0];
+    /// let curve = ShutterCurve::shutteropening(times, [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0])?;
+    /// assert_eq!(curve.close_end(), 10.0);
+    /// // Fractions of each ramp, as an easing curve has them, are refused.
+    /// let error = ShutterCurve::shutteropening(times, [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0]);
+    /// assert_eq!(error, Err(CurveError::InnerTimesTurnBack(Ramp::Opening)));
+    /// # Ok::<(), CurveError>(())
+    /// ```
     ///
     /// # Errors
-    /// As [`with_cells`](Self::with_cells).
+    /// As [`with_cells`](Self::with_cells), but for inner times out of order an error that says what they are.
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
-        let (opening, closing) = CubicBezier::shutteropening(times, inner);
-        Self::new(opening, closing)
+        Self::shutteropening_with_cells(times, inner)
     }
 }
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The shutter with these ramps, with `CELLS` octaves a side.
     ///
+    /// ```
+    /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
+    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::with_cells(
+    ///     CubicBezier::line((0.0, 0.0), (1.0, 1.0)),
+    ///     CubicBezier::line((1.0, 1.0), (2.0, 0.0)),
+    /// ));
+    /// assert_eq!(SMALL.inverse_cdf(0.125), 0.5);
+    /// ```
+    ///
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness
-    /// outside [0, 1] anywhere on a ramp; an interval outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose
+    /// outside [0, 1] anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose
     /// reciprocal `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², as the rounding of
     /// control points makes them.
     pub const fn with_cells(
@@ -81,27 +119,77 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         }
     }
 
-    /// When the shutter starts to open.
+    /// [`linear`](ShutterCurve::linear) with `CELLS` octaves a side.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::linear_with_cells(0.0, 1.0, 1.0, 2.0));
+    /// assert_eq!(SMALL.inverse_cdf(0.125), 0.5);
+    /// ```
+    ///
+    /// # Errors
+    /// As [`with_cells`](Self::with_cells).
+    pub const fn linear_with_cells(
+        open_start: f32,
+        open_end: f32,
+        close_start: f32,
+        close_end: f32,
+    ) -> Result<Self, CurveError> {
+        Self::with_cells(
+            CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
+            CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
+        )
+    }
+
+    /// [`shutteropening`](ShutterCurve::shutteropening) with `CELLS` octaves a side.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static LARGE: ShutterCurve<16> = valid(ShutterCurve::shutteropening_with_cells(
+    ///     [0.0, 0.25, 0.75, 1.0],
+    ///     [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
+    /// ));
+    /// const _: () = assert!(LARGE.direct_triggers() >= 20_000);
+    /// ```
+    ///
+    /// # Errors
+    /// As [`shutteropening`](ShutterCurve::shutteropening).
+    pub const fn shutteropening_with_cells(
+        times: [f32; 4],
+        inner: [f32; 8],
+    ) -> Result<Self, CurveError> {
+        let (opening, closing) = CubicBezier::shutteropening(times, inner);
+        // The opening ramp's control times follow from the last time, too; which is none of its.
+        if times[0].is_finite() && times[1].is_finite() && !times[3].is_finite() {
+            return Err(CurveError::NotFinite(Ramp::Closing));
+        }
+        match Self::with_cells(opening, closing) {
+            Err(CurveError::TimeTurnsBack(ramp)) => Err(CurveError::InnerTimesTurnBack(ramp)),
+            curve => curve,
+        }
+    }
+
+    /// When the shutter starts to open, in the unit of the curve's times.
     pub const fn open_start(&self) -> f32 {
         self.plan.exposure.start(0)
     }
 
-    /// When it is fully open.
+    /// When it is fully open, in the same unit.
     pub const fn open_end(&self) -> f32 {
         self.plan.exposure.plateau_start(0)
     }
 
-    /// When it starts to close.
+    /// When it starts to close, in the same unit.
     pub const fn close_start(&self) -> f32 {
         self.plan.exposure.plateau_start(1)
     }
 
-    /// When it is closed.
+    /// When it is closed, in the same unit.
     pub const fn close_end(&self) -> f32 {
         self.plan.exposure.start(1)
     }
 
-    /// The openness `f` at `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
+    /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
     ///
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
@@ -118,18 +206,18 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 
-    /// The normalised density at `t`, `K · opening(t)`.
+    /// The normalised density at `t`, `K · opening(t)`, in fractions of the exposure per unit of time.
     pub fn pdf(&self, t: f32) -> f32 {
         self.plan.exposure.density(self.openness(t))
     }
 
-    /// The fraction of the exposure collected by `t`: 0 before the shutter opens and for NaN, 1 after
+    /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1 after
     /// it has closed.
     pub fn cdf(&self, t: f32) -> f32 {
         self.plan.exposure.cdf(t)
     }
 
-    /// The time by which the fraction `u` of the exposure is collected.
+    /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
     ///
     /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at
     /// the ends exactly, and never steps back as `u` grows.
@@ -153,7 +241,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         batch::inverse_cdf(&self.plan, u)
     }
 
-    /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits.
+    /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits, and the same unit.
     ///
     /// # Panics
     /// If the lengths differ.
@@ -162,12 +250,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         batch::inverse_cdf_slice(&self.plan, u, t);
     }
 
-    /// The effective exposure time `A = ∫ f dt`.
+    /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.
     pub const fn exposure(&self) -> f32 {
         self.plan.exposure.area() as f32
     }
 
-    /// `K = 1/A`, which makes the openness a probability density.
+    /// `K = 1/A`, which makes the openness a probability density; per unit of the curve's time.
     pub const fn normalization(&self) -> f32 {
         self.plan.exposure.normalization as f32
     }
@@ -175,6 +263,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
     pub const fn efficiency(&self) -> f32 {
         (self.plan.exposure.area() / (self.close_end() as f64 - self.open_start() as f64)) as f32
+    }
+
+    /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search? For measurements.
+    #[doc(hidden)]
+    pub fn is_direct(&self, u: f32) -> bool {
+        self.plan.direct(u).is_some()
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.

@@ -177,8 +177,13 @@ fn the_interval_must_be_in_range() {
     assert!(ShutterCurve::linear(0.0, 0.0, 1.0 / long, 1.0 / long).is_ok());
     let short = (1.0 / long).next_down();
     assert_eq!(ShutterCurve::linear(0.0, 0.0, short, short), expected);
-    assert_eq!(ShutterCurve::linear(1.0, 1.0, 1.0, 1.0), expected);
     assert_eq!(ShutterCurve::linear(f32::MIN, 0.0, 1.0, f32::MAX), expected);
+    // No length is another error than too little of it, for f32 may be at fault.
+    let expected = Err(CurveError::IntervalUnresolved);
+    assert_eq!(ShutterCurve::linear(1.0, 1.0, 1.0, 1.0), expected);
+    let (now, later) = (1.7e9, (1.7e9 + 1e-3) as f32);
+    assert_eq!(ShutterCurve::linear(now, now, later, later), expected);
+    assert_eq!(single([(2.0, 1.0); 4]).map(|_| ()), expected.map(|_| ()));
 }
 
 #[test]
@@ -232,7 +237,9 @@ fn no_triggers() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
     assert_eq!(curve.trigger_times(0).len(), 0);
     assert_eq!(curve.trigger_times(0).next(), None);
+    assert_eq!(curve.trigger_times(0).next_back(), None);
     assert_eq!(curve.trigger_ticks(0, 1000).unwrap().next(), None);
+    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().nth(0), None);
 }
 
 #[test]
@@ -242,8 +249,71 @@ fn tick_rates() {
     assert_eq!(error(0), Some(ScheduleError::TickRateZero));
     assert_eq!(error(1), None);
     assert_eq!(error(1 << 31), None);
-    assert_eq!(error((1 << 31) + 1), Some(ScheduleError::TickRateTooHigh));
-    assert_eq!(error(u32::MAX), Some(ScheduleError::TickRateTooHigh));
+    let too_high = Some(ScheduleError::TickRateTooHigh { most: 1 << 31 });
+    assert_eq!(error((1 << 31) + 1), too_high);
+    assert_eq!(error(u32::MAX), too_high);
+    // The rate that the error names is the greatest, on intervals of any length.
+    for length in [0.51, 0.7, 1.0, 10.0, 12345.678, 2.0f32.powi(31)] {
+        let curve = ShutterCurve::linear(0.0, 0.0, length, length).unwrap();
+        let Err(ScheduleError::TickRateTooHigh { most }) = curve.trigger_ticks(1, u32::MAX) else {
+            panic!("{length}: the interval has more than 2^31 ticks");
+        };
+        assert!(most > 0 && curve.trigger_ticks(1, most).is_ok(), "{length}: {most}");
+        let error = curve.trigger_ticks(1, most + 1).err();
+        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { most }), "{length}");
+    }
+    let long = ShutterCurve::linear(0.0, 0.0, 1e10, 1e10).unwrap();
+    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { most: 0 }));
+}
+
+#[test]
+fn slices_for_a_schedule() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    // n = 0: nothing to keep, but the rate is still one.
+    assert_eq!(curve.schedule_into(&mut [], 1000, u32::MAX), Ok(()));
+    assert_eq!(curve.schedule_into(&mut [], 0, 0), Err(ScheduleError::TickRateZero));
+    let too_high = ScheduleError::TickRateTooHigh { most: 1 << 31 };
+    assert_eq!(curve.schedule_into(&mut [0; 4], u32::MAX, 0), Err(too_high));
+    // One trigger keeps any gap; two do not.
+    assert_eq!(curve.schedule_into(&mut [0], 1000, u32::MAX), Ok(()));
+    let gap = ScheduleError::GapTooSmall { trigger: 1, gap: 375, min_gap: u32::MAX };
+    assert_eq!(curve.schedule_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
+    // More triggers than ticks.
+    let Err(error) = curve.schedule_into(&mut [0; 5000], 1000, 1) else {
+        panic!("5000 ticks of 1000")
+    };
+    assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
+    assert_eq!(curve.schedule_into(&mut [0; 5000], 1000, 0), Ok(()));
+}
+
+#[test]
+fn the_most_triggers_of_anything() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    assert_eq!(curve.most_triggers(0, 1000, 1), Ok(0));
+    assert_eq!(curve.most_triggers(1, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.most_triggers(u32::MAX, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.most_triggers(2, 1000, 376), Ok(1));
+    assert_eq!(curve.most_triggers(2, 1000, 375), Ok(2));
+    assert_eq!(curve.most_triggers(9, 0, 1), Err(ScheduleError::TickRateZero));
+    let too_high = ScheduleError::TickRateTooHigh { most: 1 << 31 };
+    assert_eq!(curve.most_triggers(9, u32::MAX, 1), Err(too_high));
+    // As many as there are ticks, and none to spare.
+    let most = curve.most_triggers(u32::MAX, 1 << 31, 1 << 20).unwrap();
+    assert!((1535..=1537).contains(&most), "{most}");
+}
+
+#[test]
+fn any_trigger_of_the_most_that_there_can_be() {
+    let curve = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
+    let n = u32::MAX;
+    assert_eq!(curve.trigger_times(n).len(), n as usize);
+    assert_eq!(curve.trigger_times(n).nth(n as usize), None);
+    assert_eq!(curve.trigger_times(n).nth(n as usize / 2), Some(0.5));
+    assert_eq!(curve.trigger_times(n).next(), Some(0.5 / n as f32));
+    // Within half a share, that is 2^-33, the last time is the end.
+    assert_eq!(curve.trigger_times(n).last(), Some(1.0));
+    assert_eq!(curve.trigger_ticks(n, 1000).unwrap().nth_back(0), Some(1000));
+    assert_eq!(curve.trigger_ticks(n, 1000).unwrap().nth_back(n as usize), None);
 }
 
 #[test]
@@ -253,10 +323,104 @@ fn slices_of_different_length() {
     curve.inverse_cdf_slice(&[0.5, 0.6], &mut [0.0]);
 }
 
+/// Inner times that are fractions of each ramp, as an easing curve has them, and values that are none.
+#[test]
+fn shutteropening_is_told_from_times() {
+    let curve = |times, inner| ShutterCurve::shutteropening(times, inner).map(|_| ());
+    let (times, inner) = ([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]);
+    assert_eq!(curve(times, inner), Ok(()));
+    let of_ramps = [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0];
+    assert_eq!(curve(times, of_ramps), Err(CurveError::InnerTimesTurnBack(Ramp::Opening)));
+    let of_closing = [0.1, 0.0, 0.15, 1.0, 0.4, 1.0, 0.6, 0.0];
+    assert_eq!(curve(times, of_closing), Err(CurveError::InnerTimesTurnBack(Ramp::Closing)));
+    // The ramp whose number it is.
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for i in 0..4 {
+            let mut times = times;
+            times[i] = bad;
+            let ramp = if i < 2 { Ramp::Opening } else { Ramp::Closing };
+            assert_eq!(curve(times, inner), Err(CurveError::NotFinite(ramp)), "times[{i}] = {bad}");
+        }
+        for i in 0..8 {
+            let mut inner = inner;
+            inner[i] = bad;
+            let ramp = if i < 4 { Ramp::Opening } else { Ramp::Closing };
+            assert_eq!(curve(times, inner), Err(CurveError::NotFinite(ramp)), "inner[{i}] = {bad}");
+        }
+    }
+}
+
+/// Each error's text, with its numbers.
 #[test]
 fn errors_say_which_and_why() {
-    let text = CurveError::TimeTurnsBack(Ramp::Closing).to_string();
-    assert_eq!(text, "closing ramp: time turns back between the control points");
-    let error: &dyn std::error::Error = &ScheduleError::CapacityExceeded;
-    assert_eq!(error.to_string(), "more triggers than the schedule can hold");
+    use CurveError as E;
+    for (error, text) in [
+        (
+            E::NotFinite(Ramp::Opening),
+            "opening ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
+        ),
+        (
+            E::TimesOutOfOrder,
+            "times out of order: open_start <= open_end <= close_start <= close_end is required",
+        ),
+        (
+            E::IntervalUnresolved,
+            "the interval has no length, or is too short for f32 so far from time 0: \
+             it starts and ends at the same f32",
+        ),
+        (
+            E::IntervalOutOfRange,
+            "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)",
+        ),
+        (
+            E::TimeTurnsBack(Ramp::Closing),
+            "closing ramp: time turns back along it; with control times in order it does not",
+        ),
+        (
+            E::InnerTimesTurnBack(Ramp::Opening),
+            "opening ramp: time turns back along it; \
+             t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end",
+        ),
+        (
+            E::InnerTimesTurnBack(Ramp::Closing),
+            "closing ramp: time turns back along it; \
+             t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end",
+        ),
+        (E::NegativeOpenness(Ramp::Single), "curve: the openness falls below 0"),
+        (E::OpennessAboveOne(Ramp::Closing), "closing ramp: the openness rises above 1"),
+        (E::ZeroArea, "the area under the curve is 0"),
+        (
+            E::AreaOutOfRange,
+            "the area under the curve is below 2^-126 (1.2e-38) or above 2^126 (8.5e37)",
+        ),
+    ] {
+        assert_eq!(error.to_string(), text);
+    }
+    use ScheduleError as S;
+    for (error, text) in [
+        (S::TickRateZero, "the tick rate is 0"),
+        (
+            S::TickRateTooHigh { most: 9 },
+            "the interval is longer than 2^31 ticks; a rate of up to 9 ticks in the curve's unit of time keeps to that",
+        ),
+        (
+            S::TickRateTooHigh { most: 0 },
+            "the interval is longer than 2^31 ticks, whatever the rate: its unit of time is too small",
+        ),
+        (
+            S::CapacityExceeded { capacity: 16 },
+            "more triggers than the 16 that the schedule can hold",
+        ),
+        (
+            S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
+            "trigger 3 comes 562 ticks after the one before, and 1000 are required",
+        ),
+        (
+            S::GapTooSmall { trigger: 1, gap: 1, min_gap: 2 },
+            "trigger 1 comes 1 tick after the one before, and 2 are required",
+        ),
+    ] {
+        assert_eq!(error.to_string(), text);
+        let _: &dyn std::error::Error = &error;
+    }
 }

@@ -224,9 +224,11 @@ fn more_triggers_than_f32_has_fractions() {
 }
 
 #[test]
-fn a_gap_too_small_tells_how_many_would_keep_it() {
-    let text = ScheduleError::GapTooSmall { most: 4711 }.to_string();
-    assert!(text.contains("4711"), "{text}");
+fn a_gap_too_small_tells_its_numbers() {
+    let text = ScheduleError::GapTooSmall { trigger: 17, gap: 815, min_gap: 4711 }.to_string();
+    for number in ["17", "815", "4711"] {
+        assert!(text.contains(number), "{text}");
+    }
 }
 
 // Found by an attack on 0.2.0 before it was released.
@@ -304,6 +306,19 @@ fn a_tiny_near_ramp_with_many_octaves() {
         let t = ours.inverse_cdf(u);
         assert!(t >= last && exact.judge(u, t).backward <= BACKWARD, "{t:e} at {u:e}");
         last = t;
+    }
+}
+
+/// Where the second half of a product of pairs was taken for less than it is: up to 30 ticks late.
+#[test]
+fn the_last_ticks_of_an_interval_of_2_to_the_31() {
+    let opening = [(-1.0, 0.0), (-1.0, 1.472065e-5), (-1.0, 1.768388e-5), (0.0, 1.0)];
+    let curve = Curve::shutter(opening, instant(0.16237123, 1.0));
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    let (n, hz) = (1 << 28, 1_847_502_402);
+    for (i, tick) in (0..n).zip(ours.trigger_ticks(n, hz).unwrap()).rev().take(30) {
+        let error = tick_error(&exact, tick, [i, n], hz);
+        assert!(error <= TICKS[1], "trigger {i} is {error} ticks off");
     }
 }
 

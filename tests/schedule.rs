@@ -4,7 +4,7 @@ mod support;
 
 use shutter_curve::{CubicBezier, ShutterCurve, valid};
 use support::cases::shutter;
-use support::curves::{Kind, named, random_hard};
+use support::curves::{Kind, named, random_hard, random_typical};
 use support::oracle::{Curve, Dd, Exact, Points};
 use support::promise::{DIRECT_TICKS, TICKS, tick_error};
 
@@ -62,7 +62,7 @@ fn worst(curve: &Curve, n: u32, hz: u32) -> f64 {
     ticks.iter().enumerate().map(error).fold(0.0, f64::max)
 }
 
-/// The same on a curve of any kind, where a u-error of 2⁻³⁸ is forgiven.
+/// The same on a curve of any kind, where a u-error of 2⁻³⁶ is forgiven.
 fn worst_but_for_u(curve: &Curve, n: u32, hz: u32) -> f64 {
     let exact = Exact::new(curve);
     let ticks: Vec<u32> = shutter::<8>(curve).trigger_ticks(n, hz).unwrap().collect();
@@ -151,10 +151,171 @@ fn dense_ticks_never_step_back() {
     }
 }
 
+/// Every way through an iterator meets the same items.
+fn judge_iterator<T, I>(all: &[T], frame: impl Fn() -> I)
+where
+    T: Copy + PartialEq + std::fmt::Debug,
+    I: DoubleEndedIterator<Item = T> + ExactSizeIterator + Clone,
+{
+    let n = all.len();
+    assert_eq!(frame().len(), n);
+    assert_eq!(frame().size_hint(), (n, Some(n)));
+    assert!(frame().rev().eq(all.iter().rev().copied()));
+    assert_eq!((frame().last(), frame().count()), (all.last().copied(), n));
+    for i in 0..n + 2 {
+        let mut ahead = frame();
+        assert_eq!(ahead.nth(i), all.get(i).copied());
+        let ahead_of = all.get(i + 1..).unwrap_or(&[]);
+        assert_eq!(ahead.len(), ahead_of.len());
+        assert!(ahead.clone().eq(ahead_of.iter().copied()));
+        let mut back = frame();
+        let from_back = n.checked_sub(i + 1);
+        assert_eq!(back.nth_back(i), from_back.map(|i| all[i]));
+        assert!(back.eq(all[..from_back.unwrap_or(0)].iter().copied()));
+    }
+    // From both ends in turn, to where they meet, and no farther.
+    let (mut both, mut met) = (frame(), (Vec::new(), Vec::new()));
+    while both.len() > 0 {
+        met.0.extend(both.next());
+        met.1.extend(both.next_back());
+    }
+    met.0.extend(met.1.into_iter().rev());
+    assert_eq!(met.0, all);
+    assert_eq!((both.next(), both.next_back(), both.nth(3), both.len()), (None, None, None, 0));
+}
+
+#[test]
+fn iterators_from_either_end_and_anywhere() {
+    let bytes = |iterator: &dyn std::fmt::Debug| format!("{iterator:?}");
+    assert_eq!(bytes(&SOFT.trigger_times(3)), "TriggerTimes { n: 3, left: 0..3, .. }");
+    let mut ticks = SOFT.trigger_ticks(3, 1000).unwrap();
+    ticks.next();
+    assert_eq!(bytes(&ticks), "TriggerTicks { n: 3, left: 1..3, .. }");
+    for n in [0, 1, 2, 7, 64, 300] {
+        let times: Vec<f32> =
+            (0..n).map(|i| SOFT.inverse_cdf((i as f32 + 0.5) / n as f32)).collect();
+        judge_iterator(&times, || SOFT.trigger_times(n));
+        // Direct, direct with some searched for, and searched for throughout.
+        for hz in [1_000_000, 1 << 24, (1 << 24) + 1] {
+            let ticks: Vec<u32> = SOFT.trigger_ticks(n, hz).unwrap().collect();
+            judge_iterator(&ticks, || SOFT.trigger_ticks(n, hz).unwrap());
+        }
+    }
+}
+
+/// An interrupt handler's: of a curve in a static, and named.
+#[test]
+fn a_static_can_hold_an_iterator() {
+    use shutter_curve::{TriggerTicks, TriggerTimes};
+    static CURVE: ShutterCurve = SOFT;
+    static FRAME: std::sync::Mutex<Option<TriggerTicks<'static>>> = std::sync::Mutex::new(None);
+    let times: TriggerTimes<'static> = CURVE.trigger_times(2);
+    assert_eq!(times.len(), 2);
+    *FRAME.lock().unwrap() = CURVE.trigger_ticks(3, 1000).ok();
+    let next = || FRAME.lock().unwrap().as_mut().and_then(Iterator::next);
+    let ticks: Vec<u32> = std::iter::from_fn(next).collect();
+    assert!(ticks.iter().copied().eq(CURVE.trigger_ticks(3, 1000).unwrap()));
+    assert_eq!(ticks[1], 500);
+}
+
+/// Neighbours at both ends and anywhere between, in frames of any size.
+#[test]
+fn frames_of_any_size_are_in_order() {
+    for hz in [1_000_000, 1 << 24, 1 << 31] {
+        for n in [1000, (1 << 22) - 1, 1 << 22, (1 << 22) + 1, 1 << 30, u32::MAX] {
+            let at = |i: u32| SOFT.trigger_ticks(n, hz).unwrap().nth(i as usize).unwrap();
+            let time = |i: u32| SOFT.trigger_times(n).nth(i as usize).unwrap();
+            for k in 0..200u64 {
+                let i = (k * (u64::from(n) - 2) / 199) as u32;
+                assert!(at(i) <= at(i + 1), "{i} of {n} at {hz} Hz");
+                assert!(time(i) <= time(i + 1), "{i} of {n}");
+                let mirrored = SOFT.trigger_ticks(n, hz).unwrap().nth_back((n - 1 - i) as usize);
+                assert_eq!(mirrored, Some(at(i)));
+            }
+        }
+    }
+}
+
+/// Every trigger of every frame of up to so many, and the first `u` beyond.
+fn judge_direct<const CELLS: usize>(
+    curve: &ShutterCurve<CELLS>,
+    name: &dyn std::fmt::Debug,
+) -> u32 {
+    let most = curve.direct_triggers();
+    let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+    for ticks in [0.3, 1000.0, (1 << 24) as f64] {
+        let hz = ticks * (1.0 - 1e-9) / length;
+        if !(hz >= 1.0 && hz <= f64::from(u32::MAX)) {
+            continue;
+        }
+        // Every frame of few, and each power of two of many.
+        let frames = (1..=most.min(if ticks > 1e7 { 300 } else { 30 }))
+            .chain((8..22).map(|k| most >> k))
+            .chain([most]);
+        for n in frames.filter(|n| *n > 0) {
+            let frame = curve.trigger_ticks(n, hz as u32).unwrap();
+            for i in (0..n).step_by(n as usize / 1000 + 1).chain([n - 1]) {
+                assert!(frame.is_direct(i), "{i} of {n}, {most} on {name:?}");
+                let u = (i as f32 + 0.5) / n as f32;
+                assert!(curve.is_direct(u) && curve.evaluations(u) == 0, "{u}, {most} on {name:?}");
+            }
+        }
+    }
+    most
+}
+
+#[test]
+fn direct_frames_need_no_search() {
+    for one in named() {
+        let most = judge_direct(&shutter::<8>(&one.curve), &one.name);
+        let others = [
+            judge_direct(&shutter::<0>(&one.curve), &one.name),
+            judge_direct(&shutter::<4>(&one.curve), &one.name),
+            judge_direct(&shutter::<16>(&one.curve), &one.name),
+        ];
+        println!("{}: {most}; with 0, 4 and 16 cells {others:?}", one.name);
+        assert!(one.kind == Kind::Hard || most >= 64, "{}: {most}", one.name);
+    }
+}
+
+/// No frame of one more is direct, unless the plateau's line is the limit, or what is left out for rounding.
+#[test]
+fn direct_frames_are_not_understated() {
+    for one in named().into_iter().filter(|one| one.kind == Kind::Typical) {
+        let curve = shutter::<8>(&one.curve);
+        let most = curve.direct_triggers();
+        let frame = curve.trigger_ticks(most + 2 + most / 512, 1).unwrap();
+        let n = frame.len() as u32;
+        assert!(
+            !frame.is_direct(0) || !frame.is_direct(n - 1),
+            "{} has more than {most}",
+            one.name
+        );
+    }
+}
+
+#[test]
+fn direct_frames_of_random_curves() {
+    let (mut least, mut few) = (u32::MAX, 0);
+    for i in 0..1000 {
+        let curve = random_typical(2024, i);
+        let most = judge_direct(&shutter::<8>(&curve), &curve);
+        least = least.min(most);
+        few += u32::from(most < 64);
+    }
+    println!("typical: at least {least}, {few} of 1000 below 64");
+    assert!(few <= 5, "{few}");
+    let none = (0..1000).filter(|i| {
+        let curve = random_hard(2024, *i);
+        judge_direct(&shutter::<8>(&curve), &curve) == 0
+    });
+    println!("hard: {} of 1000 have none", none.count());
+}
+
 #[cfg(feature = "heapless-v0_9")]
 mod checked {
     use super::SOFT;
-    use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve};
+    use shutter_curve::ScheduleError;
 
     #[test]
     fn a_schedule_is_the_ticks() {
@@ -167,42 +328,66 @@ mod checked {
     #[test]
     fn each_reason_its_own_error() {
         let error = |n, hz, gap| SOFT.schedule::<16>(n, hz, gap).err();
-        assert_eq!(error(17, 1000, 0), Some(ScheduleError::CapacityExceeded));
+        let capacity = Some(ScheduleError::CapacityExceeded { capacity: 16 });
+        assert_eq!(error(17, 1000, 0), capacity);
+        assert_eq!(error(u32::MAX, 1000, 0), capacity);
         assert_eq!(error(16, 1000, 0), None);
         assert_eq!(error(4, 0, 0), Some(ScheduleError::TickRateZero));
-        assert_eq!(error(4, u32::MAX, 0), Some(ScheduleError::TickRateTooHigh));
+        let too_high = Some(ScheduleError::TickRateTooHigh { most: 1 << 31 });
+        assert_eq!(error(4, u32::MAX, 0), too_high);
+        let gap = Some(ScheduleError::GapTooSmall { trigger: 1, gap: 94, min_gap: 114 });
+        assert_eq!(error(4, 500, 114), gap);
     }
+}
 
-    /// A shutter that never opens more than half.
-    fn half_open() -> ShutterCurve {
-        let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::line((t, 0.5), (t + 1.0, 0.5)));
-        ShutterCurve::new(opening, closing).unwrap()
-    }
+/// A shutter that never opens more than half.
+fn half_open() -> ShutterCurve {
+    let [opening, closing] = [0.0, 1.0].map(|t| CubicBezier::line((t, 0.5), (t + 1.0, 0.5)));
+    ShutterCurve::new(opening, closing).unwrap()
+}
 
-    #[test]
-    fn the_most_that_keep_the_gap() {
-        for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
-            for (hz, gap) in
-                [(1000, 47), (1000, 50), (1_000_000, 33_333), (100, 7), (10, 9), (7, 100)]
-            {
-                let most = |n| match curve.schedule::<64>(n, hz, gap) {
-                    Err(ScheduleError::GapTooSmall { most }) => Some(most),
-                    _ => None,
-                };
-                let found = most(64).expect("64 are too many");
-                assert!((1..64).contains(&found) && most(found).is_none());
-                assert!(most(found + 1).is_some_and(|most| most <= found));
-                assert!(found + 1 >= (curve.exposure() * hz as f32 / gap as f32) as u32);
+#[test]
+fn the_most_that_keep_the_gap() {
+    let keeps = |curve: &ShutterCurve, n: u32, hz, gap| {
+        curve.schedule_into(&mut vec![0; n as usize], hz, gap).is_ok()
+    };
+    for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
+        for (hz, gap) in [
+            (1000, 47),
+            (1000, 50),
+            (1_000_000, 33_333),
+            (1_000_000, 1_000),
+            (100, 7),
+            (10, 9),
+            (7, 100),
+            (50, 1),
+        ] {
+            for wanted in [2, 3, 64, 1000, 10_000] {
+                let found = curve.most_triggers(wanted, hz, gap).unwrap();
+                if keeps(&curve, wanted, hz, gap) {
+                    assert_eq!(found, wanted, "{hz} Hz, {gap} ticks");
+                    continue;
+                }
+                assert!(found >= 1 && found < wanted, "{found} of {wanted}");
+                assert!(
+                    keeps(&curve, found, hz, gap),
+                    "{found} of {wanted} at {hz} Hz, {gap} ticks"
+                );
+                assert!(
+                    !keeps(&curve, found + 1, hz, gap),
+                    "{found} and one more, {hz} Hz, {gap} ticks"
+                );
+                let sure = curve.exposure() * hz as f32 / (gap as f32 + 1.5);
+                assert!(found >= sure as u32, "{found}, and {sure} are sure");
             }
         }
     }
+}
 
-    #[test]
-    fn the_most_on_a_shutter_that_never_fully_opens() {
-        for n in 21..=64 {
-            let most = Err(ScheduleError::GapTooSmall { most: 20 });
-            assert_eq!(half_open().schedule::<64>(n, 500, 50), most, "{n}");
-        }
+#[test]
+fn the_most_on_a_shutter_that_never_fully_opens() {
+    for n in 21..=64 {
+        assert_eq!(half_open().most_triggers(n, 500, 50), Ok(20), "{n}");
     }
 }
 

@@ -45,7 +45,7 @@ pub fn run(
             return FAILED;
         }
         Err(help) => {
-            let _ = write!(out, "{help}");
+            let _ = writeln!(out, "{}", help.to_string().trim_end());
             return 0;
         }
     };

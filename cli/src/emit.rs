@@ -205,6 +205,7 @@ struct Document<'a> {
     half_open: f32,
     exposure: f32,
     efficiency: f32,
+    direct_triggers: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     delta_ev: Option<f32>,
     triggers: Vec<Item>,
@@ -235,6 +236,7 @@ fn json(name: &str, plan: &Plan) -> String {
         half_open: facts.half_open as f32,
         exposure: plan.curve.exposure(),
         efficiency: plan.curve.efficiency(),
+        direct_triggers: facts.direct_triggers,
         delta_ev: facts.delta_ev.map(|delta| delta as f32),
         triggers: triggers.collect(),
     };

@@ -21,6 +21,8 @@ pub struct Facts {
     pub exposure: f64,
     /// The effective exposure as a part of the time from the start of opening to the end of closing.
     pub efficiency: f64,
+    /// Frames of up to so many triggers are placed without a search on the microcontroller.
+    pub direct_triggers: u32,
     /// By how many stops the exposure is longer than the nominal one, where that is known; negative if it is shorter.
     pub delta_ev: Option<f64>,
 }
@@ -40,9 +42,17 @@ impl Facts {
             half_open: half_open(curve),
             exposure,
             efficiency: curve.efficiency().into(),
+            direct_triggers: direct_triggers(plan),
             delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
         }
     }
+}
+
+/// 0 on intervals of more ticks than the crate's polynomials serve.
+fn direct_triggers(plan: &Plan) -> u32 {
+    const DIRECT_TICKS: f64 = (1 << 24) as f64;
+    let is_served = plan.length() * f64::from(plan.timer_hz) <= DIRECT_TICKS;
+    if is_served { plan.curve.direct_triggers() } else { 0 }
 }
 
 /// From the first to the last time at which the shutter is half open.
@@ -125,6 +135,13 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         format!("up to {} keep the gap", plan.most)
     };
     lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
+    lines.push((
+        "direct",
+        match facts.direct_triggers {
+            0 => "no number of triggers is placed without a search".into(),
+            n => format!("frames of up to {} are placed without a search", count(n, "trigger")),
+        },
+    ));
     lines
 }
 

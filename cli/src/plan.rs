@@ -1,6 +1,6 @@
 //! A scene's triggers, checked.
 
-use shutter_curve::ShutterCurve;
+use shutter_curve::{ScheduleError, ShutterCurve};
 
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene};
@@ -77,7 +77,7 @@ impl Plan {
         // The rate is checked here, before anything is counted in ticks.
         Lamp::Triggered
             .frame(&curve, 0, timer_hz)
-            .map_err(|error| Fault::at(&scene.timer_hz, error))?;
+            .map_err(|error| Fault::at(&scene.timer_hz, rate(error)))?;
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let frames = Frames { curve, timer_hz, end: (end * f64::from(timer_hz)).round() as i64 };
@@ -258,12 +258,11 @@ impl Frames {
 impl Problem {
     /// What is wrong with the frame of `n` triggers, and what would help.
     fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
-        let many = match frames.checked(asked, 1) {
-            Ok(_) => match frames.most(asked, 1, n) {
-                1 => "1 trigger keeps that".into(),
-                most => format!("up to {most} triggers keep that"),
-            },
-            Err(_) => "no number of triggers keeps that".to_string(),
+        let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
+        let many = match most {
+            Some(1) => "1 trigger keeps that".into(),
+            Some(most) => format!("up to {most} triggers keep that"),
+            None => "no number of triggers keeps that".to_string(),
         };
         let required = |ticks: u64| match ticks {
             1 => "1 is required".into(),
@@ -288,17 +287,24 @@ impl Problem {
                     ..=0 => "none is short enough".into(),
                     longest => format!("those of up to {} fit", ticks(longest)),
                 };
+                let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                let reason = format!("{why}; {longest}, or {many}");
+                let reason = format!("{why}; {longest}{many}");
                 Fault { at: Some(place), reason, notes: Vec::new() }
             }
             (Lamp::Doses { .. }, &Self::Close(i, gap)) => Fault::at(
                 &scene.triggers,
-                format!("{}, and {dark}; {many}, or a smaller duty", apart(i, gap, "pulses")),
+                format!(
+                    "{}, and {dark}; {many}; a smaller duty leaves more",
+                    apart(i, gap, "pulses")
+                ),
             ),
             (Lamp::Doses { .. }, &Self::Short(i, length)) => Fault::at(
                 &scene.triggers,
-                format!("pulse {i} lasts {}, and {lit}; {many}, or a greater duty", ticks(length)),
+                format!(
+                    "pulse {i} lasts {}, and {lit}; {many}; a greater duty lasts longer",
+                    ticks(length)
+                ),
             ),
             (_, &Self::Close(i, gap)) => Fault::at(
                 &scene.triggers,
@@ -306,6 +312,16 @@ impl Problem {
             ),
             _ => Fault::at(&scene.triggers, format!("the frame does not fit; {many}")),
         }
+    }
+}
+
+/// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
+fn rate(error: ScheduleError) -> String {
+    match error {
+        ScheduleError::TickRateTooHigh { most } if most > 0 => {
+            format!("timer_hz: the interval is longer than 2^31 ticks; up to {most} Hz it is not")
+        }
+        _ => format!("timer_hz: {error}"),
     }
 }
 

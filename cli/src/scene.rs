@@ -117,7 +117,10 @@ impl Scene {
         for (i, value) in self.times().into_iter().enumerate() {
             let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
-                return Err(Fault::at(value, format!("{key}: {:e} s is beyond f32", seconds[i])));
+                return Err(Fault::at(
+                    value,
+                    format!("{key}: {:e} s is beyond f32 (3.4e38)", seconds[i]),
+                ));
             }
             if off > ROUNDING * length {
                 let percent = short(100.0 * off / length, 2);
@@ -149,25 +152,20 @@ impl Scene {
             let is = |i: &usize| shape.times[*i] > shape.times[*i + 1];
             (0..3).find(is).map(|i| times[i + 1])
         };
-        let (time, is_time) = match error {
-            CurveError::TimesOutOfOrder => (out_of_order(), false),
-            CurveError::TimeTurnsBack(_) => (None, true),
+        let time = match error {
             CurveError::NotFinite(_)
+            | CurveError::InnerTimesTurnBack(_)
             | CurveError::NegativeOpenness(_)
-            | CurveError::OpennessAboveOne(_) => (None, false),
-            _ => (Some(&self.close_end), false),
+            | CurveError::OpennessAboveOne(_) => None,
+            CurveError::TimesOutOfOrder => out_of_order(),
+            _ => Some(&self.close_end),
         };
         let Some(inner) = self.shutteropening.as_ref().filter(|_| time.is_none()) else {
             return Fault::at(time.unwrap_or(&self.close_end), error);
         };
+        let is_time = matches!(error, CurveError::InnerTimesTurnBack(_));
         let mut fault = Fault::at(inner, error);
-        fault.notes.push(
-            "The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp,"
-                .into(),
-        );
-        fault.notes.push(
-            "each t as a fraction of the whole interval from open_start to close_end.".into(),
-        );
+        fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
         if let Some((convention, inner)) =
             shape.misread(self.unit.unwrap_or(Unit::Second)).filter(|_| is_time)
         {

@@ -178,6 +178,7 @@ struct Document {
     half_open: f32,
     exposure: f32,
     efficiency: f32,
+    direct_triggers: u32,
     delta_ev: Option<f32>,
     triggers: Vec<Row>,
 }
@@ -190,6 +191,7 @@ fn json_parses_and_holds_the_same_numbers() {
         assert_eq!(document.exposure, plan.curve.exposure());
         assert_eq!(document.efficiency, plan.curve.efficiency());
         assert!(document.opening >= 0.0 && document.half_open > 0.0);
+        assert_eq!(document.direct_triggers, plan.curve.direct_triggers());
         assert_eq!(document.delta_ev.is_some(), plan.nominal.is_some());
         assert_same(&name, &plan, &document.triggers);
     }
@@ -229,9 +231,30 @@ fn great_and_small_numbers_round_trip() {
         assert_same("csv", &plan, &rows);
         let json: Document = serde_json::from_str(&emit(Form::Json, "x", &plan)).unwrap();
         assert_same("json", &plan, &json.triggers);
-        let rust = emit(Form::Rust, "x", &plan);
-        let call = rust.split_once("linear(").unwrap().1.split_once(')').unwrap().0;
-        let times = call.split(", ").map(|number| number.parse::<f32>().unwrap());
-        assert!(times.eq(plan.shape.times), "{call}");
+        let times = numbers(&emit(Form::Rust, "x", &plan), "linear(", ')');
+        assert_eq!(times, plan.shape.times);
     }
+    // Numbers with all the digits that they have.
+    let plan = Plan::parse(
+        "open_start = 1e-9\nopen_end = 0.002512345678\nclose_start = 0.00751234567\nclose_end = 0.0101234567\n\
+         shutteropening = [0.0912345678, 1e-9, 0.15123456, 0.987654321, 0.84567891, 0.9999999, 0.9123456, 1e-30]\n\
+         triggers = 3\ntimer_hz = 12_345_678\nmin_gap = 0\n",
+    )
+    .unwrap();
+    let rust = emit(Form::Rust, "x", &plan);
+    let [times, inner] = [0, 1].map(|i| {
+        numbers(
+            rust.split_once("shutteropening(").unwrap().1.splitn(3, '[').nth(i + 1).unwrap(),
+            "",
+            ']',
+        )
+    });
+    assert_eq!(times, plan.shape.times);
+    assert_eq!(inner, plan.shape.inner.unwrap());
+}
+
+/// The numbers between `from` and `to`.
+fn numbers(text: &str, from: &str, to: char) -> Vec<f32> {
+    let list = text.split_once(from).unwrap().1.split_once(to).unwrap().0;
+    list.split(", ").map(|number| number.parse().unwrap()).collect()
 }

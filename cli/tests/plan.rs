@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use shutter::emit::{Form, emit};
 use shutter::plan::Plan;
+use shutter_curve::ShutterCurve;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
@@ -344,8 +345,12 @@ fn a_number_out_of_range_is_an_error() {
             "[0.1, 0.0, 0.2, 1.0, 0.8, 1.0, 0.9, 0.0, 0.0]",
             "shutteropening: 8 numbers are required, not 9",
         ),
-        ("timer_hz", "0", "the tick rate is 0 Hz"),
-        ("timer_hz", "2147483649", "the interval is longer than 2^31 ticks"),
+        ("timer_hz", "0", "timer_hz: the tick rate is 0"),
+        (
+            "timer_hz",
+            "2147483649",
+            "timer_hz: the interval is longer than 2^31 ticks; up to 2147483648 Hz it is not",
+        ),
     ] {
         fails(&dir, &with(key, value), line(key), reason);
     }
@@ -356,11 +361,11 @@ fn a_bad_curve_is_an_error() {
     let dir = empty_dir("curve");
     let order =
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
-    let length = "the interval's length is outside [2^-64, 2^64]";
+    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)";
     for (key, value, at, reason) in [
         ("open_start", "nan", "open_start", "open_start: a finite number is required"),
         ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
-        ("close_end", "1e39", "close_end", "close_end: 1e39 s is beyond f32"),
+        ("close_end", "1e39", "close_end", "close_end: 1e39 s is beyond f32 (3.4e38)"),
         ("open_start", "0.3", "open_end", order),
         ("open_end", "0.8", "close_start", order),
         ("close_end", "0.7", "close_end", order),
@@ -375,19 +380,21 @@ fn a_bad_curve_is_an_error() {
 }
 
 /// What is told below an error of the inner control points.
-const CONVENTION: &str =
-    "  The numbers are t1, y1, t2, y2 of the opening and t5, y5, t6, y6 of the closing ramp,
-  each t as a fraction of the whole interval from open_start to close_end.
-";
+const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 
 #[test]
 fn wrong_control_points_are_an_error_that_names_their_convention() {
     let dir = empty_dir("convention");
     let (opening, closing) = ("opening ramp", "closing ramp");
-    let back = "time turns back between the control points";
+    let [back, closing_back] = ["t1 and t2", "t5 and t6"].map(|inner| {
+        format!(
+            "time turns back along it; {inner} are fractions of the whole interval, 0 at open_start and 1 at close_end"
+        )
+    });
+    let (back, closing_back) = (back.as_str(), closing_back.as_str());
     for (numbers, ramp, reason, hint) in [
         ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, back, ""),
-        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, back, ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, closing_back, ""),
         ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", opening, "the openness falls below 0", ""),
         ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, "the openness rises above 1", ""),
         (
@@ -402,22 +409,28 @@ fn wrong_control_points_are_an_error_that_names_their_convention() {
         let scene = with("shutteropening", numbers);
         let file = dir.join("bad.toml").display().to_string();
         let expected = format!(
-            "error: {file}:9: {ramp}: {reason}\n  9 | shutteropening = {numbers}\n{CONVENTION}{hint}"
+            "error: {file}:9: {ramp}: {reason}\n  9 | shutteropening = {numbers}\n{ORDER}{hint}"
         );
         assert_eq!(error_of(&dir, &scene), expected);
     }
-    // Milliseconds for fractions, on an interval of 10.
-    let times = [("open_end", "2.5"), ("close_start", "7.5"), ("close_end", "10")];
-    let scene = times.iter().fold(GOOD.to_string(), |text, (key, time)| {
-        let old = text.lines().find(|line| line.starts_with(key)).unwrap().to_string();
-        text.replace(&old, &format!("{key} = {time}"))
-    });
-    let scene = format!("unit = \"ms\"\n{scene}shutteropening = [1, 0, 1.5, 1, 8.5, 1, 9, 0]\n");
-    let err = error_of(&dir, &scene);
-    let hint = "  As times in ms they would fit; that is
+    // Times for fractions, in ms and in seconds; what are seconds here would also fit as fractions of each ramp.
+    for (unit, second, numbers) in [
+        ("ms", 1e3, "[1, 0, 1.5, 1, 8.5, 1, 9, 0]"),
+        ("s", 1.0, "[0.001, 0, 0.0015, 1, 0.0085, 1, 0.009, 0]"),
+    ] {
+        let [open_end, close_start, close_end] = [0.0025, 0.0075, 0.01].map(|time| time * second);
+        let scene = format!(
+            "unit = \"{unit}\"\nopen_start = 0\nopen_end = {open_end}\nclose_start = {close_start}\n\
+             close_end = {close_end}\ntriggers = 1\ntimer_hz = 1000\nmin_gap = 0\nshutteropening = {numbers}\n"
+        );
+        let err = error_of(&dir, &scene);
+        let hint = format!(
+            "  As times in {unit} they would fit; that is
   shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
-";
-    assert!(err.ends_with(hint), "{err}");
+"
+        );
+        assert!(err.ends_with(&hint), "{err}");
+    }
 }
 
 #[test]
@@ -480,6 +493,7 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
     let file = empty_dir("facts").join("good.toml");
     fs::write(&file, format!("{GOOD}nominal = 0.75\n")).unwrap();
     let out = run([&file]).out;
+    let direct = ShutterCurve::<8>::linear(0.0, 0.25, 0.75, 1.0).unwrap().direct_triggers();
     for fact in [
         "times        T1 0.25 s opening, T2 0.5 s fully open, T3 0.25 s closing\n",
         "half open    TE 0.75 s,",
@@ -487,6 +501,7 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
         "efficiency   75 %\n",
         "nominal      0.75 s, ΔEV +0.00\n",
         "triggers     7; up to 7 keep the gap\n",
+        &format!("direct       frames of up to {direct} triggers are placed without a search\n"),
     ] {
         assert!(out.contains(fact), "{fact}\n{out}");
     }
@@ -596,30 +611,44 @@ fn wrong_pulses_are_an_error_that_says_what_fits() {
             "pulse = 1e30",
             8,
             "pulses of 4294967295 ticks: pulses 0 and 1 overlap by 4294967045 ticks, and 100 are required; those of \
-             up to 150 ticks fit, or no number of triggers keeps that",
+             up to 150 ticks fit",
         ),
         (
             "duty = 0.8",
             6,
-            "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that, or a smaller duty",
+            "pulses 0 and 1 come 50 ticks apart, and 100 are required; up to 2 triggers keep that; a smaller duty leaves more",
         ),
         (
             "duty = 0.5\nmin_pulse = 0.2",
             6,
-            "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that, or a greater duty",
+            "pulse 0 lasts 125 ticks, and 200 are required; up to 2 triggers keep that; a greater duty lasts longer",
         ),
         (
             "duty = 1e-9",
             6,
-            "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that, or a greater duty",
+            "pulse 0 lasts 0 ticks, and 1 is required; no number of triggers keeps that; a greater duty lasts longer",
         ),
     ] {
         fails(&dir, &boxed(&format!("{four}{lamp}")), Some(at), reason);
     }
-    let one = boxed("triggers = 1\nmin_gap = 0\npulse = 1.002");
-    let reason = "pulses of 1002 ticks: they reach beyond the time that the shutter is open; those of up to 1000 ticks \
-                  fit, or no number of triggers keeps that";
-    fails(&dir, &one, Some(8), reason);
+    // A single pulse that is too long for the time before its trigger, or after it, or for both; and one that just fits.
+    let falling = "open_start = 0\nopen_end = 0\nclose_start = 0\nclose_end = 1\n";
+    let rising = "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 1\n";
+    let all = "open_start = 0\nopen_end = 0\nclose_start = 1\nclose_end = 1\n";
+    for (curve, longest) in [(falling, 587), (rising, 586), (all, 1000)] {
+        let scene = |pulse: u32| {
+            let pulse = f64::from(pulse) / 1000.0;
+            format!("{curve}triggers = 1\ntimer_hz = 1000\nmin_gap = 0\npulse = {pulse}\n")
+        };
+        let reason = format!(
+            "pulses of {} ticks: they reach beyond the time that the shutter is open; those of up to {longest} ticks \
+             fit",
+            longest + 1
+        );
+        fails(&dir, &scene(longest + 1), Some(8), &reason);
+        fs::write(dir.join("bad.toml"), scene(longest)).unwrap();
+        assert_eq!(run([&dir.join("bad.toml")]).err, "");
+    }
 }
 
 #[test]
@@ -715,7 +744,7 @@ fn a_picture_is_named_svg() {
 fn help_is_no_error() {
     let run = run([Path::new("--help")]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    assert!(run.out.contains("Usage: shutter plan [OPTIONS] [SCENE]"));
+    assert!(run.out.contains("Usage: shutter plan [OPTIONS] [SCENE]") && run.out.ends_with("')\n"));
 }
 
 /// Takes nothing.

@@ -19,8 +19,6 @@ pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
 /// In ticks: where the interval has at most [`DIRECT_TICKS`], and where it has more.
 pub const TICKS: [f64; 2] = [0.75, 0.501];
 pub const DIRECT_TICKS: f64 = (1 << 24) as f64;
-/// The greatest number of a trigger in a frame of very many: the iterator goes through all before it.
-const REACH: u32 = 400;
 /// Of the mass, for one u.
 pub const EVALUATIONS: u32 = 8;
 
@@ -151,7 +149,7 @@ impl Figures {
                 let landmarks = exact.landmarks();
                 let landmark = landmarks[rng.below(landmarks.len() as u64) as usize].hi;
                 let first = (f64::from(n) * landmark) as u32;
-                frames.push([n, first.saturating_sub(6).min(REACH), 12]);
+                frames.push([n, first.saturating_sub(6), 12]);
             }
             frames.extend(aimed_triggers(exact, 400).into_iter().map(|[n, i]| [n, i, 1]));
             for [n, first, count] in frames {
@@ -160,7 +158,7 @@ impl Figures {
                     return;
                 };
                 let mut last = 0;
-                for (i, tick) in (first..).zip(ticks.skip(first as usize).take(count as usize)) {
+                for (i, tick) in (first..n).zip(ticks.skip(first as usize).take(count as usize)) {
                     let error = tick_error(exact, tick, [i, n], hz);
                     let kind = usize::from(length * f64::from(hz) > DIRECT_TICKS);
                     let at = || format!("trigger {i} of {n} at {hz} Hz: {error:.3} ticks off");
@@ -238,7 +236,7 @@ impl fmt::Display for Figures {
     }
 }
 
-/// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁸ of `min(u, 1 - u)` is forgiven.
+/// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁶ of `min(u, 1 - u)` is forgiven.
 pub fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
     let u = Dd::from(2.0 * f64::from(i) + 1.0) / Dd::from(2.0 * f64::from(n));
     let delay = |u: Dd| {
@@ -250,6 +248,6 @@ pub fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
     if error <= 0.5 {
         return error;
     }
-    let forgiven = u.min(Dd::ONE - u).scale(exp2(-38));
+    let forgiven = u.min(Dd::ONE - u).scale(exp2(-36));
     (delay(u - forgiven) - tick).max(tick - delay(u + forgiven)).max(0.0)
 }
