@@ -1,6 +1,8 @@
 //! `shutter fit`: every format of the same trace gives the same shutter, what cannot be fitted is refused with a reason and
 //! leaves nothing behind, and what is doubtful is told.
 
+// The table needs the rest of it.
+#[allow(dead_code)]
 mod generator;
 
 use std::ffi::OsString;
@@ -289,6 +291,13 @@ fn what_cannot_be_fitted_is_refused() {
         asked(&Options { full: Some(1.5), ..Options::default() }),
         Some(Refusal::FullTooLow { .. })
     ));
+    for broken in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (7.0, 0.0)] {
+        let mut trace = part(0, 1000);
+        (trace.times[500], trace.values[500]) = broken;
+        assert_eq!(refused(&trace), Some(Refusal::Unsound));
+    }
+    let unequal = Trace { times: whole.times.clone(), values: whole.values[1..].to_vec() };
+    assert_eq!(refused(&unequal), Some(Refusal::Unsound));
     // Light lowers nothing here: the trace would begin and end in it.
     assert!(asked(&Options { light: Light::Down, ..Options::default() }).is_some());
 }

@@ -123,7 +123,7 @@ fn kept_simple(rows: &[&Row]) -> Option<f64> {
     (count > 0).then(|| simple().filter(|kept| *kept).count() as f64 / count as f64)
 }
 
-fn is_box_or(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
+fn of(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
     rows.iter().filter(|row| row.shutter == shutter).collect()
 }
 
@@ -208,7 +208,7 @@ fn table() {
         );
         println!("|---|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|--:|");
         for shutter in SHUTTERS {
-            print(&format!("{shutter:?}"), &is_box_or(&rows, shutter));
+            print(&format!("{shutter:?}"), &of(&rows, shutter));
         }
         print("all", &rows.iter().collect::<Vec<_>>());
         {
@@ -280,7 +280,7 @@ fn picture(rows: &[Row]) -> String {
         }
         for (shutter, color) in SHUTTERS.into_iter().zip(COLORS) {
             let mut errors: Vec<f64> =
-                is_box_or(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
+                of(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
             errors.sort_by(f64::total_cmp);
             let n = errors.len() as f64;
             let line =
