@@ -604,3 +604,21 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         assert!(!Path::new(&toml).exists() && !Path::new(&svg).exists(), "{args:?}");
     }
 }
+
+/// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an RC of 30 µs,
+/// 10 bits) becomes a scene, and that the module by which the firmware's example fires.
+#[test]
+fn from_a_trace_to_the_firmwares_module() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
+    let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
+    assert!(warnings.is_empty(), "{warnings:?}");
+    let fitted = Plan::parse(&fit.scene("leaf.csv", Zero::Trace).unwrap().text).unwrap();
+    // The same with the timer of the board and what the lamp needs, which a user fills in.
+    let kept = Plan::parse(&read("scenes/measured.toml")).unwrap();
+    for (fitted, kept) in fitted.triggers.iter().zip(&kept.triggers) {
+        assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value as f32);
+    }
+    let module = shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept);
+    assert_eq!(module, read("../examples/trigger/measured.rs"));
+}
