@@ -146,7 +146,9 @@ impl Exposure {
         match self.section(side, a) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, target) => {
-                self.ramp(ramp).at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
+                // One address, instead of the curve's and an index, which the search would keep on the stack.
+                let ramp = core::hint::black_box(self.ramp(ramp));
+                ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }
     }

@@ -79,6 +79,12 @@ impl Pair {
         Self { hi: -self.hi, lo: -self.lo }
     }
 
+    /// The same with its sign changed, if `sign` is the sign bit and not 0.
+    #[inline(always)]
+    pub(crate) const fn flipped(self, sign: u32) -> Self {
+        Self { hi: flipped(self.hi, sign), lo: flipped(self.lo, sign) }
+    }
+
     /// `x self` for a power of two `x`, exactly.
     #[inline(always)]
     pub(crate) const fn scaled(self, x: f32) -> Self {
@@ -107,6 +113,13 @@ impl Pair {
     pub(crate) const fn rounded(self) -> f32 {
         self.hi + self.lo
     }
+}
+
+/// `-x` if `sign` is the sign bit, `x` if it is 0: without a branch, which would double what follows, and without a product,
+/// which is dear where there is no FPU.
+#[inline(always)]
+pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {
+    f32::from_bits(x.to_bits() ^ sign)
 }
 
 /// `a b - product`, exactly, for the rounded `product` of `a` and `b` (Dekker).

@@ -203,17 +203,20 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The same for a time near 0, or where an octave has no polynomial.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn near_zero(&self, u: f32, time: i64) -> f32 {
         if time == NO_TIME {
             return self.searched(u);
         }
+        // A time of one word has the other to fill first.
+        let sign = (time >> 63) as i32;
+        let is_word = (time >> 32) as i32 == sign;
+        let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
+        let (high, low) = ((time >> 32) as i32, time as u32);
         // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
-        let up = (time ^ time >> 63).leading_zeros() - 1;
-        let time = time << up;
-        let high = (time >> 32) as i32 | (time as u32 != 0) as i32;
-        high as f32 * f32::from_bits((127 - up) << 23) * self.scale
+        let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
+        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) by a search. At the ends, and for what is no fraction, it is the start or the end.

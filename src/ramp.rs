@@ -12,7 +12,7 @@
 
 use crate::bezier::CubicBezier;
 use crate::cubic::{Cubic, differences, forward, integral, lifted, widened};
-use crate::pair::{Pair, Series, exponent, power_of_two, rounded_sum};
+use crate::pair::{Pair, Series, exponent, flipped, power_of_two, rounded_sum};
 use crate::seed::{seed, seed_by_bits};
 use crate::solve::{Anchor, ONE, Offset, solve};
 
@@ -273,11 +273,12 @@ impl Ramp {
         }
         if target.hi <= sought.abs() {
             let c = self.single(side);
-            return Anchor { place: Pair::ZERO, way: 1.0, c, sought: target.hi };
+            return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
         }
+        const BACK: u32 = 1 << 31;
         if nearest == 2 {
             let c = self.single(side ^ 1);
-            return Anchor { place: Pair::new(ONE), way: -1.0, c, sought: -sought };
+            return Anchor { place: Pair::new(ONE), back: BACK, c, sought: -sought };
         }
         // A flat place counts from its nearer end, and so do the powers.
         let flat = &self.flats[nearest & 1];
@@ -286,16 +287,12 @@ impl Ramp {
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
         let c5 = c5 + 6.0 * c6 * from_end;
-        let way = if sought < 0.0 { -1.0 } else { 1.0 };
-        let (base, sign) = if is_other { (ONE, -1.0) } else { (0.0, 1.0) };
-        let place = Pair::sum(base, sign * from_end);
-        let sign = sign * way;
-        Anchor {
-            place,
-            way,
-            c: [c1, sign * c2, c3, sign * c4, c5, sign * c6],
-            sought: way * sought,
-        }
+        let (base, sign) = if is_other { (ONE, BACK) } else { (0.0, 0) };
+        let place = Pair::sum(base, flipped(from_end, sign));
+        let back = sought.to_bits() & BACK;
+        let sign = sign ^ back;
+        let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
+        Anchor { place, back, c, sought: sought.abs() }
     }
 
     /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
@@ -360,7 +357,7 @@ impl Ramp {
     fn offset_at(&self, side: usize, target: Pair) -> Offset {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor = Anchor { place: Pair::ZERO, way: 1.0, c, sought: target.hi };
+        let mut anchor = Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
         // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
@@ -368,9 +365,9 @@ impl Ramp {
             let sought = target.difference(series.at(slowest));
             if sought.abs() < target.hi {
                 let [c1, c2, c3] = around(self.end(side).elapsed, self.cubic, slowest);
-                let (way, c2) = if sought < 0.0 { (-1.0, -c2) } else { (1.0, c2) };
-                let (place, sought) = (Pair::new(slowest), sought.abs());
-                anchor = Anchor { place, way, c: [c1, c2, c3], sought };
+                let back = sought.to_bits() & 1 << 31;
+                let c = [c1, flipped(c2, back), c3];
+                anchor = Anchor { place: Pair::new(slowest), back, c, sought: sought.abs() };
             }
         }
         let seed = seed(&anchor.c, anchor.sought);
@@ -379,10 +376,9 @@ impl Ramp {
 }
 
 /// A number that is negative for what counts from the later end, as it is seen from a side: negative for the other end.
-/// By a product: a choice between two ways would double all that follows.
 #[inline(always)]
 const fn seen_from(side: usize, x: Pair) -> Pair {
-    x.scaled(if side == 0 { 1.0 } else { -1.0 })
+    x.flipped((side as u32) << 31)
 }
 
 impl End {

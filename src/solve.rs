@@ -31,7 +31,7 @@
 //! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
 //! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 6 at most.
 
-use crate::pair::{Pair, Series};
+use crate::pair::{Pair, Series, flipped};
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -67,8 +67,8 @@ const ULP: f32 = f32::EPSILON;
 /// Where a search starts: a place on the ramp, and the series around it in the direction of the target.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
-    /// The direction: 1 or -1.
-    pub(crate) way: f32,
+    /// The direction: the sign bit where it is back.
+    pub(crate) back: u32,
     /// What is collected from here, by powers of the distance.
     pub(crate) c: [f32; N],
     /// What is to be collected from here.
@@ -79,13 +79,13 @@ impl<const N: usize> Anchor<N> {
     /// How far from the anchor a place is.
     #[inline(always)]
     const fn distance(&self, p: f32) -> f32 {
-        ((p - self.place.hi) - self.place.lo) * self.way
+        flipped((p - self.place.hi) - self.place.lo, self.back)
     }
 
     /// How far the ramp goes on.
     #[inline(always)]
     const fn reach(&self) -> f32 {
-        if self.way > 0.0 { ONE - self.place.hi } else { self.place.hi }
+        if self.back == 0 { ONE - self.place.hi } else { self.place.hi }
     }
 }
 
@@ -186,7 +186,7 @@ pub(crate) const fn solve<const N: usize>(
     seed: f32,
     [error, most]: [f32; 2],
 ) -> Offset {
-    let Anchor { place, way, c, sought } = *anchor;
+    let Anchor { place, back, c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
     if sought <= 0.5 * error {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
@@ -217,7 +217,7 @@ pub(crate) const fn solve<const N: usize>(
                 continue;
             }
             // Only a place that is an `f32` can be measured.
-            p = place.hi + way * x;
+            p = place.hi + flipped(x, back);
             let distance = anchor.distance(p);
             moved = distance - x;
             if moved.abs() > MOVED * x {
@@ -229,15 +229,16 @@ pub(crate) const fn solve<const N: usize>(
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
-        let missing = missing * way;
+        let missing = flipped(missing, back);
         let step = local.short_step(missing);
-        let end = p + way * step;
+        let way = flipped(step, back);
+        let end = p + way;
         // A NaN is beyond.
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { most } else { error };
         if is_inside && left(&c, [x, moved], &local, missing, step) <= 0.75 * error {
-            let Pair { hi, lo } = Pair::sum(p, way * step);
+            let Pair { hi, lo } = Pair::sum(p, way);
             return Offset { x: hi, rest: lo, evaluations };
         }
         if evaluations >= MAX_EVALUATIONS - 1 {

@@ -17,6 +17,10 @@
 mod board;
 #[cfg(target_os = "none")]
 mod firmware;
+/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv`, then `shutter plan --emit rust` for this board's timer.
+#[cfg(target_os = "none")]
+#[rustfmt::skip]
+mod measured;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
