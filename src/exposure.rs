@@ -41,7 +41,9 @@ enum At {
 }
 
 impl Exposure {
-    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`.
+    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`. Out of line, for every
+    /// constructor that runs to share it.
+    #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
@@ -152,6 +154,7 @@ impl Exposure {
     }
 
     /// The time since a side's start at which a fraction has been collected, for a polynomial to be fitted.
+    #[inline(never)]
     pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
         let a = Pair::from_f64(a * WHOLE as f64);
         let place = match self.section(side, a) {

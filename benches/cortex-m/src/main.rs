@@ -29,7 +29,8 @@ fn main() -> ExitCode {
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => report::run(),
         ["--short"] => budget::run(),
-        ["--answers"] => answers::run(),
+        ["--answers"] => answers::run(false),
+        ["--answers", "--all"] => answers::run(true),
         ["--links"] => links::run(),
         ["--quick"] => quick::run("none", "8", "inverse_cdf"),
         ["--quick", seed] => quick::run(seed, "8", "inverse_cdf"),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ::firmware::{CELLS, CURVES, Function, Inputs};
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, build, output};
+use crate::firmware::{Core, Flavour, build, output};
 use crate::searched::asked;
 use crate::trace::{Call, Key, Selection, Trace, trace};
 
@@ -53,8 +53,8 @@ impl Spread {
 impl Measured {
     /// Builds for a core with a seed and traces each selection; the stack is looked at on a core with an FPU alone,
     /// since in soft float that takes longer than all else.
-    pub fn new(core: Core, seed: &str, selections: &[Selection]) -> Result<Self, String> {
-        let elf = build(core, "cost", seed)?;
+    pub fn new(core: Core, seed: &'static str, selections: &[Selection]) -> Result<Self, String> {
+        let elf = build(core, "cost", Flavour::fast(seed))?;
         let code = Disassembly::of(&elf)?;
         let (mut calls, mut instance) = (BTreeMap::new(), BTreeMap::new());
         for selection in selections {
@@ -147,8 +147,8 @@ impl Measured {
 type Stack = (BTreeMap<(Function, usize), u32>, BTreeMap<usize, u32>);
 
 /// Two lines a number of cells: `bytes 8 1376`, and the depth of each function.
-fn stack(core: Core, seed: &str) -> Result<Stack, String> {
-    let output = output(core, &build(core, "stack", seed)?)?;
+fn stack(core: Core, seed: &'static str) -> Result<Stack, String> {
+    let output = output(core, &build(core, "stack", Flavour::fast(seed))?)?;
     let output = String::from_utf8_lossy(&output);
     let numbers =
         output.lines().map(|line| line.split_whitespace().filter_map(|n| n.parse().ok()).collect());

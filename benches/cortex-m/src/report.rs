@@ -63,7 +63,7 @@ pub fn run() -> Result<(), String> {
     std::fs::write(&path, out).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn m4f(seed: &str) -> Result<Measured, String> {
+fn m4f(seed: &'static str) -> Result<Measured, String> {
     use Function::*;
     let some = |cells: &[usize], functions: &[Function], inputs| Selection {
         cells: cells.to_vec(),
@@ -82,7 +82,7 @@ fn m4f(seed: &str) -> Result<Measured, String> {
     Measured::new(M4F, seed, &selections)
 }
 
-fn m0(seed: &str) -> Result<Measured, String> {
+fn m0(seed: &'static str) -> Result<Measured, String> {
     use Function::*;
     let mut functions = vec![InverseCdf, Cdf, Opening, TickStep, Schedule];
     if seed == SEEDS[0] {
