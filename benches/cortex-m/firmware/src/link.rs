@@ -50,9 +50,7 @@ fn linear<const CELLS: usize>(ramp: &Ramp) {
     black_box(ShutterCurve::<CELLS>::linear_with_cells(a, b, c, d).map_err(curve_error).is_ok());
     let (times, inner) = (black_box([0.0; 4]), black_box([0.0; 8]));
     black_box(
-        ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner)
-            .map_err(curve_error)
-            .is_ok(),
+        ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner).map_err(curve_error).is_ok(),
     );
 }
 
@@ -90,7 +88,9 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
         }
         Err(error) => schedule_error(error),
     }
-    black_box(curve.most_triggers(n, black_box(1_000), black_box(3)).map_err(schedule_error).is_ok());
+    black_box(
+        curve.most_triggers(n, black_box(1_000), black_box(3)).map_err(schedule_error).is_ok(),
+    );
     let mut ticks = [0; 16];
     let places = ticks.get_mut(..black_box(9)).unwrap_or(&mut []);
     black_box(
