@@ -365,6 +365,25 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
     assert!(within(Tolerance::Seconds(0.999 * most)).chosen > Kind::Trapezoid);
 }
 
+#[test]
+fn correlated_samples_count_for_fewer() {
+    // Of a noise that is correlated by 0.8 from one sample to the next, nine are as good as an independent one.
+    for (disturbance, least, most) in
+        [(Disturbance::White, 0.8, 1.0), (Disturbance::Coloured, 0.07, 0.18)]
+    {
+        for seed in 0..5 {
+            let mut random = Random::new(seed);
+            let truth = truth(Shutter::Trapezoid, &mut random);
+            let case = traced(truth, disturbance, 3000, 0.01, &mut random);
+            let trace = Trace { times: case.times, values: case.values };
+            let fit = fitted(&trace, &Options::default()).unwrap();
+            let shutter::fit::Reason::Criterion { effective } = fit.reason else { panic!() };
+            let share = effective / fit.samples.times.len() as f64;
+            assert!((least..=most).contains(&share), "{disturbance:?} {seed}: {share}");
+        }
+    }
+}
+
 /// A photodiode with a time constant of 60 µs in front of a 10-bit converter, 50 kHz: solved in steps of a microsecond.
 fn photodiode(openness: impl Fn(f64) -> f64) -> String {
     let (mut level, mut text) = (0.0, String::from("time_ms,counts\n"));
