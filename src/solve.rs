@@ -3,7 +3,7 @@
 //! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and in
 //! single precision from an [`Anchor`] near the target, to search by. One search is
 //!
-//! 1. Halley's steps in single precision, inside a bracket, until next to nothing is missing;
+//! 1. Halley's steps in single precision, none too long, until next to nothing is missing;
 //! 2. what is missing, measured in pairs;
 //! 3. one more step for that, and a computed bound of what it leaves, which accepts the answer or not.
 //!
@@ -211,6 +211,8 @@ pub(crate) const fn solve<const N: usize>(
                 let next = (x + local.step(missing)).to_bits() as i32;
                 let bits = x.to_bits() as i32;
                 let (least, most) = (bits + NEARER, bits + FARTHER);
+                // Not below 0.
+                let least = least & !(least >> 31);
                 let most = if most < reach { most } else { reach };
                 let next = if next < least { least } else { next };
                 x = f32::from_bits(if next < most { next } else { most } as u32);

@@ -2,7 +2,7 @@
 //! its picture, come from
 //!
 //! ```text
-//! cargo test --release --package shutter --test fit_table -- --ignored --nocapture
+//! cargo test --package shutter --test fit_table -- --ignored --nocapture
 //! ```
 
 mod generator;
