@@ -421,7 +421,7 @@ impl Fractions {
         // By words: near times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
-        let words = near * (self.share >> 32) + (middle >> 32) << 32 | middle as u32 as u64;
+        let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
         // The first 48 bits, halved; at least 2⁻³³ of all.
         let zeros = words.leading_zeros() & 63;
         let bits = words << zeros | (low as u32 as u64) << zeros >> 32;
