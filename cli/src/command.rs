@@ -2,6 +2,7 @@
 //!
 //! Whatever goes wrong is told on standard error with exit code 2, and nothing is written then.
 
+mod fit;
 mod plan;
 
 use std::ffi::OsString;
@@ -27,6 +28,7 @@ struct Args {
 #[derive(Subcommand)]
 enum Command {
     Plan(plan::Args),
+    Fit(Box<fit::Args>),
 }
 
 /// The whole program; the answer is its exit code.
@@ -49,6 +51,7 @@ pub fn run(
     };
     let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
         Command::Plan(args) => plan::run(&args, out),
+        Command::Fit(args) => fit::run(&args, out, err),
     };
     match ended {
         Ok(()) => 0,

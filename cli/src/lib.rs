@@ -8,6 +8,7 @@
 pub mod command;
 pub mod emit;
 pub mod facts;
+pub mod fit;
 pub mod lamp;
 #[cfg(feature = "picture")]
 pub mod picture;
@@ -16,4 +17,5 @@ pub mod plan;
 pub mod report;
 pub mod scene;
 pub mod shape;
+pub mod trace;
 pub mod unit;

@@ -2,6 +2,7 @@
 
 mod set_ups;
 pub mod style;
+mod trace;
 
 use std::error::Error;
 use std::iter::once;
@@ -15,6 +16,7 @@ use crate::plan::{Plan, Trigger};
 use crate::unit::{Unit, decimals, short, trimmed};
 pub use set_ups::set_ups;
 use style::{Area, BLUE, FAINT, GREY, Graph, INK, LIGHT, SHARES, VERMILION, dressed};
+pub use trace::trace;
 
 type Drawn = Result<(), Box<dyn Error>>;
 

@@ -1,0 +1,146 @@
+//! What the noise makes of the results: standard errors from the normal equations.
+
+use super::curve::{CONTROLS, Exposure, PARAMETERS};
+use super::frame::{FrameFit, Missed, fractions};
+use super::signal::Kind;
+use super::solve::Cholesky;
+
+/// A value and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// One standard deviation of it.
+    pub error: f64,
+}
+
+/// How the parameters of a fitted curve vary together.
+pub struct Covariance {
+    kind: Kind,
+    /// Of the parameters that are on no bound.
+    moving: Vec<usize>,
+    factor: Option<Cholesky>,
+    /// What the inverse is multiplied by: the noise's variance, for correlated samples.
+    variance: f64,
+    /// The variance of each edge beside it: a sample tells an edge's side, not its place.
+    edges: [f64; 2],
+}
+
+impl Covariance {
+    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
+        let fitted = &fit.kinds[kind as usize];
+        let solution = &fitted.solution;
+        let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
+        let on_bound = |k: &usize| packed[*k] <= bounds[*k].0 || packed[*k] >= bounds[*k].1;
+        let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
+        let cell =
+            |i: usize, j: usize| solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 };
+        let matrix: Vec<Vec<f64>> =
+            moving.iter().map(|i| moving.iter().map(|j| cell(*i, *j)).collect()).collect();
+        let n = fit.samples.len() as f64;
+        let free = (n - packed.len() as f64 * fit.correlation).max(0.5 * n);
+        let curve = solution.signal.curve;
+        let edge =
+            |ramp: f64| fit.step * fit.step / 12.0 * (1.0 - ramp / (2.0 * fit.step)).max(0.0);
+        Self {
+            kind,
+            moving,
+            factor: Cholesky::new(matrix),
+            variance: fitted.squares / free * fit.correlation,
+            edges: [edge(curve.opening), edge(curve.closing)],
+        }
+    }
+
+    /// The standard error of what moves so with a curve's parameters.
+    pub fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
+        let mut gathered = vec![0.0; self.kind.parameters()];
+        self.kind.gather(moves, &mut gathered);
+        let row: Vec<f64> =
+            self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
+        let Some(factor) = &self.factor else { return f64::INFINITY };
+        let noise: f64 = factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
+        // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
+        let (opening, closing) = (moves[0] - moves[2], moves[2]);
+        let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];
+        (noise * self.variance + edges).sqrt()
+    }
+}
+
+/// What a curve is good for, in the frame's unit of time.
+pub struct Results {
+    pub exposure: Measured,
+    pub efficiency: Measured,
+    pub triggers: Vec<Measured>,
+}
+
+/// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
+///
+/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
+/// Akaike weight, with its own variance and how far it lies from this one.
+pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
+    let mut chosen = of_kind(fit, kind, n);
+    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
+    let least = freer().map(|k| fit.aic(k)).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fit.aic(k))).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    let all: Vec<(f64, Results)> = freer()
+        .zip(weights)
+        .filter(|(_, weight)| *weight > 1e-3 * sum)
+        .map(|(k, weight)| (weight / sum, of_kind(fit, k, n)))
+        .collect();
+    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
+        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
+        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
+    };
+    widen(&mut chosen.exposure, &|results| results.exposure);
+    widen(&mut chosen.efficiency, &|results| results.efficiency);
+    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
+        widen(trigger, &|results| results.triggers[i]);
+    }
+    chosen
+}
+
+fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
+    let covariance = Covariance::new(fit, kind);
+    let curve = fit.kinds[kind as usize].solution.signal.curve;
+    let exposure = Exposure::new(&curve);
+    let whole = exposure.whole().moves;
+    let (area, length) = (exposure.area(), curve.length());
+    let measured =
+        |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
+    let lengths: [f64; PARAMETERS] =
+        std::array::from_fn(|k| if (1..CONTROLS).contains(&k) { 1.0 } else { 0.0 });
+    let ratio = std::array::from_fn(|k| (whole[k] - area / length * lengths[k]) / length);
+    let mut triggers: Vec<Measured> = fractions(n)
+        .map(|u| {
+            let (t, moves) = exposure.trigger(u);
+            measured(t, &moves)
+        })
+        .collect();
+    let beside = misfit(fit, kind, &triggers);
+    triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
+    Results {
+        exposure: measured(area, &whole),
+        efficiency: measured(area / length, &ratio),
+        triggers,
+    }
+}
+
+/// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond
+/// what noise makes of them.
+///
+/// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
+/// by a random walk whose ends are tied.
+fn misfit(fit: &FrameFit, kind: Kind, triggers: &[Measured]) -> f64 {
+    let fitted = &fit.kinds[kind as usize];
+    let [start, _, _, end] = fitted.solution.signal.curve.times();
+    let variance = fitted.squares / fit.samples.len() as f64 * fit.correlation * fit.step;
+    let missed = Missed::new(fit, kind);
+    let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
+        let t = trigger.value;
+        let (off, slope) = (missed.off(u, t), missed.slope(t));
+        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start));
+        off * off - (walk / (slope * slope) - trigger.error * trigger.error).max(0.0)
+    });
+    (excess.sum::<f64>() / triggers.len() as f64).max(0.0).sqrt()
+}

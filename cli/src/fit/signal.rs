@@ -1,0 +1,244 @@
+//! What a detector shows of a shutter: a level in the dark, so much more in full light, and perhaps a drift and a hum.
+
+use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS};
+use super::ramp::STRAIGHT;
+
+/// The candidates, simplest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// All open or all closed.
+    Box,
+    /// Straight ramps.
+    Trapezoid,
+    /// Cubic ramps, the closing one the mirror image of the opening one but for its length.
+    Symmetric,
+    /// Cubic ramps, each with a shape of its own.
+    Free,
+}
+
+impl Kind {
+    /// All of them, simplest first.
+    pub const ALL: [Self; 4] = [Self::Box, Self::Trapezoid, Self::Symmetric, Self::Free];
+
+    /// As it is written in arguments.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Trapezoid => "trapezoid",
+            Self::Symmetric => "symmetric",
+            Self::Free => "free",
+        }
+    }
+
+    /// As a reader is told.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Trapezoid => "straight ramps",
+            Self::Symmetric => "symmetric cubic ramps",
+            Self::Free => "free cubic ramps",
+        }
+    }
+
+    /// How many numbers describe its curve.
+    pub const fn parameters(self) -> usize {
+        match self {
+            Self::Box => 2,
+            Self::Trapezoid => 4,
+            Self::Symmetric => 8,
+            Self::Free => 12,
+        }
+    }
+
+    /// By which of this kind's parameters each of a curve's is held, if any.
+    fn holder(self, parameter: usize) -> Option<usize> {
+        match (self, parameter) {
+            (Self::Box, 0) => Some(0),
+            (Self::Box, 2) => Some(1),
+            (Self::Box, _) => None,
+            (Self::Trapezoid, CONTROLS..) => None,
+            (Self::Symmetric, CONTROLS..) => Some(CONTROLS + (parameter - CONTROLS) % 4),
+            _ => Some(parameter),
+        }
+    }
+
+    /// This kind's parameters of a curve; of a curve that is not of this kind, some of them.
+    pub(super) fn pack(self, curve: &Curve) -> Vec<f64> {
+        let mut packed = vec![0.0; self.parameters()];
+        for (k, p) in curve.parameters().into_iter().enumerate().rev() {
+            if let Some(holder) = self.holder(k) {
+                packed[holder] = p;
+            }
+        }
+        packed
+    }
+
+    /// The curve with these parameters.
+    pub(super) fn unpack(self, packed: &[f64]) -> Curve {
+        let mut p = Curve::trapezoid(0.0, 0.0, 0.0, 0.0).parameters();
+        for (k, p) in p.iter_mut().enumerate() {
+            if let Some(holder) = self.holder(k) {
+                *p = packed[holder];
+            }
+        }
+        Curve::from_parameters(&p)
+    }
+
+    /// Moves with this kind's parameters, from moves with a curve's.
+    pub(super) fn gather(self, moves: &[f64; PARAMETERS], into: &mut [f64]) {
+        into[..self.parameters()].fill(0.0);
+        for (k, m) in moves.iter().enumerate() {
+            if let Some(holder) = self.holder(k) {
+                into[holder] += m;
+            }
+        }
+    }
+}
+
+/// A sine that is added to the signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hum {
+    /// Periods in a unit of time.
+    pub frequency: f64,
+    /// What its cosine is multiplied by.
+    pub cosine: f64,
+    /// What its sine is multiplied by.
+    pub sine: f64,
+}
+
+impl Hum {
+    /// Half of what it spans.
+    pub fn amplitude(&self) -> f64 {
+        self.cosine.hypot(self.sine)
+    }
+}
+
+/// `v = dark + gain f(t) + drift t + hum(t)`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Signal {
+    /// Which curves it may have.
+    pub kind: Kind,
+    /// `f`
+    pub curve: Curve,
+    /// The level in the dark.
+    pub dark: f64,
+    /// What full light adds.
+    pub gain: f64,
+    /// By a unit of time.
+    pub drift: Option<f64>,
+    /// Beside the light.
+    pub hum: Option<Hum>,
+}
+
+/// A range that a parameter stays in.
+pub type Bounds = (f64, f64);
+const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
+
+impl Signal {
+    /// How many numbers it takes.
+    pub(super) fn len(&self) -> usize {
+        let columns =
+            if self.drift.is_some() { 1 } else { 0 } + if self.hum.is_some() { 3 } else { 0 };
+        self.kind.parameters() + 2 + columns
+    }
+
+    /// Its numbers, the curve's first.
+    pub(super) fn pack(&self) -> Vec<f64> {
+        let mut packed = self.kind.pack(&self.curve);
+        packed.extend([self.dark, self.gain]);
+        packed.extend(self.drift);
+        packed.extend(self.hum.iter().flat_map(|hum| [hum.frequency, hum.cosine, hum.sine]));
+        packed
+    }
+
+    /// The same with other numbers, as `pack` orders them.
+    pub(super) fn unpack(&self, packed: &[f64]) -> Self {
+        let (curve, rest) = packed.split_at(self.kind.parameters());
+        let (columns, at) = (&rest[2..], self.drift.map_or(0, |_| 1));
+        Self {
+            kind: self.kind,
+            curve: self.kind.unpack(curve),
+            dark: rest[0],
+            gain: rest[1],
+            drift: self.drift.map(|_| columns[0]),
+            hum: self.hum.map(|_| Hum {
+                frequency: columns[at],
+                cosine: columns[at + 1],
+                sine: columns[at + 2],
+            }),
+        }
+    }
+
+    /// The bounds of each: no length below 0, and control numbers in [0, 1].
+    pub(super) fn bounds(&self) -> Vec<Bounds> {
+        let mut bounds = vec![ANY; self.len()];
+        for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
+            *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { (0.0, 1.0) };
+        }
+        bounds
+    }
+
+    /// The parameters that are control numbers, and what each is on a straight ramp.
+    pub(super) fn controls(&self) -> impl Iterator<Item = (usize, f64)> {
+        let n = self.kind.parameters();
+        (CONTROLS..n.max(CONTROLS)).map(|k| (k, STRAIGHT[(k - CONTROLS) % 4]))
+    }
+
+    /// What works the signal's means out.
+    pub(super) fn means(&self) -> Means<'_> {
+        Means { signal: self, exposure: Exposure::new(&self.curve), last: None }
+    }
+}
+
+/// A signal's mean over one interval after another.
+pub struct Means<'a> {
+    signal: &'a Signal,
+    exposure: Exposure,
+    /// Where the last interval ended, and what is collected by then: mostly the next one begins there.
+    last: Option<(f64, super::curve::Collected)>,
+}
+
+impl Means<'_> {
+    /// The mean over [`from`, `to`], and how it moves with each parameter.
+    pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> f64 {
+        let Signal { kind, dark, gain, drift, hum, .. } = *self.signal;
+        let start = match self.last {
+            Some((end, collected)) if end == from => collected,
+            _ => self.exposure.collected(from),
+        };
+        let end = self.exposure.collected(to);
+        self.last = Some((to, end));
+        let width = to - from;
+        let openness = (end.amount - start.amount) / width;
+        let each = std::array::from_fn(|k| gain / width * (end.moves[k] - start.moves[k]));
+        let n = kind.parameters();
+        kind.gather(&each, moves);
+        moves[n] = 1.0;
+        moves[n + 1] = openness;
+        let mut mean = dark + gain * openness;
+        let (middle, mut at) = (0.5 * (from + to), n + 2);
+        if let Some(drift) = drift {
+            moves[at] = middle;
+            mean += drift * middle;
+            at += 1;
+        }
+        if let Some(Hum { frequency, cosine, sine }) = hum {
+            let (s, c) = (std::f64::consts::TAU * frequency * middle).sin_cos();
+            let half = std::f64::consts::PI * frequency * width;
+            // sin(x)/x, by which the mean is less than the middle's value, and its slope.
+            let (less, slope) = if half.abs() < 1e-4 {
+                (1.0 - half * half / 6.0, -half / 3.0)
+            } else {
+                (half.sin() / half, (half.cos() - half.sin() / half) / half)
+            };
+            let (tau, pi) = (std::f64::consts::TAU, std::f64::consts::PI);
+            let value = cosine * c + sine * s;
+            let turned = sine * c - cosine * s;
+            moves[at] = turned * tau * middle * less + value * slope * pi * width;
+            moves[at + 1] = c * less;
+            moves[at + 2] = s * less;
+            mean += value * less;
+        }
+        mean
+    }
+}

@@ -1,0 +1,160 @@
+//! Least squares: the parameters of a signal that pass its bins most closely.
+//!
+//! Levenberg and Marquardt's method with bounds: a parameter that lies on its bound and would leave it stands still for a
+//! step, and a step that leaves a bound ends on it.
+
+use super::bins::Bin;
+use super::signal::Signal;
+
+/// The most steps.
+const STEPS: usize = 150;
+/// The sum of squares has stopped falling where a step lowers it by less than this share.
+const LITTLE: f64 = 1e-8;
+
+/// What is minimised: squares of what the bins miss, and of what the control numbers miss of a straight ramp's.
+#[derive(Clone, Copy)]
+pub struct Problem<'a> {
+    pub bins: &'a [Bin],
+    /// By how much a control number counts that is 1 away.
+    pub prior: f64,
+}
+
+/// A signal with its sum of squares and the normal equations there.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub signal: Signal,
+    pub cost: f64,
+    /// `JᵀJ`
+    pub normal: Vec<Vec<f64>>,
+    /// `Jᵀr`, what lowers the sum pointing against it.
+    pub gradient: Vec<f64>,
+}
+
+impl Problem<'_> {
+    /// The signal as it is.
+    pub fn at(&self, signal: &Signal) -> Solution {
+        let n = signal.len();
+        let (mut normal, mut gradient) = (vec![vec![0.0; n]; n], vec![0.0; n]);
+        let (mut moves, mut cost) = (vec![0.0; n], 0.0);
+        let mut means = signal.means();
+        for bin in self.bins {
+            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
+            cost += bin.samples * miss * miss;
+            for (i, row) in normal.iter_mut().enumerate() {
+                let weighted = bin.samples * moves[i];
+                if weighted != 0.0 {
+                    gradient[i] += weighted * miss;
+                    for (cell, m) in row[..=i].iter_mut().zip(&moves) {
+                        *cell += weighted * m;
+                    }
+                }
+            }
+        }
+        let packed = signal.pack();
+        for (k, straight) in signal.controls() {
+            let miss = packed[k] - straight;
+            cost += self.prior * miss * miss;
+            gradient[k] += self.prior * miss;
+            normal[k][k] += self.prior;
+        }
+        for i in 0..n {
+            for j in 0..i {
+                normal[j][i] = normal[i][j];
+            }
+        }
+        Solution { signal: *signal, cost, normal, gradient }
+    }
+
+    /// The best signal near `start`.
+    pub fn minimise(&self, start: &Signal) -> Solution {
+        let bounds = start.bounds();
+        let mut here = self.at(start);
+        let (mut damping, mut idle) = (1e-3, 0);
+        for _ in 0..STEPS {
+            let packed = here.signal.pack();
+            let next = step(&here, &packed, &bounds, damping).map(|to| self.at(&start.unpack(&to)));
+            match next {
+                Some(next) if next.cost < here.cost => {
+                    let gain = (here.cost - next.cost) / here.cost;
+                    here = next;
+                    damping = f64::max(damping * 0.2, 1e-12);
+                    idle = if gain < LITTLE { idle + 1 } else { 0 };
+                }
+                _ => {
+                    damping *= 4.0;
+                    idle += usize::from(damping > 1e4);
+                }
+            }
+            if idle > 1 {
+                break;
+            }
+        }
+        here
+    }
+}
+
+/// The parameters a damped step on.
+fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
+    let outward = |k: usize| {
+        let (low, high) = bounds[k];
+        packed[k] <= low && here.gradient[k] > 0.0 || packed[k] >= high && here.gradient[k] < 0.0
+    };
+    let moving: Vec<usize> = (0..packed.len()).filter(|k| !outward(*k)).collect();
+    let matrix: Vec<Vec<f64>> = moving
+        .iter()
+        .map(|i| {
+            let damped = |j: usize| {
+                let cell = here.normal[*i][j];
+                if *i == j { cell * (1.0 + damping) + 1e-12 } else { cell }
+            };
+            moving.iter().map(|j| damped(*j)).collect()
+        })
+        .collect();
+    let right: Vec<f64> = moving.iter().map(|k| -here.gradient[*k]).collect();
+    let by = Cholesky::new(matrix)?.solve(&right);
+    let mut to = packed.to_vec();
+    for (k, by) in moving.into_iter().zip(by) {
+        to[k] = (to[k] + by).clamp(bounds[k].0, bounds[k].1);
+    }
+    Some(to)
+}
+
+/// `A = L Lᵀ` of a symmetric, positive matrix.
+pub struct Cholesky {
+    lower: Vec<Vec<f64>>,
+}
+
+impl Cholesky {
+    /// None where the matrix is not positive.
+    pub fn new(mut a: Vec<Vec<f64>>) -> Option<Self> {
+        for j in 0..a.len() {
+            for i in j..a.len() {
+                let sum: f64 = (0..j).map(|k| a[i][k] * a[j][k]).sum();
+                let rest = a[i][j] - sum;
+                if i > j {
+                    a[i][j] = rest / a[j][j];
+                } else if rest > 0.0 && rest.is_finite() {
+                    a[j][j] = rest.sqrt();
+                } else {
+                    return None;
+                }
+            }
+        }
+        Some(Self { lower: a })
+    }
+
+    /// The `x` of `A x = right`.
+    pub fn solve(&self, right: &[f64]) -> Vec<f64> {
+        let (l, n) = (&self.lower, right.len());
+        let mut x = right.to_vec();
+        for i in 0..n {
+            let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
+            x[i] = (x[i] - sum) / l[i][i];
+        }
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|k| l[k][i] * x[k]).sum();
+            x[i] = (x[i] - sum) / l[i][i];
+        }
+        x
+    }
+}

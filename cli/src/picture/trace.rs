@@ -1,0 +1,176 @@
+//! A fit as an SVG: the trace with the curve through it and the triggers, and below it what the curve misses.
+
+use std::error::Error;
+use std::ops::Range;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::style::{self, Area, BLUE, FAINT, GREY, Graph, VERMILION};
+use super::{Drawn, SCALE, centred, dot, pen, picture};
+use crate::fit::Fit;
+use crate::unit::{Unit, decimals, short, trimmed};
+
+const SIZE: (i32, i32) = (900, 640);
+const HEADING: i32 = 88;
+const SIGNAL: i32 = 340;
+/// More samples than this are drawn as the least and the greatest of neighbours.
+const MOST: usize = 3000;
+/// The points along the curve.
+const POINTS: usize = 1500;
+/// With more triggers than this, their marks would run into each other.
+const MOST_MARKS: usize = 50;
+
+/// The fit of the trace `name`, as an SVG.
+///
+/// # Errors
+/// Where it cannot be drawn.
+pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
+    let title =
+        format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
+    picture(SIZE, &title, |page| {
+        let (heading, rest) = page.split_vertically(HEADING * SCALE);
+        let (upper, lower) = rest.split_vertically(SIGNAL * SCALE);
+        write_heading(&heading, name, fit)?;
+        draw_signal(&upper, fit)?;
+        draw_residual(&lower, fit)
+    })
+}
+
+fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
+    let unit = fit.unit();
+    let facts = format!(
+        "{}: exposure {}, efficiency {} %, rms {} % of the light",
+        fit.chosen.title(),
+        unit.show(fit.exposure.value),
+        short(100.0 * fit.efficiency.value, 4),
+        short(100.0 * fit.best().rms, 3),
+    );
+    let middle = SIZE.0 * SCALE / 2;
+    area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
+    area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+    let y = 74 * SCALE;
+    for (k, name) in ["trace", "fitted curve", "trigger"].into_iter().enumerate() {
+        let x = (SIZE.0 / 2 - 190 + 140 * k as i32) * SCALE;
+        let line =
+            |color, width| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen(color, width));
+        match k {
+            0 => area.draw(&line(GREY, 1.2))?,
+            1 => area.draw(&line(BLUE, 2.5))?,
+            _ => area.draw(&dot((x + 11 * SCALE, y)))?,
+        }
+        let label = style::text(13 * SCALE, HPos::Left, VPos::Center);
+        area.draw_text(name, &label, (x + 29 * SCALE, y))?;
+    }
+    Ok(())
+}
+
+fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
+    let (unit, sign) = (fit.unit(), if fit.inverted { -1.0 } else { 1.0 });
+    let raw: Vec<(f64, f64)> = samples(fit, unit, |_, v| sign * v);
+    let range = range(raw.iter().map(|(_, v)| *v), 0.06);
+    let mut graph = graph(area, fit, unit, "signal", None, range)?;
+    graph.draw_series(LineSeries::new(raw, pen(GREY, 1.0)))?;
+    let (first, last) = ends(fit);
+    let at = |t: f64| (unit.of(t), sign * fit.value(t));
+    // A box's edges are drawn as such: a point on either side of each.
+    let curve = fit.best().signal.curve;
+    let mut times: Vec<f64> =
+        (0..=POINTS).map(|i| first + (last - first) * i as f64 / POINTS as f64).collect();
+    let nudge = 1e-9 * curve.length();
+    times.extend(curve.times().iter().flat_map(|t| [t - nudge, t + nudge]));
+    times.retain(|t| (first..=last).contains(t));
+    times.sort_by(f64::total_cmp);
+    graph.draw_series(LineSeries::new(times.into_iter().map(at), pen(BLUE, 2.5)))?;
+    let dark = sign * fit.best().signal.dark;
+    let marks = fit.triggers.iter().map(|trigger| at(trigger.value));
+    graph.draw_series(
+        marks.clone().map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(VERMILION, 1.2))),
+    )?;
+    if fit.triggers.len() <= MOST_MARKS {
+        graph.draw_series(marks.map(dot))?;
+    }
+    Ok(())
+}
+
+fn draw_residual(area: &Area, fit: &Fit) -> Drawn {
+    let unit = fit.unit();
+    let gain = fit.best().signal.gain;
+    let missed = samples(fit, unit, |t, v| 100.0 * (v - fit.value(t)) / gain);
+    // Edges within one sample would hide all else.
+    let mut sizes: Vec<f64> = missed.iter().map(|(_, m)| m.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = 1.4 * sizes[(sizes.len() - 1) * 99 / 100].max(1e-3);
+    let time = format!("time ({})", unit.name());
+    let mut graph = graph(area, fit, unit, "residual (% of the light)", Some(&time), -most..most)?;
+    let kept = missed.into_iter().map(|(t, m)| (t, m.clamp(-most, most)));
+    graph.draw_series(LineSeries::new(kept, pen(GREY, 1.0)))?;
+    let (first, last) = ends(fit);
+    let none = [(unit.of(first), 0.0), (unit.of(last), 0.0)];
+    graph.draw_series([PathElement::new(none, pen(BLUE, 2.5))])?;
+    Ok(())
+}
+
+fn ends(fit: &Fit) -> (f64, f64) {
+    let times = &fit.samples.times;
+    (times[0], times[times.len() - 1])
+}
+
+/// What `f` makes of the samples; of many, the least and the greatest of neighbours.
+fn samples(fit: &Fit, unit: Unit, f: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    let samples = fit.samples.times.iter().zip(&fit.samples.values);
+    let all: Vec<(f64, f64)> = samples.map(|(t, v)| (unit.of(*t), f(*t, *v))).collect();
+    if all.len() <= MOST {
+        return all;
+    }
+    let together = all.len().div_ceil(MOST / 2);
+    let ends = |few: &[(f64, f64)]| {
+        let least = few.iter().map(|(_, v)| *v).fold(f64::INFINITY, f64::min);
+        let greatest = few.iter().map(|(_, v)| *v).fold(f64::NEG_INFINITY, f64::max);
+        [(few[0].0, least), (few[few.len() - 1].0, greatest)]
+    };
+    all.chunks(together).flat_map(ends).collect()
+}
+
+fn range(values: impl Iterator<Item = f64>, room: f64) -> Range<f64> {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.fold(ends, |(low, high), v| (low.min(v), high.max(v)));
+    let room = room * (high - low);
+    low - room..high + room
+}
+
+fn graph<'a, 'b>(
+    area: &'a Area<'b>,
+    fit: &Fit,
+    unit: Unit,
+    y: &str,
+    x: Option<&str>,
+    range: Range<f64>,
+) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
+    let (first, last) = ends(fit);
+    let mut graph = ChartBuilder::on(area)
+        .margin_left(16 * SCALE)
+        .margin_right(24 * SCALE)
+        .margin_top(8 * SCALE)
+        .margin_bottom(8 * SCALE)
+        .x_label_area_size(if x.is_some() { 50 } else { 28 } * SCALE)
+        .y_label_area_size(72 * SCALE)
+        .build_cartesian_2d(unit.of(first)..unit.of(last), range.clone())?;
+    let (across, up) = (decimals(unit.of(last - first), 3), decimals(range.end - range.start, 3));
+    graph
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(pen(FAINT, 1.0))
+        .axis_style(pen(GREY, 1.0))
+        .set_all_tick_mark_size(5 * SCALE)
+        .label_style(style::font(14 * SCALE))
+        .axis_desc_style(style::font(15 * SCALE))
+        .x_desc(x.unwrap_or_default())
+        .y_desc(y)
+        .x_labels(11)
+        .y_labels(6)
+        .x_label_formatter(&|t| trimmed(*t, across))
+        .y_label_formatter(&|y| trimmed(*y, up))
+        .draw()?;
+    Ok(graph)
+}

@@ -1,0 +1,307 @@
+//! Why a trace is refused, and what is doubtful about one that is not: the reason, and what to do.
+
+use std::fmt;
+
+use crate::unit;
+
+/// Why a trace cannot be fitted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// Nothing that looks like rows of numbers.
+    NotCsv {
+        /// What it looks like.
+        reason: String,
+    },
+    /// One value a row, and no rate.
+    NoTimes,
+    /// A column that is asked for is not there.
+    NoColumn {
+        /// As asked for.
+        name: String,
+        /// What there is.
+        there: String,
+    },
+    /// Too many rows that are no samples.
+    BrokenRows {
+        /// So many.
+        count: usize,
+        /// Of so many.
+        rows: usize,
+        /// The first one's line.
+        line: u64,
+        /// What is wrong with that.
+        reason: String,
+    },
+    /// So few that nothing can be told.
+    TooFewSamples {
+        /// So many there are.
+        samples: usize,
+        /// So many are required.
+        required: usize,
+    },
+    /// The signal stays at one level.
+    NoPulse {
+        /// In standard deviations of the noise.
+        contrast: f64,
+    },
+    /// The pulse has so few samples that its shape cannot be told.
+    ShortPulse {
+        /// So many there are.
+        samples: usize,
+        /// So many are required.
+        required: usize,
+    },
+    /// The first samples are not dark.
+    BeginsInPulse,
+    /// The last samples are not dark.
+    EndsInPulse,
+    /// A frame that is asked for is not there.
+    NoFrame {
+        /// As asked for, from 1.
+        number: usize,
+        /// So many there are.
+        frames: usize,
+    },
+    /// The full light that is given is less than the trace shows.
+    FullTooLow {
+        /// As given.
+        given: f64,
+        /// As seen.
+        seen: f64,
+    },
+    /// No scene can be written that can be planned.
+    NoScene {
+        /// Why not.
+        reason: String,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotCsv { reason } => write!(
+                out,
+                "this is no CSV of samples: {reason}; export the trace as text, a time and a value in each row"
+            ),
+            Self::NoTimes => out.write_str(
+                "there is one value in each row and no time; give the sampling rate in hertz, as in --rate 100000",
+            ),
+            Self::NoColumn { name, there } => {
+                write!(out, "there is no column '{name}'; there are {there}; see --columns")
+            }
+            Self::BrokenRows { count, rows, line, reason } => write!(
+                out,
+                "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out: is this the file, \
+                 and are --columns right?"
+            ),
+            Self::TooFewSamples { samples, required } => write!(
+                out,
+                "{} in the trace, and at least {required} are required; sample faster",
+                counted(*samples, "sample")
+            ),
+            Self::NoPulse { contrast } => write!(
+                out,
+                "no pulse: the brightest part stands out by {contrast:.1} times the noise, and 8 are required; is this \
+                 the right channel (--columns), and was the light on?"
+            ),
+            Self::ShortPulse { samples, required } => write!(
+                out,
+                "the pulse has {}, and at least {required} are required to tell its shape; sample faster, or zoom in",
+                counted(*samples, "sample")
+            ),
+            Self::BeginsInPulse => out.write_str(
+                "the trace begins in the pulse; record some of the dark before it as well (more pre-trigger), or say \
+                 which way light moves the signal with --light up or --light down",
+            ),
+            Self::EndsInPulse => out.write_str(
+                "the trace ends in the pulse; record some of the dark after it as well (a longer window), or say which \
+                 way light moves the signal with --light up or --light down",
+            ),
+            Self::NoFrame { number, frames } => {
+                write!(out, "there is no frame {number}; the trace has {}", counted(*frames, "whole frame"))
+            }
+            Self::FullTooLow { given, seen } => write!(
+                out,
+                "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the \
+                 trace's own unit, the dark level included"
+            ),
+            Self::NoScene { reason } => write!(
+                out,
+                "no scene can be made of this: {reason}; look at the trace: is there one rise, one plateau at most, one fall?"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// What is doubtful about a trace or about what was made of it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Rows that are no samples were left out.
+    BrokenRows {
+        /// So many.
+        count: usize,
+        /// The first one's line.
+        line: u64,
+        /// What is wrong with that.
+        reason: String,
+    },
+    /// Samples that were out of order.
+    Unsorted {
+        /// The first one's line.
+        line: u64,
+    },
+    /// Samples at the same time, averaged.
+    Duplicates {
+        /// So many too many.
+        count: usize,
+        /// The first one's line.
+        line: u64,
+    },
+    /// The file does not tell the time's unit.
+    UnitAssumed,
+    /// Samples left out as spikes.
+    Spikes {
+        /// So many.
+        count: usize,
+        /// When the first one comes.
+        first: f64,
+    },
+    /// Flashes too small to be frames, left out.
+    Glitches {
+        /// So many.
+        count: usize,
+    },
+    /// A frame that the trace's beginning or end cuts.
+    PartialFrame {
+        /// From 1.
+        number: usize,
+    },
+    /// Light lowers the signal, by all appearance.
+    Inverted,
+    /// The brightest samples are all the same.
+    Clipped {
+        /// The share of the pulse's samples.
+        share: f64,
+        /// The value at which they stop.
+        at: f64,
+    },
+    /// A sine in the signal.
+    Hum {
+        /// In hertz.
+        hertz: f64,
+        /// As a share of the light.
+        amplitude: f64,
+    },
+    /// The dark level drifts.
+    Drift {
+        /// Over the frame, as a share of the light.
+        amount: f64,
+    },
+    /// The ramps are lost in the noise.
+    NoiseHidesRamps {
+        /// As a share of the light.
+        noise: f64,
+    },
+    /// Edges that are no longer than a sample.
+    SharpEdges {
+        /// The sampling interval, in seconds.
+        step: f64,
+    },
+    /// There is no plateau: full light may never be reached.
+    NoPlateau,
+    /// No model passes the samples as closely as their noise allows.
+    PoorFit {
+        /// How many times the noise is missed.
+        times: f64,
+    },
+    /// The times are too far from 0 for the scene's numbers.
+    ZeroMoved,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BrokenRows { count: 1, line, reason } => {
+                write!(out, "line {line}: {reason}; the row is left out")
+            }
+            Self::BrokenRows { count, line, reason } => {
+                write!(out, "line {line}: {reason}; {count} such rows are left out")
+            }
+            Self::Unsorted { line } => {
+                write!(out, "line {line}: time runs back; the samples are put in order")
+            }
+            Self::Duplicates { count, line } => write!(
+                out,
+                "line {line}: the same time again; {} averaged with the other of their time",
+                if *count == 1 { "1 sample is".into() } else { format!("{count} samples are") }
+            ),
+            Self::UnitAssumed => out.write_str(
+                "the file does not say in which unit its times are; they are taken as seconds (see --unit)",
+            ),
+            Self::Spikes { count, first } => {
+                write!(out, "{} left out, the first at {first:.6e} s", counted(*count, "spike"))
+            }
+            Self::Glitches { count } => write!(
+                out,
+                "{} left out: less than a fifth of the largest pulse",
+                counted(*count, "small pulse")
+            ),
+            Self::PartialFrame { number } => {
+                write!(out, "pulse {number} is cut by the end of the trace, and left out")
+            }
+            Self::Inverted => out.write_str(
+                "light seems to lower the signal, so it is turned round; if it does not, the trace begins and ends in \
+                 the light (--light up)",
+            ),
+            Self::Clipped { share, at } => write!(
+                out,
+                "clipped: {:.0} % of the pulse's samples stop at {at}; the exposure comes out too long (some 4 % where 28 % \
+                 are clipped); lower the gain",
+                100.0 * share
+            ),
+            Self::Hum { hertz, amplitude } => write!(
+                out,
+                "hum of {hertz:.4} Hz, {:.2} % of the light, fitted and taken out; if it is the lamp's own flicker (mains, \
+                 or an LED's PWM), use a steady one",
+                100.0 * amplitude
+            ),
+            Self::Drift { amount } => write!(
+                out,
+                "the dark level drifts by {:.2} % of the light, fitted and taken out",
+                100.0 * amount
+            ),
+            Self::NoiseHidesRamps { noise } => write!(
+                out,
+                "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
+                100.0 * noise
+            ),
+            Self::SharpEdges { step } => write!(
+                out,
+                "edges as short as a sample: each is known to {:.2e} s at best (the sampling interval by the root of 12); \
+                 sample faster if that matters",
+                step / 12f64.sqrt()
+            ),
+            Self::NoPlateau => out.write_str(
+                "there is no plateau: the shutter may never open fully; the peak counts as full light unless --full \
+                 gives the signal of full light",
+            ),
+            Self::PoorFit { times } => write!(
+                out,
+                "the curve misses the samples by {times:.1} times their noise: the shutter does what no model here can \
+                 follow; look at the residual in --picture"
+            ),
+            Self::ZeroMoved => out.write_str(
+                "the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to \
+                 open, as with --zero open",
+            ),
+        }
+    }
+}
+
+fn counted(n: usize, thing: &str) -> String {
+    unit::count(n as u64, thing)
+}

@@ -1,0 +1,597 @@
+//! `shutter fit`: every format of the same trace gives the same shutter, what cannot be fitted is refused with a reason and
+//! leaves nothing behind, and what is doubtful is told.
+
+mod generator;
+
+use std::ffi::OsString;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use generator::{Disturbance, Random, Shutter, Truth, traced, truth};
+use shutter::fit::{Fit, Kind, Options, Tolerance, Zero, fit};
+use shutter::plan::Plan;
+use shutter::trace::{self, Column, Light, Refusal, Trace, Warning};
+use shutter::unit::Unit;
+
+fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
+    fit(trace, options, &mut |_| ())
+}
+
+/// Opens from 2 to 4 ms and closes from 7 to 9: an exposure of 5 ms.
+fn trapezoid(t: f64) -> f64 {
+    (t - 0.002).min(0.009 - t).clamp(0.0, 0.002) / 0.002
+}
+
+/// So many samples of `f` in 12 ms, with noise.
+fn sampled(f: impl Fn(f64) -> f64, n: usize, noise: f64) -> Trace {
+    let mut random = Random::new(11);
+    let times: Vec<f64> = (0..n).map(|i| 0.012 * i as f64 / n as f64).collect();
+    let values = times.iter().map(|t| 0.1 + 2.0 * f(*t) + 2.0 * noise * random.normal()).collect();
+    Trace { times, values }
+}
+
+fn rows(trace: &Trace, row: impl Fn(f64, f64) -> String) -> String {
+    trace.times.iter().zip(&trace.values).map(|(t, v)| row(*t, *v) + "\n").collect()
+}
+
+/// Reads a text and fits it.
+fn through(text: &str, options: &trace::Options) -> (Fit, Vec<Warning>) {
+    let (trace, warnings) = trace::read(text, options).unwrap();
+    (fitted(&trace, &Options::default()).unwrap(), warnings)
+}
+
+fn is_the_trapezoid(fit: &Fit) {
+    assert_eq!(fit.chosen, Kind::Trapezoid);
+    assert!((fit.exposure.value - 0.005).abs() < 5e-6, "{:?}", fit.exposure);
+    assert!((fit.triggers[7].value + fit.triggers[8].value - 0.011).abs() < 5e-6);
+}
+
+#[test]
+fn every_format_is_read() {
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let comma = |text: String| text.replace('.', ",");
+    let plain = trace::Options::default();
+    let formats: [(&str, String, trace::Options, bool); 11] = [
+        (
+            "Rigol",
+            String::from("X,CH1,Start,Increment,\nSequence,Volt,0.000000e+00,1.000000e-05\n")
+                + &rows(&trace, |t, v| format!("{},{v:e},,", (t * 1e5).round())),
+            plain.clone(),
+            false,
+        ),
+        (
+            "Saleae",
+            String::from("Time [s],Channel 0\n") + &rows(&trace, |t, v| format!("{t:.9},{v:.6}")),
+            plain.clone(),
+            false,
+        ),
+        (
+            "ShutterScope",
+            String::from("time_s,voltage_v\r\n")
+                + &rows(&trace, |t, v| format!("{t:.8},{v:.5}")).replace('\n', "\r\n"),
+            plain.clone(),
+            false,
+        ),
+        (
+            "semicolons and decimal commas",
+            String::from("Zeit (ms);Spannung (V)\n")
+                + &comma(rows(&trace, |t, v| format!("{:.5};{v:.5}", t * 1e3))),
+            plain.clone(),
+            false,
+        ),
+        (
+            "tabs and µs",
+            String::from("t (µs)\tCH1\n") + &rows(&trace, |t, v| format!("{:.2}\t{v:.5}", t * 1e6)),
+            plain.clone(),
+            false,
+        ),
+        (
+            "a preamble, then two rows of names",
+            String::from("Model,XYZ-100\nRecord Length,1200\n\nTIME,CH1,CH2\nms,V,V\n")
+                + &rows(&trace, |t, v| format!("{:.5},{v:.5},0.3", t * 1e3)),
+            plain.clone(),
+            false,
+        ),
+        (
+            "blanks, no header",
+            rows(&trace, |t, v| format!("  {t:.6}   {v:.5}")),
+            plain.clone(),
+            true,
+        ),
+        (
+            "values alone",
+            rows(&trace, |_, v| format!("{v:.5}")),
+            trace::Options { rate: Some(1e5), ..plain.clone() },
+            false,
+        ),
+        (
+            "values alone with decimal commas",
+            String::from("Volt\n") + &comma(rows(&trace, |_, v| format!("{v:.5}"))),
+            trace::Options { rate: Some(1e5), ..plain.clone() },
+            false,
+        ),
+        (
+            "columns by name, the unit by hand",
+            String::from("# a comment\n\"n\",\"sensor\",\"clock\"\n")
+                + &rows(&trace, |t, v| format!("7,{v:.5},{:.2}", t * 1e6)),
+            trace::Options {
+                columns: vec![Column::parse("clock"), Column::parse("sensor")],
+                unit: Some(Unit::Microsecond),
+                ..plain.clone()
+            },
+            false,
+        ),
+        (
+            "columns by number",
+            rows(&trace, |t, v| format!("7,{v:.5},{t:.6}")),
+            trace::Options { columns: vec![Column::Number(3), Column::Number(2)], ..plain },
+            true,
+        ),
+    ];
+    for (name, text, options, assumes) in formats {
+        let (fit, warnings) = through(&text, &options);
+        let expected = if assumes { vec![Warning::UnitAssumed] } else { Vec::new() };
+        assert_eq!(warnings, expected, "{name}");
+        assert_eq!(fit.warnings, [], "{name}");
+        is_the_trapezoid(&fit);
+    }
+}
+
+#[test]
+fn other_encodings_are_read() {
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = String::from("t (µs),V\n") + &rows(&trace, |t, v| format!("{:.2},{v:.5}", t * 1e6));
+    let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
+    let wide = |bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        let units: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
+        units.into_iter().flat_map(bytes).collect()
+    };
+    let marked = [&[0xef, 0xbb, 0xbf], text.as_bytes()].concat();
+    for bytes in [latin, wide(u16::to_le_bytes), wide(u16::to_be_bytes), marked] {
+        let (fit, warnings) = through(&trace::decode(&bytes).unwrap(), &trace::Options::default());
+        assert_eq!(warnings, []);
+        is_the_trapezoid(&fit);
+    }
+}
+
+#[test]
+fn broken_rows_are_told_with_their_line_and_left_out() {
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let row = |t: f64, v: f64| match (t * 1e5).round() as u32 {
+        300 => format!("{t:.6},NaN"),
+        301 => format!("{t:.6},"),
+        302 => "oops,0.5".into(),
+        303 => format!("{t:.6},1e300"),
+        304 => "\n".into(),
+        305 => format!("{t:.6},inf"),
+        _ => format!("{t:.6},{v:.5}"),
+    };
+    let text = String::from("time_s,v\n") + &rows(&trace, row);
+    let (fit, warnings) = through(&text, &trace::Options::default());
+    let reason = "the value is NaN".into();
+    assert_eq!(warnings, [Warning::BrokenRows { count: 5, line: 302, reason }]);
+    is_the_trapezoid(&fit);
+}
+
+#[test]
+fn the_order_of_samples_does_not_matter() {
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let mut lines: Vec<String> =
+        rows(&trace, |t, v| format!("{t:.6},{v:.5}")).lines().map(String::from).collect();
+    lines.swap(100, 900);
+    lines.insert(500, lines[499].clone());
+    let text = String::from("time_s,v\n") + &lines.join("\n");
+    let (fit, warnings) = through(&text, &trace::Options::default());
+    // Line 1 is the header.
+    assert_eq!(
+        warnings,
+        [Warning::Unsorted { line: 103 }, Warning::Duplicates { count: 1, line: 502 }]
+    );
+    is_the_trapezoid(&fit);
+}
+
+fn told(fit: &Fit, is: impl Fn(&Warning) -> bool) -> bool {
+    fit.warnings.iter().any(is)
+}
+
+#[test]
+fn what_is_doubtful_is_told() {
+    let options = Options::default();
+    let with = |f: &dyn Fn(f64, f64) -> f64| {
+        let mut trace = sampled(trapezoid, 1500, 0.005);
+        let Trace { times, values } = &mut trace;
+        values.iter_mut().zip(times).for_each(|(v, t)| *v = f(*t, *v));
+        fitted(&trace, &options).unwrap()
+    };
+    let lowered = with(&|_, v| -v);
+    assert_eq!(lowered.warnings, [Warning::Inverted]);
+    is_the_trapezoid(&lowered);
+
+    let clipped = with(&|_, v| v.min(1.9));
+    assert!(told(&clipped, |w| matches!(w, Warning::Clipped { at: 1.9, share } if *share > 0.4)));
+
+    let hum = with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin());
+    let is_hum = |w: &Warning| match w {
+        Warning::Hum { hertz, amplitude } => {
+            (hertz - 400.0).abs() < 4.0 && (amplitude - 0.02).abs() < 0.002
+        }
+        _ => false,
+    };
+    assert!(told(&hum, is_hum), "{:?}", hum.warnings);
+    is_the_trapezoid(&hum);
+
+    let drift = with(&|t, v| v + 8.0 * t);
+    assert!(told(
+        &drift,
+        |w| matches!(w, Warning::Drift { amount } if (amount - 0.048).abs() < 0.004)
+    ));
+    is_the_trapezoid(&drift);
+
+    let spikes = with(&|t, v| {
+        if [200, 201, 700, 1201].contains(&((t * 1.25e5).round() as u32)) { v + 1.7 } else { v }
+    });
+    let first = spikes.warnings.first().cloned();
+    assert!(
+        matches!(first, Some(Warning::Spikes { count: 4, first }) if (first - 0.0016).abs() < 1e-9)
+    );
+    assert_eq!(spikes.warnings.len(), 1);
+    is_the_trapezoid(&spikes);
+
+    let noisy = fitted(&sampled(trapezoid, 200, 0.2), &options).unwrap();
+    assert!(told(&noisy, |w| matches!(w, Warning::NoiseHidesRamps { .. })), "{:?}", noisy.warnings);
+
+    let sharp = sampled(|t| f64::from((0.003..0.008).contains(&t)), 600, 0.005);
+    let sharp = fitted(&sharp, &options).unwrap();
+    assert_eq!(sharp.chosen, Kind::Box);
+    assert!(told(&sharp, |w| matches!(w, Warning::SharpEdges { .. })));
+    // The whole uncertainty is the sampling's: both edges' to a root of 12.
+    let step = 0.012 / 600.0;
+    assert!((sharp.exposure.error / step - (2.0 / 12.0f64).sqrt()).abs() < 0.01);
+
+    let triangle = sampled(|t| (1.0 - (t - 0.006).abs() / 0.004).max(0.0), 1000, 0.005);
+    let triangle = fitted(&triangle, &options).unwrap();
+    assert!(told(&triangle, |w| *w == Warning::NoPlateau), "{:?}", triangle.warnings);
+
+    let bounces = sampled(|t| trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2)), 1500, 0.003);
+    let bounces = fitted(&bounces, &options).unwrap();
+    assert!(told(&bounces, |w| matches!(w, Warning::PoorFit { .. } | Warning::Hum { .. })));
+}
+
+#[test]
+fn what_cannot_be_fitted_is_refused() {
+    let options = Options::default();
+    let refused = |trace: &Trace| fitted(trace, &options).err();
+    let whole = sampled(trapezoid, 1000, 0.005);
+    let part = |from: usize, to: usize| Trace {
+        times: whole.times[from..to].to_vec(),
+        values: whole.values[from..to].to_vec(),
+    };
+    assert_eq!(refused(&part(500, 1000)), Some(Refusal::BeginsInPulse));
+    assert_eq!(refused(&part(0, 500)), Some(Refusal::EndsInPulse));
+    assert_eq!(refused(&part(0, 12)), Some(Refusal::TooFewSamples { samples: 12, required: 16 }));
+    assert!(matches!(refused(&part(0, 160)), Some(Refusal::NoPulse { .. })));
+    assert!(matches!(refused(&sampled(|_| 0.0, 1000, 0.0)), Some(Refusal::NoPulse { .. })));
+    for seed in 0..200 {
+        let mut random = Random::new(seed);
+        let mut noise = part(0, 1000);
+        noise.values.iter_mut().for_each(|v| *v = random.normal());
+        assert!(matches!(refused(&noise), Some(Refusal::NoPulse { .. })), "{seed}");
+    }
+    let short = sampled(|t| f64::from((0.006..0.00605).contains(&t)), 1000, 0.001);
+    assert!(matches!(refused(&short), Some(Refusal::ShortPulse { .. })), "{:?}", refused(&short));
+    let asked = |options: &Options| fitted(&whole, options).err();
+    assert_eq!(
+        asked(&Options { frame: Some(2), ..Options::default() }),
+        Some(Refusal::NoFrame { number: 2, frames: 1 })
+    );
+    assert!(matches!(
+        asked(&Options { full: Some(1.5), ..Options::default() }),
+        Some(Refusal::FullTooLow { .. })
+    ));
+    // Light lowers nothing here: the trace would begin and end in it.
+    assert!(asked(&Options { light: Light::Down, ..Options::default() }).is_some());
+}
+
+#[test]
+fn full_light_scales_exposure_and_efficiency_and_leaves_the_triggers() {
+    let trace = sampled(trapezoid, 1000, 0.005);
+    let [plain, dimmed] = [None, Some(0.1 + 2.0 / 0.8)]
+        .map(|full| fitted(&trace, &Options { full, ..Options::default() }).unwrap());
+    assert!((dimmed.peak - 0.8).abs() < 1e-3);
+    assert!((dimmed.exposure.value - 0.004).abs() < 1e-5);
+    assert!((dimmed.efficiency.value - 0.8 * plain.efficiency.value).abs() < 1e-3);
+    assert_eq!(dimmed.triggers, plain.triggers);
+}
+
+/// Five frames of a leaf shutter whose exposures differ by some per mille.
+fn frames(noise: f64) -> Trace {
+    let mut random = Random::new(3);
+    let leaf = truth(Shutter::Leaf, &mut random);
+    let mut trace = Trace::default();
+    for k in 0..5 {
+        let pace = [1.0, 1.004, 0.997, 1.002, 0.999][k];
+        for i in 0..900 {
+            let t = (i as f64 + 0.5) / 900.0;
+            trace.times.push(k as f64 + t);
+            trace.values.push(leaf.openness(t * pace) + noise * random.normal());
+        }
+    }
+    trace
+}
+
+#[test]
+fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
+    let trace = frames(0.005);
+    let fit = fitted(&trace, &Options::default()).unwrap();
+    assert_eq!((fit.frames.count, fit.frames.fitted), (5, 1));
+    assert!((0.002..0.004).contains(&fit.frames.scatter), "{:?}", fit.frames);
+    assert!(matches!(fit.reason, shutter::fit::Reason::Shots { shots: 5, .. }));
+    // Straight ramps are further from a leaf's than its shots from each other.
+    assert!(fit.chosen > Kind::Trapezoid);
+    let fourth = Options { frame: Some(4), model: Some(Kind::Free), ..Options::default() };
+    let fourth = fitted(&trace, &fourth).unwrap();
+    assert!(fourth.triggers.iter().all(|trigger| (3.0..4.0).contains(&trigger.value)));
+    // Where the shots are lost in noise, the simplest serves as well as any.
+    let noisy = fitted(&frames(0.08), &Options::default()).unwrap();
+    assert!(noisy.chosen <= Kind::Symmetric, "{:?}", noisy.chosen);
+}
+
+#[test]
+fn a_tolerance_asks_for_the_simplest_within_it() {
+    let mut random = Random::new(2);
+    let case =
+        traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
+    let trace = Trace { times: case.times, values: case.values };
+    let within = |tolerance| {
+        let options = Options { tolerance: Some(tolerance), ..Options::default() };
+        fitted(&trace, &options).unwrap()
+    };
+    assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
+    assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
+    let loose = within(Tolerance::Share(0.05));
+    assert_eq!(loose.chosen, Kind::Trapezoid);
+    let most = loose.best().shift;
+    assert_eq!(within(Tolerance::Seconds(1.001 * most)).chosen, Kind::Trapezoid);
+    assert!(within(Tolerance::Seconds(0.999 * most)).chosen > Kind::Trapezoid);
+}
+
+/// A photodiode with a time constant of 60 µs in front of a 10-bit converter, 50 kHz: solved in steps of a microsecond.
+fn photodiode(openness: impl Fn(f64) -> f64) -> String {
+    let (mut level, mut text) = (0.0, String::from("time_ms,counts\n"));
+    let mut random = Random::new(9);
+    for i in 0..24_000 {
+        level += (openness(f64::from(i) * 1e-6) - level) / 60.0;
+        if i % 20 == 0 {
+            let counts = (35.0 + 870.0 * level + 1.5 * random.normal()).round();
+            writeln!(text, "{:.3},{counts}", f64::from(i) * 1e-3).unwrap();
+        }
+    }
+    text
+}
+
+#[test]
+fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
+    let leaf = |t: f64| {
+        let blade = |z: f64| z.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * z.clamp(0.0, 1.0));
+        blade((t - 0.004) / 0.004).min(blade((0.019 - t) / 0.006))
+    };
+    let truth = Truth::new(
+        Box::new(|z| z * z * (3.0 - 2.0 * z)),
+        Box::new(|z| z * z * (3.0 - 2.0 * z)),
+        [0.004, 0.008, 0.013, 0.019],
+    );
+    let (fit, _) = through(&photodiode(leaf), &trace::Options::default());
+    let exposure = truth.exposure();
+    assert!((fit.exposure.value / exposure - 1.0).abs() < 0.002, "{:?}", fit.exposure);
+    for (i, trigger) in fit.triggers.iter().enumerate() {
+        let late = trigger.value - truth.trigger((i as f64 + 0.5) / 16.0);
+        assert!((late - 60e-6).abs() < 0.003 * exposure, "trigger {i}: {late}");
+    }
+}
+
+/// The triggers of the scene that a fit writes, by the crate itself.
+fn planned(fit: &Fit, zero: Zero) -> Plan {
+    let scene = fit.scene("a trace\nwith two lines", zero).unwrap();
+    Plan::parse(&scene.text).unwrap()
+}
+
+#[test]
+fn the_scene_gives_the_same_triggers() {
+    for (k, shutter) in generator::SHUTTERS.into_iter().enumerate() {
+        let mut random = Random::new(40 + k as u64);
+        let truth = truth(shutter, &mut random);
+        let case = traced(truth, Disturbance::White, 1000, 0.005, &mut random);
+        let trace = Trace { times: case.times, values: case.values };
+        let fit = fitted(&trace, &Options::default()).unwrap();
+        for zero in [Zero::Trace, Zero::Open] {
+            let plan = planned(&fit, zero);
+            let start = if zero == Zero::Open { fit.best().signal.curve.start } else { 0.0 };
+            assert_eq!(plan.triggers.len(), 16);
+            for (a, b) in plan.triggers.iter().zip(&fit.triggers) {
+                let off = f64::from(a.time) - (b.value - start);
+                assert!(off.abs() < 2e-6 * fit.exposure.value, "{shutter:?}: {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_corner_of_the_control_numbers_is_a_scene() {
+    for corner in 0..16u32 {
+        let controls: [f64; 4] = std::array::from_fn(|k| f64::from(corner >> k & 1));
+        let ramp = move |z: f64| {
+            let cubic =
+                |a: f64, b: f64, p: f64| 3.0 * p * (1.0 - p) * ((1.0 - p) * a + p * b) + p * p * p;
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..50 {
+                let p = 0.5 * (low + high);
+                if cubic(controls[0], controls[2], p) < z { low = p } else { high = p }
+            }
+            cubic(controls[1], controls[3], low)
+        };
+        let truth = Truth::new(Box::new(ramp), Box::new(ramp), [0.2, 0.4, 0.5, 0.8]);
+        let mut random = Random::new(corner.into());
+        let case = traced(truth, Disturbance::White, 600, 0.0, &mut random);
+        let trace = Trace { times: case.times, values: case.values };
+        for model in [Kind::Symmetric, Kind::Free] {
+            let options = Options { model: Some(model), ..Options::default() };
+            planned(&fitted(&trace, &options).unwrap(), Zero::Trace);
+        }
+    }
+}
+
+#[test]
+fn a_late_trace_moves_time_0_to_the_opening() {
+    let mut trace = sampled(trapezoid, 1000, 0.005);
+    trace.times.iter_mut().for_each(|t| *t += 1e4);
+    let fit = fitted(&trace, &Options::default()).unwrap();
+    let scene = fit.scene("late", Zero::Trace).unwrap();
+    assert_eq!(scene.zero, Zero::Open);
+    assert!(scene.text.contains("open_start = 0\n"), "{}", scene.text);
+}
+
+#[test]
+fn hostile_texts_are_refused_or_fitted_and_never_more() {
+    let options = trace::Options::default();
+    let refused = |bytes: &[u8]| match trace::decode(bytes)
+        .and_then(|text| trace::read(&text, &options))
+    {
+        Err(refusal) => refusal.to_string(),
+        Ok((trace, _)) => fitted(&trace, &Options::default()).err().expect("a refusal").to_string(),
+    };
+    assert!(refused(b"").contains("empty"));
+    assert!(refused(b" \n\n").contains("empty"));
+    assert!(refused(&[0, 159, 146, 150, 0]).contains("binary"));
+    assert!(refused(b"hello\nworld\n").contains("no row of numbers"));
+    assert!(refused(b"{\"a\": 1}").contains("no row of numbers"));
+    assert!(refused(&vec![b'7'; 50 << 20]).contains("52428800 bytes"));
+    assert!(refused("1,2,".repeat(12 << 20).as_bytes()).contains("bytes long"));
+    assert!(refused("t,v\n".repeat(1 << 20).as_bytes()).contains("no row of numbers"));
+    assert!(refused("0,NaN\n".repeat(100).as_bytes()).contains("100 of 100 rows"));
+    assert!(refused("NaN,NaN\n".repeat(100).as_bytes()).contains("NaN"));
+    assert!(refused("1e308,-1e308\n".repeat(100).as_bytes()).contains("beyond"));
+    assert!(refused("1,2,3\n".repeat(100).as_bytes()).contains("1 sample in the trace"));
+    assert!(refused("0.5\n".repeat(100).as_bytes()).contains("--rate"));
+    let huge: String = (0..100).map(|i| format!("{i}e28,{}e29\n", i % 7)).collect();
+    refused(huge.as_bytes());
+    let tiny: String =
+        (0..100).map(|i| format!("{i}e-300,{}e-300\n", i32::from(i > 30 && i < 70))).collect();
+    let (trace, _) = trace::read(&tiny, &options).unwrap();
+    let _ = fitted(&trace, &Options::default());
+    // Whatever a few characters of the alphabet of numbers make.
+    let alphabet: Vec<char> = "0123456789.,;\t \n\n\n-+eE\"NaN#t=µ".chars().collect();
+    for seed in 0..400 {
+        let mut random = Random::new(seed);
+        let length = random.within(1.0, 600.0) as usize;
+        let text: String = (0..length)
+            .map(|_| alphabet[random.within(0.0, alphabet.len() as f64) as usize])
+            .collect();
+        let Ok((trace, _)) = trace::read(&text, &options) else { continue };
+        let _ = fitted(&trace, &Options::default());
+    }
+    // Whatever a signal does.
+    for seed in 0..200 {
+        let mut random = Random::new(seed);
+        let n = random.within(16.0, 300.0) as usize;
+        let mut level = 0.0;
+        let values: Vec<f64> = (0..n)
+            .map(|_| {
+                level = match random.within(0.0, 6.0) as u32 {
+                    0 => random.within(-1.0, 1.0),
+                    1 => random.scale(1e-9, 1e9),
+                    2 => 0.0,
+                    _ => level,
+                };
+                level
+            })
+            .collect();
+        let times = (0..n).map(|i| i as f64 * if seed % 2 == 0 { 1.0 } else { 1e-9 }).collect();
+        if let Ok(fit) = fitted(&Trace { times, values }, &Options::default()) {
+            let _ = fit.scene("chaos", Zero::Trace);
+            let _ = shutter::fit::text("chaos", &fit);
+            let _ = shutter::picture::trace("chaos", &fit).unwrap();
+        }
+    }
+}
+
+struct Run {
+    code: u8,
+    out: String,
+    err: String,
+}
+
+fn run(args: &[&str]) -> Run {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let args = ["shutter", "fit"].iter().chain(args).map(OsString::from);
+    let code = shutter::command::run(args, &mut out, &mut err);
+    Run { code, out: String::from_utf8(out).unwrap(), err: String::from_utf8(err).unwrap() }
+}
+
+fn empty_dir(name: &str) -> PathBuf {
+    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fit").join(name);
+    let _ = fs::remove_dir_all(&dir);
+    fs::create_dir_all(&dir).unwrap();
+    dir
+}
+
+fn written(dir: &Path, name: &str, text: &str) -> String {
+    let path = dir.join(name);
+    fs::write(&path, text).unwrap();
+    path.to_str().unwrap().into()
+}
+
+#[test]
+fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
+    let dir = empty_dir("written");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
+    let csv = written(&dir, "leaf & co.csv", &text);
+    let [toml, svg] =
+        ["leaf.toml", "leaf.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
+    let run = run(&[&csv, "--out", &toml, "--picture", &svg, "--triggers", "5", "--zero", "open"]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
+    assert!(run.out.contains("* straight ramps") && run.out.contains("exposure     5.00"));
+    let scene = fs::read_to_string(&toml).unwrap();
+    assert!(scene.starts_with("# Fitted to leaf & co.csv: straight ramps"), "{scene}");
+    let plan = Plan::parse(&scene).unwrap();
+    assert_eq!(plan.triggers.len(), 5);
+    assert!((plan.curve.exposure() - 0.005).abs() < 5e-6 && plan.curve.open_start() == 0.0);
+    let picture = fs::read_to_string(&svg).unwrap();
+    assert!(picture.starts_with("<svg ") && picture.contains("leaf &amp; co.csv"));
+    assert_eq!(picture.matches("<circle").count(), 5 + 1);
+}
+
+#[test]
+fn what_the_program_refuses_leaves_nothing_behind() {
+    let dir = empty_dir("refused");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
+    let good = written(&dir, "good.csv", &text);
+    let cut = written(&dir, "cut.csv", &text[..text.len() / 2]);
+    let values = written(&dir, "values.csv", &rows(&trace, |_, v| format!("{v}")));
+    let missing = dir.join("missing.csv").to_str().unwrap().to_string();
+    let [toml, svg] =
+        ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
+    for (args, reason) in [
+        (vec![cut.as_str()], "ends in the pulse"),
+        (vec![&values], "--rate"),
+        (vec![&missing], "missing.csv: "),
+        (vec![dir.to_str().unwrap()], ": "),
+        (vec![&good, "--columns", "time_s,w"], "no column 'w'; there are 2: time_s, v"),
+        (vec![&good, "--frame", "3"], "no frame 3; the trace has 1 whole frame"),
+        (vec![&good, "--full", "-3"], "--full -3"),
+        (vec![&good, "--triggers", "0"], "--triggers"),
+        (vec![&good, "--rate", "0"], "above 0"),
+        (vec![&good, "--tolerance", "5"], "0.1% (of the exposure)"),
+        (vec![&good, "--tolerance", "-1%"], "--tolerance"),
+        (vec![&good, "--model", "spline"], "spline"),
+    ] {
+        let run = run(&[args.as_slice(), &["--out", &toml, "--picture", &svg]].concat());
+        assert_eq!(run.code, 2, "{args:?}");
+        assert!(run.err.contains(reason), "{args:?}: {}", run.err);
+        assert_eq!(run.out, "");
+        assert!(!Path::new(&toml).exists() && !Path::new(&svg).exists(), "{args:?}");
+    }
+}

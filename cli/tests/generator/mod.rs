@@ -1,0 +1,256 @@
+//! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time, sampled
+//! and integrated numerically.
+
+/// Random numbers: Marsaglia's xorshift, seeded.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        (0..8).for_each(|_| _ = random.next());
+        random
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+
+    /// Uniform in [a, b).
+    pub fn within(&mut self, a: f64, b: f64) -> f64 {
+        a + (b - a) * ((self.next() >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    /// Uniform by its logarithm.
+    pub fn scale(&mut self, a: f64, b: f64) -> f64 {
+        self.within(a.ln(), b.ln()).exp()
+    }
+
+    pub fn normal(&mut self) -> f64 {
+        let (u, v) = (self.within(1e-300, 1.0), self.within(0.0, std::f64::consts::TAU));
+        (-2.0 * u.ln()).sqrt() * v.cos()
+    }
+}
+
+/// The shutters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shutter {
+    Box,
+    Trapezoid,
+    Leaf,
+    Iris,
+    LiquidCrystal,
+    Symmetric,
+    Cubic,
+}
+
+pub const SHUTTERS: [Shutter; 7] = [
+    Shutter::Box,
+    Shutter::Trapezoid,
+    Shutter::Leaf,
+    Shutter::Iris,
+    Shutter::LiquidCrystal,
+    Shutter::Symmetric,
+    Shutter::Cubic,
+];
+
+/// What disturbs a trace beside white noise, or instead of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Disturbance {
+    White,
+    /// An autoregressive noise, 0.8 from one sample to the next.
+    Coloured,
+    Hum,
+    Drift,
+}
+
+/// A ramp from 0 at 0 to 1 at 1.
+type Ramp = Box<dyn Fn(f64) -> f64>;
+
+/// The truth: a ramp, a plateau, a ramp in the time of the trace, which is from 0 to 1.
+pub struct Truth {
+    opening: Ramp,
+    /// Seen backwards.
+    closing: Ramp,
+    /// Start to open, open, start to close, closed.
+    pub times: [f64; 4],
+    /// The integral at so many places from the first to the last time.
+    sums: Vec<f64>,
+}
+
+impl Truth {
+    pub fn new(opening: Ramp, closing: Ramp, times: [f64; 4]) -> Self {
+        let mut truth = Self { opening, closing, times, sums: vec![0.0] };
+        let n = 40_000;
+        let width = (times[3] - times[0]) / f64::from(n);
+        for i in 0..n {
+            let middle = times[0] + (f64::from(i) + 0.5) * width;
+            truth.sums.push(truth.sums[truth.sums.len() - 1] + width * truth.openness(middle));
+        }
+        truth
+    }
+
+    pub fn openness(&self, t: f64) -> f64 {
+        let [start, open, close, end] = self.times;
+        if t < start || t > end {
+            0.0
+        } else if t < open {
+            (self.opening)((t - start) / (open - start))
+        } else if t <= close {
+            1.0
+        } else {
+            (self.closing)((end - t) / (end - close))
+        }
+    }
+
+    pub fn exposure(&self) -> f64 {
+        self.sums[self.sums.len() - 1]
+    }
+
+    pub fn efficiency(&self) -> f64 {
+        self.exposure() / (self.times[3] - self.times[0])
+    }
+
+    /// The integral up to a time.
+    pub fn collected(&self, t: f64) -> f64 {
+        let n = self.sums.len() - 1;
+        let x = (t - self.times[0]) / (self.times[3] - self.times[0]) * n as f64;
+        let x = x.clamp(0.0, n as f64);
+        let i = (x as usize).min(n - 1);
+        self.sums[i] + (self.sums[i + 1] - self.sums[i]) * (x - i as f64)
+    }
+
+    /// When the fraction `u` of the exposure is collected.
+    pub fn trigger(&self, u: f64) -> f64 {
+        let target = u * self.exposure();
+        let i = self.sums.partition_point(|sum| *sum < target).max(1);
+        let part = (target - self.sums[i - 1]) / (self.sums[i] - self.sums[i - 1]);
+        let width = (self.times[3] - self.times[0]) / (self.sums.len() - 1) as f64;
+        self.times[0] + ((i - 1) as f64 + part) * width
+    }
+}
+
+fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
+    let cubic = |a: f64, b: f64, p: f64| {
+        let r = 1.0 - p;
+        3.0 * r * r * p * a + 3.0 * r * p * p * b + p * p * p
+    };
+    Box::new(move |z| {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let p = 0.5 * (low + high);
+            if cubic(x1, x2, p) < z { low = p } else { high = p }
+        }
+        cubic(y1, y2, low)
+    })
+}
+
+/// The uncovered part of a circle behind an edge that has gone so far across it.
+fn circle(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    ((1.0 - 2.0 * x).acos() - (1.0 - 2.0 * x) * 2.0 * (x * (1.0 - x)).sqrt()) / std::f64::consts::PI
+}
+
+pub fn truth(shutter: Shutter, random: &mut Random) -> Truth {
+    let start = random.within(0.15, 0.35);
+    let length = random.within(0.3, 0.5);
+    let (a, b) = (random.within(0.05, 0.45) * length, random.within(0.05, 0.45) * length);
+    let times = [start, start + a, start + length - b, start + length];
+    let straight = || -> Ramp { Box::new(|z| z) };
+    let controls = |random: &mut Random| [0; 4].map(|_| random.within(0.0, 1.0));
+    match shutter {
+        Shutter::Box => {
+            Truth::new(straight(), straight(), [start, start, start + length, start + length])
+        }
+        Shutter::Trapezoid => Truth::new(straight(), straight(), times),
+        // The blades start from rest and uncover a round pupil; they come back at their own pace.
+        Shutter::Leaf => {
+            let (p, q) = (random.within(1.0, 2.0), random.within(1.0, 2.0));
+            let blade = |p: f64| -> Ramp { Box::new(move |z| circle(z.powf(p))) };
+            Truth::new(blade(p), blade(q), times)
+        }
+        // A round hole whose radius grows, evenly or with a smooth start.
+        Shutter::Iris => {
+            let (p, q) = (random.within(1.0, 1.5), random.within(1.0, 1.5));
+            let radius = |p: f64| -> Ramp { Box::new(move |z| z.powf(2.0 * p)) };
+            Truth::new(radius(p), radius(q), times)
+        }
+        // Driven open in an exponential, relaxing in a slower one with a tail of ten time constants.
+        Shutter::LiquidCrystal => {
+            let (rise, fall) = (random.within(0.02, 0.06), random.within(0.03, 0.08));
+            let (rise, fall) = (rise * length, fall * length);
+            let open = start + 10.0 * rise;
+            let close = open.max(start + random.within(0.4, 0.7) * length);
+            let end = (1.0f64 - 2e-2).min(close + 10.0 * fall);
+            let (tau, tail) = (rise / (open - start), fall / (end - close));
+            Truth::new(
+                Box::new(move |z| 1.0 - (-z / tau).exp()),
+                Box::new(move |z| (-(1.0 - z) / tail).exp()),
+                [start, open, close, end],
+            )
+        }
+        Shutter::Symmetric => {
+            let controls = controls(random);
+            Truth::new(bezier(controls), bezier(controls), times)
+        }
+        Shutter::Cubic => Truth::new(bezier(controls(random)), bezier(controls(random)), times),
+    }
+}
+
+/// A trace with its truth, which is in the time of the trace.
+pub struct Case {
+    pub truth: Truth,
+    pub times: Vec<f64>,
+    pub values: Vec<f64>,
+    /// The times are these many times the truth's.
+    pub scale: f64,
+}
+
+pub fn case(shutter: Shutter, disturbance: Disturbance, random: &mut Random) -> Case {
+    let truth = truth(shutter, random);
+    let n = random.scale(400.0, 4000.0) as usize;
+    let noise = random.scale(0.003, 0.02);
+    traced(truth, disturbance, n, noise, random)
+}
+
+pub fn traced(
+    truth: Truth,
+    disturbance: Disturbance,
+    n: usize,
+    noise: f64,
+    random: &mut Random,
+) -> Case {
+    let (scale, dark) = (random.scale(1e-4, 10.0), random.within(-1.0, 1.0));
+    let light = random.scale(0.05, 5.0) * if random.within(0.0, 1.0) < 0.3 { -1.0 } else { 1.0 };
+    // One detector shows the moment, the other what it has gathered since its last sample.
+    let gathers = random.within(0.0, 1.0) < 0.5;
+    let step = 1.0 / n as f64;
+    let (periods, phase) = (random.scale(3.0, 30.0), random.within(0.0, 6.3));
+    let hum = random.scale(0.005, 0.03);
+    let drift = random.within(-0.05, 0.05);
+    let mut last = random.normal();
+    let mut values = Vec::with_capacity(n);
+    for i in 0..n {
+        let t = (i as f64 + 0.5) * step;
+        let f = if gathers {
+            (truth.collected(t + 0.5 * step) - truth.collected(t - 0.5 * step)) / step
+        } else {
+            truth.openness(t)
+        };
+        let fresh = random.normal();
+        last = match disturbance {
+            Disturbance::Coloured => 0.8 * last + 0.6 * fresh,
+            _ => fresh,
+        };
+        let beside = match disturbance {
+            Disturbance::Hum => hum * (std::f64::consts::TAU * periods * t + phase).sin(),
+            Disturbance::Drift => drift * t,
+            _ => 0.0,
+        };
+        values.push(dark + light * (f + noise * last + beside));
+    }
+    let times = (0..n).map(|i| scale * (i as f64 + 0.5) * step).collect();
+    Case { truth, times, values, scale }
+}
