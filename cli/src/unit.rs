@@ -1,9 +1,9 @@
 //! Units of time, and numbers as people write them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A unit of time, by the name that it has in a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Unit {
     /// `s`
     #[serde(rename = "s")]

@@ -19,7 +19,7 @@ mod starts;
 
 pub use curve::Curve;
 pub use errors::Measured;
-pub use report::text;
+pub use report::{because, plus_minus, text};
 pub use scene::{Scene, Zero};
 pub use signal::{Hum, Kind, Signal};
 
