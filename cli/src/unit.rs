@@ -78,6 +78,13 @@ pub fn short(x: f64, digits: i32) -> String {
     trimmed(x, decimals(x, digits))
 }
 
+/// The number that [`short`] writes.
+pub fn rounded(x: f64, digits: i32) -> f64 {
+    let scale = 10f64.powi(decimals(x, digits) as i32);
+    let rounded = (x * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { x }
+}
+
 /// `x` to so many decimals, without the zeros that say nothing.
 pub fn trimmed(x: f64, places: usize) -> String {
     let fixed = format!("{x:.places$}");

@@ -47,7 +47,7 @@ function facts(scene, plan) {
   });
   // The closest gap beside what is required of it.
   const box = $('gap');
-  box.hidden = plan.closest === null || plan.min_gap === 0;
+  box.hidden = Number.isNaN(plan.closest) || plan.min_gap === 0;
   if (box.hidden) return;
   if (!box.firstChild) {
     const bar = element('div', undefined, { class: 'meter', 'aria-hidden': true });
@@ -170,7 +170,7 @@ function setUps(scene, plan) {
     const [least, most] = [Math.min(...parts), Math.max(...parts)].map((x) => short(x, 3));
     const lengths = pulses.map(([from, to]) => (to - from) * perSecond(scene.unit));
     const [shortest, longest] = [Math.min(...lengths), Math.max(...lengths)].map((x) => short(x, 3));
-    const between = (a, b, unit) => (a === b ? `${a} ${unit}` : `${a} to ${b} ${unit}`);
+    const between = (a, b, unit) => (b - a <= 0.005 * b ? `${b} ${unit}` : `${a} to ${b} ${unit}`);
     write(figure.lastChild, `doses ${between(least, most, '%')}; pulses of ${between(shortest, longest, scene.unit)}`);
   });
 }
@@ -190,7 +190,7 @@ function bars(plan, n) {
     box.append(element('p', undefined, { class: 'note' }));
   }
   const names = ['ideal: the curve itself', `${n} ${plan.pulses.length ? 'pulses' : 'flashes'}`];
-  [plan.bar.ideal, plan.bar.triggered].forEach((light, i) => {
+  [plan.ideal, plan.triggered].forEach((light, i) => {
     const [caption, canvas] = box.children[i].children;
     write(caption, names[i]);
     canvas.setAttribute('aria-label', `The exposed bar, ${names[i]}`);
@@ -203,7 +203,7 @@ function bars(plan, n) {
     });
     context.putImageData(picture, 0, 0);
   });
-  const squares = plan.bar.ideal.reduce((sum, x, i) => sum + (x - plan.bar.triggered[i]) ** 2, 0);
+  const squares = plan.ideal.reduce((sum, x, i) => sum + (x - plan.triggered[i]) ** 2, 0);
   write(box.lastChild, `The pictures differ by ${short(100 * Math.sqrt(squares / 480), 2)} % of the brightest (rms). More triggers, or a wider bar, and the steps vanish.`);
 }
 

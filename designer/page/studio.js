@@ -54,6 +54,5 @@ export function cancel(reason = 'stopped') {
 }
 
 export const emit = (scene, form) => queued('emit', { ask: 'emit', name: scene.name, scene: toml(scene), form });
-export const picture = (scene, picture) => queued('picture', { ask: 'picture', name: scene.name, scene: toml(scene), picture });
 export const parse = (name, text) => queued('scene', { ask: 'scene', name, scene: text });
 export const fit = (name, file, progress) => queued('fit', { ask: 'fit', name }, file, progress);

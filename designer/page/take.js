@@ -30,8 +30,7 @@ export function start() {
   $('copy').onclick = async () => copy(await text, `Copied: ${title()}`);
   $('save').onclick = async () => save(await text, `${fileName()}.${FORMS.find(([name]) => name === form)[2]}`);
   $('link').onclick = () => copy(location.href, 'Copied: a link to this curve');
-  $('svg').onclick = () => picture('plan', '');
-  $('svg-set-ups').onclick = () => picture('set-ups', '-set-ups');
+  $('svg').onclick = picture;
   choose(form);
 }
 
@@ -56,7 +55,7 @@ function choose(name) {
 
 /** Shows the form of a scene; with `wrong`, that of the last one that is right, which cannot be copied. */
 export function show(newest, wrong) {
-  for (const id of ['copy', 'save', 'svg', 'svg-set-ups']) $(id).disabled = Boolean(wrong);
+  for (const id of ['copy', 'save', 'svg']) $(id).disabled = Boolean(wrong);
   $('code').classList.toggle('stale', Boolean(wrong));
   if (wrong) return;
   scene = newest;
@@ -95,8 +94,14 @@ function save(words, name) {
   told(`Saved: ${name}`);
 }
 
-async function picture(which, suffix) {
-  const answer = await studio.picture(scene, which);
-  if (answer?.Ok) save(answer.Ok, `${fileName()}${suffix}.svg`);
-  else if (answer) told(answer.Err.reason);
+// The graph as it is seen, but for the handles, with the colours of light and dark.
+async function picture() {
+  const style = await (await fetch('style.css')).text();
+  const graph = $('graph').querySelector('svg').cloneNode(true);
+  for (const part of graph.querySelectorAll('.handle, .arms')) part.remove();
+  for (const part of [graph, ...graph.querySelectorAll('*')]) part.removeAttribute('aria-hidden');
+  graph.setAttribute('role', 'img');
+  graph.setAttribute('aria-label', `Openness and exposure of the shutter ${scene.name} over time, with its triggers`);
+  graph.prepend(Object.assign(document.createElementNS(graph.namespaceURI, 'style'), { textContent: `${style}:root { background: var(--card) }` }));
+  save(new XMLSerializer().serializeToString(graph), `${fileName()}.svg`);
 }

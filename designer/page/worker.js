@@ -1,4 +1,4 @@
-// The crate as WebAssembly with all that takes longer: forms, pictures, fits.
+// The crate as WebAssembly with all that is not needed at each move of the mouse.
 
 const [encoder, decoder] = [new TextEncoder(), new TextDecoder()];
 const progress = (share) => postMessage({ progress: share });

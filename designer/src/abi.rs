@@ -9,6 +9,7 @@ thread_local! {
     static QUESTION: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     #[cfg(feature = "studio")]
     static PAYLOAD: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static NUMBERS: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
     static ANSWER: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
@@ -34,7 +35,9 @@ pub extern "C" fn payload(length: usize) -> *mut u8 {
 /// Answers the question with what is shown of a scene; the answer has so many bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn view() -> usize {
-    told(QUESTION.with_borrow(|question| crate::view(question)))
+    let (answer, numbers) = QUESTION.with_borrow(|question| crate::view(question));
+    NUMBERS.set(numbers);
+    told(answer)
 }
 
 /// Answers any other question, with its payload.
@@ -55,6 +58,12 @@ fn told(answer: String) -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     ANSWER.with_borrow(|answer| answer.as_ptr())
+}
+
+/// Where the numbers of a view are.
+#[unsafe(no_mangle)]
+pub extern "C" fn numbers() -> *const f64 {
+    NUMBERS.with_borrow(|numbers| numbers.as_ptr())
 }
 
 fn room(bytes: &mut Vec<u8>, length: usize) -> *mut u8 {

@@ -1,6 +1,5 @@
 //! The exposed picture of a bright bar that moves while the shutter is open: ideal, and as the triggers expose it.
 
-use serde::Serialize;
 use shutter::lamp::Lamp;
 use shutter::plan::Plan;
 
@@ -8,10 +7,9 @@ use shutter::plan::Plan;
 const COLUMNS: u16 = 480;
 
 /// Brightness along the way, 1 being the greatest of the ideal picture.
-#[derive(Serialize)]
 pub struct Bar {
-    ideal: Vec<f32>,
-    triggered: Vec<f32>,
+    pub ideal: Vec<f32>,
+    pub triggered: Vec<f32>,
 }
 
 impl Bar {

@@ -1,9 +1,8 @@
-//! What takes longer, and is loaded when it is first asked for: pictures to save, and fits to a trace.
+//! What is loaded after the page has begun: forms to take away, scenes that are opened, fits to a trace.
 
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
 use shutter::fit::{self, Options, Zero};
-use shutter::picture;
 use shutter::plan::Plan;
 use shutter::scene;
 use shutter::trace;
@@ -22,8 +21,6 @@ const LONGEST: usize = 256 << 20;
 enum Question {
     /// The plan in one of the forms.
     Emit { name: String, scene: String, form: String },
-    /// A picture of the plan.
-    Picture { name: String, scene: String, picture: String },
     /// The numbers of a scene.
     Scene { name: String, scene: String },
     /// The scene that fits a trace, which is the question's payload.
@@ -34,7 +31,6 @@ enum Question {
 pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> String {
     match serde_json::from_slice(question) {
         Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, &form)),
-        Ok(Question::Picture { name, scene, picture }) => json(&drawn(&name, &scene, &picture)),
         Ok(Question::Scene { name, scene }) => json(&checked(&name, &scene)),
         Ok(Question::Fit { name, unit, rate }) => {
             json(&fitted(&name, payload, unit, rate, progress))
@@ -63,16 +59,6 @@ fn checked(name: &str, text: &str) -> Result<scene::Scene, Wrong> {
 
 fn plan(name: &str, text: &str) -> Result<Plan, Wrong> {
     Ok(Plan::parse(text).map_err(|fault| fault.locate(name, text))?)
-}
-
-/// A picture of the plan, as an SVG.
-fn drawn(name: &str, scene: &str, which: &str) -> Result<String, Wrong> {
-    let draw = match which {
-        "plan" => picture::svg,
-        "set-ups" => picture::set_ups,
-        _ => return Err(format!("there is no picture {which}").into()),
-    };
-    draw(name, &plan(name, scene)?).map_err(|e| format!("the picture: {e}").into())
 }
 
 /// A trace, and the scene that fits it.

@@ -4,10 +4,10 @@ use serde::Serialize;
 use shutter::facts;
 use shutter::plan::Plan;
 use shutter::scene::{Scene, Values};
-use shutter::set_up::SetUps;
+use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
 use shutter::unit::Unit;
-use shutter_curve::{CubicBezier, CurveError, Ramp, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Ramp};
 
 use crate::bar::Bar;
 use crate::cost::{BYTES, COSTS, Cost};
@@ -23,14 +23,15 @@ const MOST_DOSES: usize = 128;
 /// A scene's curve, and its plan where it has one. Times are in seconds.
 #[derive(Serialize)]
 struct View {
-    times: [f32; 4],
-    /// Both ramps' control points as (time, openness).
-    ramps: [[(f32, f32); 4]; 2],
-    cdf: Vec<(f32, f32)>,
+    times: Part,
+    /// Both ramps' control points, time and openness of each.
+    ramps: Part,
+    /// Times, each with its share of the exposure.
+    cdf: Part,
     /// Where the equal shares of the exposure begin and end.
-    edges: Vec<f32>,
-    /// The triggers as (time, openness, share of the exposure).
-    marks: Vec<(f32, f32, f32)>,
+    edges: Part,
+    /// Of each trigger the time, the openness and the share of the exposure.
+    marks: Part,
     plan: Result<Planned, Wrong>,
 }
 
@@ -39,24 +40,41 @@ struct Planned {
     facts: Vec<(&'static str, String)>,
     ticks: Vec<u32>,
     pulses: Vec<(u32, u32)>,
-    /// The least darkness or gap between two, in seconds, and what is asked for.
-    closest: Option<f64>,
-    min_gap: f64,
-    most: u32,
+    /// The least gap between two, or the least darkness, where there are two; what is asked for; the exposure.
+    seconds: Part,
     direct: u32,
-    exposure: f32,
-    bar: Bar,
+    /// The moving bar's brightness along its way: ideal, and as it is triggered.
+    ideal: Part,
+    triggered: Part,
     set_ups: Vec<Doses>,
     bytes: u32,
     costs: [Cost; 3],
 }
 
-/// One of the set-ups: the lamp's pulses, each with its dose of light.
+/// One of the set-ups.
 #[derive(Serialize)]
 struct Doses {
     title: &'static str,
     is_shuttered: bool,
-    pulses: Vec<(f32, f32, f32)>,
+    /// When the lamp is on and off, and the dose of light, of each pulse.
+    pulses: Part,
+}
+
+/// Where numbers of the answer are, from and to: the page reads them as they are in memory, which is faster than as text and
+/// leaves out of its first load what writes floats.
+#[derive(Serialize)]
+struct Part(usize, usize);
+
+/// All numbers of an answer.
+#[derive(Default)]
+struct Numbers(Vec<f64>);
+
+impl Numbers {
+    fn put<T: Into<f64>>(&mut self, numbers: impl IntoIterator<Item = T>) -> Part {
+        let from = self.0.len();
+        self.0.extend(numbers.into_iter().map(Into::into));
+        Part(from, self.0.len())
+    }
 }
 
 /// A scene's numbers, as the page writes them into memory.
@@ -105,9 +123,11 @@ impl Question {
     }
 }
 
-/// All that is shown of the scene in the question.
-pub fn view(question: &[u8]) -> String {
-    json(&Question::read(question).and_then(|question| View::new(&question)))
+/// All that is shown of the scene in the question: JSON, and the numbers that it speaks of.
+pub fn view(question: &[u8]) -> (String, Vec<f64>) {
+    let mut numbers = Numbers::default();
+    let view = Question::read(question).and_then(|question| View::new(&question, &mut numbers));
+    (json(&view), numbers.0)
 }
 
 impl View {
@@ -115,8 +135,7 @@ impl View {
     ///
     /// # Errors
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
-    fn new(question: &Question) -> Result<Self, Wrong> {
-        let bar = question.bar();
+    fn new(question: &Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
         let scene = Scene::try_from(question.values())?;
         let planned = Plan::new(&scene);
         let shape = scene.shape()?;
@@ -128,54 +147,52 @@ impl View {
             }
         };
         let n = scene.triggers().min(MOST);
-        let times = (0..=POINTS).map(|i| {
-            let part = f32::from(i) / f32::from(POINTS);
-            curve.open_start() + (curve.close_end() - curve.open_start()) * part
-        });
+        let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+        let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
         let u = |i: f32| i / n as f32;
         let marks = (0..n).zip(curve.trigger_times(n));
+        let points = ramps(&shape).map(|ramp| ramp.points());
         Ok(Self {
-            times: shape.times,
-            ramps: ramps(&shape).map(|ramp| ramp.points()),
-            cdf: times.map(|t| (t, curve.cdf(t))).collect(),
-            edges: (0..=n).map(|i| curve.inverse_cdf(u(i as f32))).collect(),
-            marks: marks.map(|(i, t)| (t, curve.opening(t), u(i as f32 + 0.5))).collect(),
-            plan: planned.map(|plan| Planned::new(&plan, &curve, bar)).map_err(Wrong::from),
+            times: numbers.put(shape.times),
+            ramps: numbers.put(points.into_iter().flatten().flat_map(|(t, y)| [t, y])),
+            cdf: numbers.put(times.flat_map(|t| [t, curve.cdf(t)])),
+            edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
+            marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.opening(t), u(i as f32 + 0.5)])),
+            plan: planned
+                .map(|plan| Planned::new(&plan, question.bar(), numbers))
+                .map_err(Wrong::from),
         })
     }
 }
 
 impl Planned {
-    fn new(plan: &Plan, curve: &ShutterCurve, bar: f32) -> Self {
+    fn new(plan: &Plan, bar: f32, numbers: &mut Numbers) -> Self {
         let pulses: Vec<_> = plan.triggers.iter().filter_map(|trigger| trigger.pulse).collect();
         let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
         let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
+        let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
+        let bar = Bar::new(plan, bar.clamp(0.005, 1.0));
         let SetUps { length, rows } = SetUps::new(plan);
         let rows = if plan.triggers.len() > MOST_DOSES { Vec::new() } else { Vec::from(rows) };
-        let set_ups = rows.into_iter().map(|row| Doses {
-            title: row.title,
-            is_shuttered: row.is_shuttered,
-            pulses: row
-                .pulses
-                .iter()
-                .map(|&(on, off)| (on, off, row.dose(plan, length, (on, off))))
-                .collect(),
-        });
+        let mut doses = |row: &Row| {
+            let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(plan, length, (on, off))];
+            let pulses = numbers.put(row.pulses.iter().flat_map(dose));
+            Doses { title: row.title, is_shuttered: row.is_shuttered, pulses }
+        };
+        let set_ups = rows.iter().map(&mut doses).collect();
         // The name is the page's.
         let facts = facts::lines("", plan).into_iter().filter(|(what, _)| *what != "scene");
         Self {
             facts: facts.collect(),
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
-            closest: closest.map(|ticks| plan.seconds(ticks)),
-            min_gap: plan.min_gap,
-            most: plan.most,
+            pulses,
+            seconds: numbers.put([closest, plan.min_gap, plan.curve.exposure().into()]),
             direct: facts::Facts::new(plan).direct_triggers,
-            exposure: curve.exposure(),
-            bar: Bar::new(plan, bar.clamp(0.005, 1.0)),
-            set_ups: set_ups.collect(),
+            ideal: numbers.put(bar.ideal),
+            triggered: numbers.put(bar.triggered),
+            set_ups,
             bytes: BYTES,
             costs: COSTS,
-            pulses,
         }
     }
 }
