@@ -55,7 +55,11 @@ export class Graph {
     this.bubble = Object.assign(document.createElement('p'), { id: 'bubble', hidden: true });
     this.bubble.setAttribute('role', 'alert');
     box.append(root, this.bubble);
-    new ResizeObserver(() => this.draw()).observe(box);
+    this.room = box.clientWidth;
+    new ResizeObserver(([{ contentRect }]) => {
+      this.room = contentRect.width;
+      this.draw();
+    }).observe(box);
   }
 
   handle(name, i) {
@@ -65,6 +69,8 @@ export class Graph {
     svg('circle', { r: 11, class: 'halo' }, group);
     if (isTime) svg('rect', { x: -6, y: -6, width: 12, height: 12, rx: 2.5 }, group);
     else svg('circle', { r: 6 }, group);
+    // The page must not scroll with the finger.
+    group.addEventListener('touchstart', (event) => event.preventDefault(), { passive: false });
     group.addEventListener('pointerdown', (event) => this.grab(event));
     group.addEventListener('keydown', (event) => this.key(event, i));
     return group;
@@ -182,7 +188,7 @@ export class Graph {
   }
 
   fit() {
-    const width = Math.max(280, this.box.clientWidth);
+    const width = Math.max(280, Math.floor(this.room));
     const height = Math.round(Math.min(520, Math.max(400, width * 0.56)));
     Object.assign(this, { width: width - LEFT - RIGHT, height: Math.round((height - TOP - BETWEEN - BOTTOM) * 0.62) });
     this.bottom = TOP + this.height;
@@ -233,7 +239,7 @@ export class Graph {
   }
 
   draw() {
-    if (!this.view || !this.box.clientWidth) return;
+    if (!this.view || !this.room) return;
     this.fit();
     const { view, paths } = this;
     const per = perSecond(this.scene.unit);
@@ -291,12 +297,13 @@ export class Graph {
     const { scene } = this;
     const places = this.handles.map((_, i) => this.place(scene, i));
     const isDrawn = places.map((place) => place.every(Number.isFinite));
+    const within = (x) => Math.min(Math.max(x, -1e5), 1e5);
+    const at = places.map(([t, o]) => [within(this.x(t)), within(this.y(o))]);
     places.forEach(([t, o], i) => {
       const handle = this.handles[i];
       handle.style.display = isDrawn[i] ? '' : 'none';
       if (!isDrawn[i]) return;
-      const x = Math.min(Math.max(this.x(t), -1e5), 1e5), y = Math.min(Math.max(this.y(o), -1e5), 1e5);
-      handle.setAttribute('transform', `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+      handle.setAttribute('transform', `translate(${at[i].map((x) => x.toFixed(1))})`);
       handle.classList.toggle('wrong', i === this.at);
       const fraction = innerOf(scene)[2 * (i - 4)];
       const said = i < 4 ? `${short(t)} ${scene.unit}` : `time ${short(fraction)}, openness ${short(o)}`;
@@ -305,7 +312,7 @@ export class Graph {
       handle.setAttribute('aria-valuetext', said);
       handle.setAttribute('aria-valuenow', short(i < 4 ? t : fraction));
     });
-    const point = (i) => `${this.x(places[i][0]).toFixed(1)} ${this.y(places[i][1]).toFixed(1)}`;
+    const point = (i) => at[i].map((x) => x.toFixed(1));
     const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
     this.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${point(a)}L${point(b)}`).join(''));
 
@@ -314,11 +321,11 @@ export class Graph {
     bubble.hidden = !isShown;
     if (!isShown) return;
     if (bubble.textContent !== this.wrong.reason) bubble.textContent = this.wrong.reason;
-    const [t, o] = places[this.at];
-    const room = this.box.clientWidth;
+    const [middle, height] = at[this.at];
+    const { room } = this;
     const half = Math.min(150, room / 2 - 4);
-    const x = Math.min(Math.max(this.x(t), half + 4), room - half - 4);
-    const y = Math.min(Math.max(this.y(o), 0), this.cdfBottom - 80);
+    const x = Math.min(Math.max(middle, half + 4), room - half - 4);
+    const y = Math.min(Math.max(height, 0), this.cdfBottom - 80);
     bubble.style.left = `${x}px`;
     bubble.style.top = `${y + 16}px`;
     bubble.style.width = `${2 * half}px`;

@@ -102,6 +102,7 @@ async function picture() {
   for (const part of [graph, ...graph.querySelectorAll('*')]) part.removeAttribute('aria-hidden');
   graph.setAttribute('role', 'img');
   graph.setAttribute('aria-label', `Openness and exposure of the shutter ${scene.name} over time, with its triggers`);
-  graph.prepend(Object.assign(document.createElementNS(graph.namespaceURI, 'style'), { textContent: `${style}:root { background: var(--card) }` }));
-  save(new XMLSerializer().serializeToString(graph), `${fileName()}.svg`);
+  const text = new XMLSerializer().serializeToString(graph);
+  // As text: this page itself takes no styles but from its sheet.
+  save(text.replace('>', () => `><style>${style}:root { background: var(--card) }</style>`), `${fileName()}.svg`);
 }
