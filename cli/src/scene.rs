@@ -262,9 +262,7 @@ impl Scene {
         let is_time = matches!(error, CurveError::InnerTimesTurnBack(_));
         let mut fault = Fault::at(inner, error);
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        if let Some((convention, inner)) =
-            shape.misread(self.unit()).filter(|_| is_time)
-        {
+        if let Some((convention, inner)) = shape.misread(self.unit()).filter(|_| is_time) {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));

@@ -45,7 +45,10 @@ pub extern "C" fn view() -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn ask() -> usize {
     let payload = PAYLOAD.take();
-    told(QUESTION.with_borrow(|question| crate::ask(question, payload, &mut |share| progress(share))))
+    told(
+        QUESTION
+            .with_borrow(|question| crate::ask(question, payload, &mut |share| progress(share))),
+    )
 }
 
 fn told(answer: String) -> usize {

@@ -65,7 +65,9 @@ impl Flashes {
 
     /// The share of the light that has come by the time `t`.
     fn light(&self, plan: &Plan, t: f32) -> f32 {
-        let Some(last) = self.edges.partition_point(|&(on, _)| on <= t).checked_sub(1) else { return 0.0 };
+        let Some(last) = self.edges.partition_point(|&(on, _)| on <= t).checked_sub(1) else {
+            return 0.0;
+        };
         let (on, off) = self.edges[last];
         (self.before[last] + dose_until(plan, (on, off), t)) / self.all
     }

@@ -91,9 +91,11 @@ fn fitted(
     let text = trace::decode(&bytes).map_err(|refusal| refusal.to_string())?;
     drop(bytes);
     let reading = trace::Options { unit, rate, ..Default::default() };
-    let (trace, mut warnings) = trace::read(&text, &reading).map_err(|refusal| refusal.to_string())?;
+    let (trace, mut warnings) =
+        trace::read(&text, &reading).map_err(|refusal| refusal.to_string())?;
     drop(text);
-    let fit = fit::fit(&trace, &Options::default(), progress).map_err(|refusal| refusal.to_string())?;
+    let fit =
+        fit::fit(&trace, &Options::default(), progress).map_err(|refusal| refusal.to_string())?;
     let scene = fit.scene(name, Zero::Open).map_err(|refusal| refusal.to_string())?;
     warnings.extend(fit.warnings.iter().cloned());
     let best = fit.best();

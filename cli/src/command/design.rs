@@ -74,7 +74,10 @@ impl Page {
             files.insert(format!("/{name}"), (kind, fs::read(&path).map_err(missing)?));
         }
         let index = files.get("/index.html").cloned();
-        files.insert("/".into(), index.ok_or(format!("{here}: no page; designer/build.sh makes it"))?);
+        files.insert(
+            "/".into(),
+            index.ok_or(format!("{here}: no page; designer/build.sh makes it"))?,
+        );
         Ok(Self(files))
     }
 

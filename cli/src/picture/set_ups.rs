@@ -49,7 +49,8 @@ fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
     title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
     let (left, right) = rest.split_horizontally(LEFT * SCALE);
     draw_light(&left, plan, row)?;
-    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
+    let doses: Vec<_> =
+        row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
     draw_doses(&right, &doses)
 }
 
