@@ -69,6 +69,7 @@ function ticks(scene, plan, marks) {
   const names = ['#', 'u', `time (${scene.unit})`, 'ticks', 'gap', ...(pulses.length ? ['on', 'off'] : [])];
   if (table.dataset.names !== String(names)) {
     table.dataset.names = names;
+    table.style.setProperty('--columns', names.length);
     const head = element('tr');
     head.append(...names.map((name) => element('th', name, { scope: 'col' })));
     table.replaceChildren(element('thead'), element('tbody'));
@@ -170,7 +171,7 @@ function setUps(scene, plan) {
     const [least, most] = [Math.min(...parts), Math.max(...parts)].map((x) => short(x, 3));
     const lengths = pulses.map(([from, to]) => (to - from) * perSecond(scene.unit));
     const [shortest, longest] = [Math.min(...lengths), Math.max(...lengths)].map((x) => short(x, 3));
-    const between = (a, b, unit) => (b - a <= 0.005 * b ? `${b} ${unit}` : `${a} to ${b} ${unit}`);
+    const between = (a, b, unit) => (b - a <= 0.01 * b ? `${b} ${unit}` : `${a} to ${b} ${unit}`);
     write(figure.lastChild, `doses ${between(least, most, '%')}; pulses of ${between(shortest, longest, scene.unit)}`);
   });
 }
