@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Runs a command with what the firmware needs: a compiler that has the thumb targets, its clippy, QEMU, a
-# disassembler and the log decoder.
+# Runs a command with what the firmware needs: a compiler that has the targets, its clippy, QEMU, a disassembler
+# and the log decoder.
 #
 #   .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger
+#   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
 #
 # What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm,
 # llvm-objdump and defmt-print). What is missing is unpacked from Debian's packages, or built, into a
 # cache folder; nothing is installed. The settings last for the command alone.
 set -euo pipefail
 
-targets=(thumbv7em-none-eabihf thumbv6m-none-eabi)
+read -ra targets <<<"${TARGETS:-thumbv7em-none-eabihf thumbv6m-none-eabi}"
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/shutter-curve-thumb
 bin=$cache/bin
 # Debian's compiler lies apart: it is used only where the machine's own lacks the targets.
@@ -97,23 +98,32 @@ set_up_rustc() {
         mkdir -p "${linker%/*}"
         ln -sfn "$lld" "$linker"
     fi
-    [ -e "$compiler.ready" ] && return
+    touch "$compiler.ready"
 
-    say "compiling core for ${targets[*]} ..."
-    local work target
+    local work target missing=()
+    for target in "${targets[@]}"; do
+        [ -d "$root/lib/rustlib/$target/lib" ] || missing+=("$target")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    say "compiling core for ${missing[*]} ..."
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir "$work/src"
     echo '#![no_std]' >"$work/src/lib.rs"
-    printf '[package]\nname="empty"\nedition="2024"\n[profile.release]\ncodegen-units=1\n[workspace]\n' >"$work/Cargo.toml"
-    for target in "${targets[@]}"; do
-        (cd "$work" && RUSTC=$compiler/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
-            cargo build --quiet --release -Zbuild-std=core --target "$target") >&2 ||
-            fail "cannot compile core for $target with Debian's rustc-web"
-        mkdir -p "$root/lib/rustlib/$target/lib"
-        cp "$work/target/$target/release/deps/"lib{core,compiler_builtins}-*.r{lib,meta} "$root/lib/rustlib/$target/lib"
+    {
+        printf '[package]\nname="empty"\nedition="2024"\n[workspace]\n'
+        printf '[profile.release]\ncodegen-units=1\npanic="abort"\n'
+    } >"$work/Cargo.toml"
+    # What the compiler calls to copy memory is in no other library of such a program.
+    (cd "$work" && RUSTC=$compiler/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=$work/target RUSTFLAGS="-C embed-bitcode=yes" \
+        cargo build --quiet --release -Zbuild-std=core -Zbuild-std-features=compiler-builtins-mem "${missing[@]/#/--target=}") >&2 ||
+        fail "cannot compile core for ${missing[*]} with Debian's rustc-web"
+    for target in "${missing[@]}"; do
+        mkdir -p "$work/lib"
+        cp "$work/target/$target/release/deps/"lib{core,compiler_builtins}-*.r{lib,meta} "$work/lib"
+        mkdir -p "$root/lib/rustlib/$target"
+        mv "$work/lib" "$root/lib/rustlib/$target/lib"
     done
     rm -r "$work"
-    touch "$compiler.ready"
 }
 
 mkdir -p "$cache"
@@ -135,6 +145,21 @@ if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; t
     wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
+
+# A Linux program, or one without a system, on a processor that is neither Arm's nor the machine's.
+for target in "${targets[@]}"; do
+    case $target in
+    thumb* | wasm*) continue ;;
+    esac
+    if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
+        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" qemu-user
+        for emulator in i386 ppc riscv32 riscv64 s390x; do
+            wrap "$bin/qemu-$emulator" "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
+                "$cache/qemu-user/usr/bin/qemu-$emulator"
+        done
+    fi
+    break
+done
 
 if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     tools=$(rustc --print sysroot)/lib/rustlib/$host/bin/llvm-objdump

@@ -19,7 +19,7 @@ fi
 
 rm -rf dist.new
 mkdir dist.new
-cp page/* dist.new
+cp page/* ../cli/traces/leaf.csv dist.new
 cargo run --quiet --package designer --bin presets >dist.new/presets.js
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.

@@ -21,8 +21,8 @@ pub(crate) struct Exposure {
     ramps: [Ramp; 2],
     /// The plateau's fraction of the exposure, in [`WHOLE`].
     plateau: Pair,
-    /// `K = 1/A`
-    pub(crate) normalization: f64,
+    /// `A = ∫ f dt`
+    pub(crate) area: f64,
 }
 
 /// Where a fraction is collected.
@@ -33,15 +33,17 @@ enum Section {
 }
 
 /// Where a time lies on the curve.
-enum At<'a> {
+enum At {
     Outside,
-    Opening(OnRamp<'a>),
     Plateau,
-    Closing(OnRamp<'a>),
+    /// On a ramp, by its index.
+    Ramp(usize),
 }
 
 impl Exposure {
-    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`.
+    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`. Out of line, for every
+    /// constructor that runs to share it.
+    #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
@@ -83,18 +85,13 @@ impl Exposure {
         }
         let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];
         let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
-        Ok(Self { ramps, plateau, normalization: 1.0 / area })
+        Ok(Self { ramps, plateau, area })
     }
 
     /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
     #[inline(always)]
     const fn ramp(&self, index: usize) -> &Ramp {
         &self.ramps[index & 1]
-    }
-
-    /// `A = ∫ f dt`
-    pub(crate) const fn area(&self) -> f64 {
-        1.0 / self.normalization
     }
 
     /// The time from which a side counts.
@@ -132,15 +129,15 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
-        let beyond = a.minus(near);
+        let beyond = a.less(near);
         let behind = beyond.minus(self.plateau);
         if behind.rounded() > 0.0 {
             return Section::Ramp(side ^ 1, behind);
         }
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
-        let (k, exponent) = significand(self.normalization);
-        let unit = -exponent - WHOLE_EXPONENT;
-        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(reciprocal(k)), unit))
+        let (area, exponent) = significand(self.area);
+        let unit = exponent - WHOLE_EXPONENT;
+        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), unit))
     }
 
     /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
@@ -149,12 +146,15 @@ impl Exposure {
         match self.section(side, a) {
             Section::Plateau(place) => place,
             Section::Ramp(ramp, target) => {
-                self.ramp(ramp).at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
+                // One address, instead of the curve's and an index, which the search would keep on the stack.
+                let ramp = core::hint::black_box(self.ramp(ramp));
+                ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }
     }
 
     /// The time since a side's start at which a fraction has been collected, for a polynomial to be fitted.
+    #[inline(never)]
     pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
         let a = Pair::from_f64(a * WHOLE as f64);
         let place = match self.section(side, a) {
@@ -184,7 +184,7 @@ impl Exposure {
 
     /// Where `t` lies.
     #[inline]
-    fn at(&self, t: f32) -> At<'_> {
+    fn at(&self, t: f32) -> At {
         let [start, end] = [self.start(0), self.start(1)];
         let [open, close] = [self.plateau_start(0), self.plateau_start(1)];
         // A plateau without length has no instant of its own: it is the ramps' that have length.
@@ -192,11 +192,11 @@ impl Exposure {
         if !(t >= start && t <= end) {
             At::Outside
         } else if t < open || (t == open && !plateau && start < open) {
-            At::Opening(self.ramps[0].at_time(t))
+            At::Ramp(0)
         } else if plateau && t <= close {
             At::Plateau
         } else {
-            At::Closing(self.ramps[1].at_time(t))
+            At::Ramp(1)
         }
     }
 
@@ -206,46 +206,71 @@ impl Exposure {
         match self.at(t) {
             At::Outside => (Pair::ZERO, 0),
             At::Plateau => (Pair::new(1.0), 0),
-            At::Opening(on) | At::Closing(on) => on.openness(),
+            At::Ramp(ramp) => self.ramp(ramp).openness(t),
         }
     }
 
     /// `K f` for an openness `f` in units of `2^unit`.
     #[inline]
     pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
-        let (k, exponent) = significand(self.normalization);
-        rounded_sum(0.0, f.times(k), unit + exponent, false)
+        let (area, exponent) = significand(self.area);
+        rounded_sum(0.0, f.over(area), unit - exponent, false)
     }
 
     /// The fraction collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        let whole = Pair::new(WHOLE);
-        let (mass, on) = match self.at(t) {
-            At::Outside => return if t > self.start(1) { 1.0 } else { 0.0 },
+        match self.at(t) {
+            At::Outside => {
+                if t > self.start(1) {
+                    1.0
+                } else {
+                    0.0
+                }
+            }
             At::Plateau => {
-                let (k, exponent) = significand(self.normalization);
-                let way = Pair::sum(t, -self.plateau_start(0)).times(k);
-                (self.ramps[0].share.plus(scaled(way, exponent + WHOLE_EXPONENT)), None)
+                let (area, exponent) = significand(self.area);
+                let way = Pair::sum(t, -self.plateau_start(0)).over(area);
+                let way = scaled(way, WHOLE_EXPONENT - exponent);
+                self.nearest(t, self.ramps[0].share.plus(way), None)
             }
-            At::Opening(on) if on.side == 0 => (on.mass(), Some(on)),
-            At::Opening(on) => (self.ramps[0].share.minus(on.mass()), Some(on)),
-            At::Closing(on) if on.side == 0 => {
-                (self.ramps[0].share.plus(self.plateau).plus(on.mass()), Some(on))
-            }
-            At::Closing(on) => (whole.minus(on.mass()), Some(on)),
+            At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
+        }
+    }
+
+    /// The same on a ramp.
+    #[inline(never)]
+    fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
+        let on = self.ramp(ramp).at_time(t);
+        let mass = on.mass();
+        // From the start of the ramp, or back from its end.
+        let mass = match (ramp, on.side) {
+            (0, 0) => mass,
+            (0, _) => self.ramps[0].share.minus(mass),
+            (_, 0) => self.ramps[0].share.plus(self.plateau).plus(mass),
+            _ => Pair::new(WHOLE).minus(mass),
         };
+        self.nearest(t, mass, Some(on))
+    }
+
+    /// The `f32` nearest to the mass that `t` has, as a fraction.
+    #[inline(always)]
+    fn nearest(&self, t: f32, mass: Pair, on: Option<OnRamp>) -> f32 {
         let nearest = mass.rounded();
+        if nearest <= 0.0 {
+            return 0.0;
+        }
         // The middle between the two `f32` around the mass, to which it is rounded.
         let rest = (mass.hi - nearest) + mass.lo;
-        let next = if rest < 0.0 { nearest.next_down() } else { nearest.next_up() };
-        let half = 0.5 * (next - nearest);
-        let nearest = if (half - rest).abs() < nearest * NEAR_MIDDLE {
-            self.settled(t, nearest, next, (half - rest).abs(), on)
+        let bits = nearest.to_bits();
+        let next = f32::from_bits(if rest < 0.0 { bits - 1 } else { bits + 1 });
+        let distance = (0.5 * (next - nearest) - rest).abs();
+        let nearest = if distance < nearest * NEAR_MIDDLE {
+            self.settled(t, nearest, next, distance, on)
         } else {
             nearest
         };
-        if nearest > 0.0 { (nearest / WHOLE).min(1.0) } else { 0.0 }
+        if nearest < WHOLE { nearest / WHOLE } else { 1.0 }
     }
 
     /// Which of two neighbours `t` has, where its mass lies so near to their middle that pairs may not tell.
@@ -258,7 +283,7 @@ impl Exposure {
     fn settled(&self, t: f32, nearest: f32, next: f32, distance: f32, on: Option<OnRamp>) -> f32 {
         // The search for the middle is itself not exact.
         let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
-        if distance > noise || next < 0.0 {
+        if distance > noise {
             return nearest;
         }
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
@@ -274,14 +299,6 @@ impl Exposure {
 /// So near to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise is
 /// 2⁻³⁰ at the most (see the text of the module `solve`).
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
-
-/// `1/x`, to 2⁻⁴⁶, for `x` in [1, 2).
-const fn reciprocal(x: Pair) -> Pair {
-    let hi = 1.0 / x.hi;
-    // What hi x lacks of 1 tells the rest: Newton's step.
-    let product = Pair::new(hi).times(x);
-    Pair { hi, lo: ((1.0 - product.hi) - product.lo) * hi }
-}
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.
 #[inline(always)]

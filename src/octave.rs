@@ -202,6 +202,7 @@ impl Octave {
     }
 
     /// `P'(x)`
+    #[inline(never)]
     const fn slope(&self, x: i32) -> f64 {
         let x = x as f64 / WORD;
         let mut slope = 0.0;
@@ -269,18 +270,21 @@ impl Span {
     }
 
     /// The offset of a point of [-1, 1], in units of 2⁻³².
+    #[inline(never)]
     const fn offset(&self, point: f64) -> i32 {
         // A cast saturates.
         (self.half * point / self.width * WORD) as i32
     }
 
     /// The exact time from the side's start at an offset.
+    #[inline(never)]
     const fn exact(&self, exposure: &Exposure, x: i32) -> f64 {
         let center = (self.center() * (1 << self.finer)) as f64;
         exposure.elapsed(self.side, (center + x as f64) / WORD * self.width)
     }
 
-    /// The octave with a polynomial, where one keeps the promise.
+    /// The octave with a polynomial, where one keeps the promise. Out of line: the same for any number of cells.
+    #[inline(never)]
     pub(crate) const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
         let c = self.interpolate(exposure);
 
@@ -316,6 +320,7 @@ impl Span {
     }
 
     /// The coefficients, from `x⁰` up, of the polynomial through the exact times at the nodes.
+    #[inline(never)]
     const fn interpolate(&self, exposure: &Exposure) -> [f64; DEGREE + 1] {
         // Newton's divided differences ...
         let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
@@ -326,29 +331,43 @@ impl Span {
             d[i] = self.exact(exposure, offset);
             i += 1;
         }
-        let mut order = 1;
+        let (mut newton, mut order) = ([d[0]; DEGREE + 1], 1);
         while order <= DEGREE {
-            let mut i = DEGREE;
-            while i >= order {
-                d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order]);
-                i -= 1;
-            }
+            divide(&mut d, &x, order);
+            newton[order] = d[0];
             order += 1;
         }
         // ... multiplied out into powers of x.
-        let mut c = [0.0; DEGREE + 1];
-        let mut i = DEGREE + 1;
+        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
         while i > 0 {
             i -= 1;
-            let mut k = DEGREE;
-            while k > 0 {
-                c[k] = c[k - 1] - c[k] * x[i];
-                k -= 1;
-            }
-            c[0] = d[i] - c[0] * x[i];
+            multiply(&mut c, x[i], newton[i]);
         }
         c
     }
+}
+
+/// The divided differences of the next order, of neighbours. Out of line, as the next one, for loops that are written out
+/// over and over cost kilobytes.
+#[inline(never)]
+const fn divide(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
+    let mut i = 0;
+    // The first condition follows from the second; it spares checks where the compiler does not see that.
+    while i < DEGREE && i + order <= DEGREE {
+        d[i] = (d[i + 1] - d[i]) / (x[i + order] - x[i]);
+        i += 1;
+    }
+}
+
+/// A polynomial times `x - root`, and a constant added.
+#[inline(never)]
+const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
+    let mut k = DEGREE;
+    while k > 0 {
+        c[k] = c[k - 1] - c[k] * root;
+        k -= 1;
+    }
+    c[0] = constant - c[0] * root;
 }
 
 const fn power_of_two(exponent: i32) -> f64 {

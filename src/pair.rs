@@ -55,6 +55,13 @@ impl Pair {
         self.plus(other.negated())
     }
 
+    /// `self - other`, as a sum whose second number may be the greater where the two are nearly the same.
+    #[inline(always)]
+    pub(crate) const fn less(self, other: Self) -> Self {
+        let Self { hi, lo } = Self::sum(self.hi, -other.hi);
+        Self { hi, lo: lo + (self.lo - other.lo) }
+    }
+
     /// `self - other` in single precision, which keeps its relative accuracy where the two are near.
     #[inline(always)]
     pub(crate) const fn difference(self, other: Self) -> f32 {
@@ -62,8 +69,20 @@ impl Pair {
     }
 
     #[inline(always)]
+    pub(crate) const fn thrice(self) -> Self {
+        let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi);
+        Self { hi, lo: lo + 3.0 * self.lo }
+    }
+
+    #[inline(always)]
     pub(crate) const fn negated(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }
+    }
+
+    /// The same with its sign changed, if `sign` is the sign bit and not 0.
+    #[inline(always)]
+    pub(crate) const fn flipped(self, sign: u32) -> Self {
+        Self { hi: flipped(self.hi, sign), lo: flipped(self.lo, sign) }
     }
 
     /// `x self` for a power of two `x`, exactly.
@@ -79,11 +98,28 @@ impl Pair {
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
+    /// `self / x`, to 2⁻⁴⁵: what the quotient's product with `x` lacks of `self` tells the rest.
+    #[inline(always)]
+    pub(crate) const fn over(self, x: Self) -> Self {
+        let inverse = 1.0 / x.hi;
+        let hi = self.hi * inverse;
+        let product = hi * x.hi;
+        let lacks = (self.hi - product) - lost(product, hi, x.hi);
+        Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse }
+    }
+
     /// The nearest `f32`.
     #[inline(always)]
     pub(crate) const fn rounded(self) -> f32 {
         self.hi + self.lo
     }
+}
+
+/// `-x` if `sign` is the sign bit, `x` if it is 0: without a branch, which would double what follows, and without a product,
+/// which is dear where there is no FPU.
+#[inline(always)]
+pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {
+    f32::from_bits(x.to_bits() ^ sign)
 }
 
 /// `a b - product`, exactly, for the rounded `product` of `a` and `b` (Dekker).
@@ -140,11 +176,11 @@ impl Series<'_> {
     /// The slope at `x`, in single precision.
     #[inline(always)]
     pub(crate) const fn slope(self, x: f32) -> f32 {
-        let mut k = self.c.len();
-        let mut slope = (k + 1) as f32 * self.last.hi;
-        while k > 0 {
-            slope = slope * x + k as f32 * self.c[k - 1].hi;
-            k -= 1;
+        let mut c = self.c;
+        let mut slope = (c.len() + 1) as f32 * self.last.hi;
+        while let [lower @ .., highest] = c {
+            slope = slope * x + c.len() as f32 * highest.hi;
+            c = lower;
         }
         slope
     }
@@ -188,36 +224,31 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let (first, second) = (power_of_two(unit - half), power_of_two(half));
     let second = if back { -second } else { second };
     let hi = way.hi * first * second;
-    // Less may be subnormal, or have a subnormal second half.
-    if base.abs() + hi.abs() < power_of_two(-78) {
-        return small_sum(base, way, unit, back);
-    }
     let sum = Pair::sum(base, hi);
-    sum.hi + odd_sum(sum.lo, way.lo * first * second)
+    let rest = sum.lo + way.lo * first * second;
+    // Less may be subnormal, or have a subnormal second half; and what is midway between two `f32` is a power of two from
+    // either, perhaps only by rounding.
+    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
+        return careful_sum(base, way, first, second);
+    }
+    sum.hi + rest
 }
 
-/// The same near 0.
+/// `base + way first second`, where it takes more care.
 #[cold]
 #[inline(never)]
-const fn small_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
-    // In a greater unit both halves are normal numbers.
-    let half = unit >> 1;
-    let (first, second) = (power_of_two(unit - half), power_of_two(half + 48));
-    let second = if back { -second } else { second };
-    let (base, hi, lo) =
-        (base * power_of_two(48), way.hi * first * second, way.lo * first * second);
+const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
+    // In a greater unit, where it is small, all are normal numbers.
+    let is_small = base.abs() + (way.hi * first * second).abs() < power_of_two(-78);
+    let up = if is_small { 48 } else { 0 };
+    let (base, second) = (base * power_of_two(up), second * power_of_two(up));
+    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
     // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
-    let (rough, least) = (base + hi, power_of_two(48 - 126));
-    let places = if rough.abs() >= least {
-        0.0
-    } else if rough < 0.0 {
-        -least
-    } else {
-        least
-    };
+    let (rough, least) = (base + hi, power_of_two(up - 126));
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
     let near = Pair::sum(base, hi);
     let sum = Pair::sum(places, near.hi);
-    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-48)
+    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
 }
 
 /// `a + b`, or of its two neighbours the one whose last bit is set: to round that once more is to round once.
@@ -228,5 +259,7 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
     if sum.lo == 0.0 || bits & 1 == 1 {
         return sum.hi;
     }
-    f32::from_bits(if (sum.lo < 0.0) == (sum.hi < 0.0) { bits + 1 } else { bits - 1 })
+    // Away from 0 where both have the same sign.
+    let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
+    f32::from_bits(if up { bits + 1 } else { bits - 1 })
 }

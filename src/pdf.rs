@@ -74,12 +74,12 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
 
     /// `∫ f dt`, before normalisation: `f` times the curve's unit of time.
     pub const fn area(&self) -> f32 {
-        self.plan.exposure.area() as f32
+        self.plan.exposure.area as f32
     }
 
     /// `K`, the reciprocal of the area, in its unit.
     pub const fn normalization(&self) -> f32 {
-        self.plan.exposure.normalization as f32
+        (1.0 / self.plan.exposure.area) as f32
     }
 }
 

@@ -21,11 +21,13 @@ use crate::octave::{LEAST, NO_TIME, Octave, Span, Unit, floor_bits, tops};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
-/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first, and by its bounds.
+/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first; how many of these it fills, all but the first and
+/// the last; and by its bounds.
 #[derive(Clone)]
 pub(crate) struct Words {
     first: u32,
     count: u32,
+    filled: u32,
     bounds: [u64; 2],
 }
 
@@ -34,7 +36,7 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// 2³² units, in which the curve's times count at most 2⁶², as a power of two.
     scale: f32,
-    /// The bits of the `f32` around the plateau: every `u` above the first and up to the second is on its line.
+    /// The `u` on the plateau's line, by the bits of their `f32`: so many from the first.
     plateau: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
@@ -81,8 +83,8 @@ impl<const CELLS: usize> Plan<CELLS> {
                 let (from, to) = (floor_bits(from), floor_bits(to));
                 // At 1 the end is exact.
                 let last = 1.0f32.to_bits() - 1;
-                plateau =
-                    [if from < FINE { FINE } else { from }, if to < last { to } else { last }];
+                let before = if from < FINE { FINE } else { from };
+                plateau = [before + 1, (if to < last { to } else { last }).saturating_sub(before)];
             }
         }
         let unit = Unit { exponent: unit, starts };
@@ -128,11 +130,23 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
         let unit = self.unit_of_time() as f64;
-        (self.base as f64 * unit, self.slope as f64 * unit, self.plateau.map(f32::from_bits))
+        let [first, count] = self.plateau;
+        let before = first.wrapping_sub(1);
+        let bounds = [before, before.wrapping_add(count)].map(f32::from_bits);
+        (self.base as f64 * unit, self.slope as f64 * unit, bounds)
     }
 
-    /// The side from which `u` is counted and how far: the lesser of `u` and `1 - u`. Branchless, for the side is
-    /// unpredictable. Below 0 and above 1 it is negative.
+    /// The side from which `u` is counted and how far, by the bits of that: what is no fraction gets those of none.
+    ///
+    /// By integers, since a comparison of floats keeps a processor waiting; and without a branch, for the side is unpredictable.
+    #[inline(always)]
+    fn nearer(u: f32) -> (usize, u32) {
+        let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
+        let is_late = bits > 0.5f32.to_bits();
+        (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
+    }
+
+    /// The same as a number, negative below 0 and above 1.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
         let late = 1.0 - u;
@@ -153,15 +167,15 @@ impl<const CELLS: usize> Plan<CELLS> {
         let top = self.tops[side & 1];
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // Without the exponents, in significands of 32 bits.
-        Some((octave, (top << 9 >> 1) as i32 - (below << 9 >> 1) as i32))
+        // The significand in 32 bits, and for its sign what the difference of the significands borrowed from the exponents'.
+        Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
     }
 
     /// The time on the plateau's line, in units, if `u` is on it.
     #[inline(always)]
     fn by_line(&self, u: f32) -> Option<i64> {
         let bits = u.to_bits();
-        let is_on_line = bits > self.plateau[0] && bits <= self.plateau[1];
+        let is_on_line = bits.wrapping_sub(self.plateau[0]) < self.plateau[1];
         let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
         is_on_line.then(|| self.on_line((bits << 8 | 1 << 31) >> (shift & 31)))
     }
@@ -172,8 +186,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let time = match self.by_line(u) {
             Some(time) => time,
             None => {
-                let (side, a) = Self::count(u);
-                let bits = a.to_bits();
+                let (side, bits) = Self::nearer(u);
                 match self.octave(side, bits) {
                     Some((octave, place)) => octave.time(octave.offset(place)),
                     None => return self.searched(u),
@@ -190,17 +203,20 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The same for a time near 0, or where an octave has no polynomial.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn near_zero(&self, u: f32, time: i64) -> f32 {
         if time == NO_TIME {
             return self.searched(u);
         }
+        // A time of one word has the other to fill first.
+        let sign = (time >> 63) as i32;
+        let is_word = (time >> 32) as i32 == sign;
+        let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
+        let (high, low) = ((time >> 32) as i32, time as u32);
         // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
-        let up = (time ^ time >> 63).leading_zeros() - 1;
-        let time = time << up;
-        let high = (time >> 32) as i32 | (time as u32 != 0) as i32;
-        high as f32 * f32::from_bits((127 - up) << 23) * self.scale
+        let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
+        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) by a search. At the ends, and for what is no fraction, it is the start or the end.
@@ -220,8 +236,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The time, in units, if no search is needed.
     #[inline(always)]
     pub(crate) fn direct(&self, u: f32) -> Option<i64> {
-        let (side, a) = Self::count(u);
-        let bits = a.to_bits();
+        let (side, bits) = Self::nearer(u);
         self.by_line(u).or_else(|| {
             let (octave, place) = self.octave(side, bits)?;
             octave.exists().then(|| octave.time(octave.offset(place)))
@@ -237,7 +252,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let top = self.tops[side & 1];
         if top == 0 {
             // The plateau alone, or nothing at all.
-            return if self.plateau[0] < self.plateau[1] { least } else { 0.5 };
+            return if self.plateau[1] > 0 { least } else { 0.5 };
         }
         let (mut high, mut index) = (f32::from_bits(top) as f64, 0);
         while index < CELLS && high > least {
@@ -266,14 +281,14 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau in `u` that counts 2⁻⁶⁴.
     pub(crate) fn plateau_in_words(&self) -> Words {
-        let [from, to] = self.plateau;
-        if from >= to {
-            return Words { first: 0, count: 0, bounds: [u64::MAX, 0] };
+        if self.plateau[1] == 0 {
+            return Words { first: 0, count: 0, filled: 0, bounds: [u64::MAX, 0] };
         }
         let [near, far] = self.exposure.joins_in_words();
         let bounds = [near.max(1 << 55), far];
         let [first, last] = bounds.map(|bound| (bound >> 32) as u32);
-        Words { first: first + 1, count: last.saturating_sub(first + 1), bounds }
+        let between = last.saturating_sub(first);
+        Words { first, count: between + 1, filled: between.saturating_sub(1), bounds }
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
@@ -282,19 +297,16 @@ impl<const CELLS: usize> Plan<CELLS> {
         let word = (u >> 32) as u32;
         let place = word.wrapping_sub(plateau.first);
         if place < plateau.count {
-            return Some(self.on_line(word));
-        }
-        // In the words that hold the plateau's ends all bits count.
-        let is_at_end = place.wrapping_add(1) <= plateau.count.wrapping_add(1);
-        if is_at_end && u > plateau.bounds[0] && u < plateau.bounds[1] {
-            return Some(self.on_line(word));
+            // In the words that hold the plateau's ends all bits count.
+            let is_filled = place.wrapping_sub(1) < plateau.filled;
+            if is_filled || u > plateau.bounds[0] && u < plateau.bounds[1] {
+                return Some(self.on_line(word));
+            }
         }
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
-        if high == 0 {
-            return None;
-        }
+        // Where all of the upper word are zeros, there are no octaves any more.
         let zeros = high.leading_zeros();
         // Its last bit tells whether there is anything behind it.
         let rest = low << (zeros & 31);
@@ -302,12 +314,10 @@ impl<const CELLS: usize> Plan<CELLS> {
         let significand = significand & !(1 << 31) | (rest != 0) as u32;
         // As in `octave`, but that the exponents stand apart.
         let top = self.tops[side & 1];
-        let (exponent, top) = (top >> 23, (top << 9 >> 1) as i32);
-        let below = top - significand as i32;
-        let index =
-            exponent.wrapping_add(zeros).wrapping_sub(126).wrapping_add((below >> 31) as u32);
-        let octave = self.octaves[side & 1].get(index as usize)?;
-        let place = top - (below & i32::MAX);
+        let below = (top << 9 >> 1) as i32 - significand as i32;
+        let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
+        let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
+        let place = significand as i32 | below & i32::MIN;
         octave.exists().then(|| octave.time(octave.offset(place)))
     }
 }

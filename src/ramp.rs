@@ -12,7 +12,7 @@
 
 use crate::bezier::CubicBezier;
 use crate::cubic::{Cubic, differences, forward, integral, lifted, widened};
-use crate::pair::{Pair, Series, exponent, power_of_two, rounded_sum};
+use crate::pair::{Pair, Series, exponent, flipped, power_of_two, rounded_sum};
 use crate::seed::{seed, seed_by_bits};
 use crate::solve::{Anchor, ONE, Offset, solve};
 
@@ -259,7 +259,7 @@ impl Ramp {
     #[inline(always)]
     const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
         // The other end, then the minima.
-        let from_other = target.minus(self.share.scaled(unit_of_mass(self.share)));
+        let from_other = target.less(self.share.scaled(unit_of_mass(self.share)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
@@ -271,24 +271,28 @@ impl Ramp {
             }
             i += 1;
         }
-        let c = self.single(side);
         if target.hi <= sought.abs() {
-            return Anchor { place: Pair::ZERO, c, sought: target.hi };
+            let c = self.single(side);
+            return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
         }
-        let [.., c5, c6] = c;
+        const BACK: u32 = 1 << 31;
         if nearest == 2 {
-            let [c1, c2, c3, c4, c5, _] = self.single(side ^ 1);
-            return Anchor { place: Pair::new(ONE), c: [c1, -c2, c3, -c4, c5, c6], sought };
+            let c = self.single(side ^ 1);
+            return Anchor { place: Pair::new(ONE), back: BACK, c, sought: -sought };
         }
-        let Flat { place, c: [c1, c2, c3, c4], .. } = self.flats[nearest & 1];
-        let place = seen_from(side, Pair::new(place)).hi;
-        if place < 0.0 {
-            let place = Pair::sum(ONE, place);
-            let c5 = c5 + 6.0 * c6 * place.hi;
-            return Anchor { place, c: [c1, -c2, c3, -c4, c5, c6], sought };
-        }
-        let c5 = c5 + 6.0 * c6 * place;
-        Anchor { place: Pair::new(place), c: [c1, c2, c3, c4, c5, c6], sought }
+        // A flat place counts from its nearer end, and so do the powers.
+        let flat = &self.flats[nearest & 1];
+        let is_other = (flat.place < 0.0) != (side == 1);
+        let [.., c5, c6] = self.single(side ^ is_other as usize);
+        let [c1, c2, c3, c4] = flat.c;
+        let from_end = flat.place.abs();
+        let c5 = c5 + 6.0 * c6 * from_end;
+        let (base, sign) = if is_other { (ONE, BACK) } else { (0.0, 0) };
+        let place = Pair::sum(base, flipped(from_end, sign));
+        let back = sought.to_bits() & BACK;
+        let sign = sign ^ back;
+        let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
+        Anchor { place, back, c, sought: sought.abs() }
     }
 
     /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
@@ -330,8 +334,14 @@ impl Ramp {
         }
     }
 
+    /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
+    #[inline(never)]
+    pub(crate) fn openness(&self, t: f32) -> (Pair, i32) {
+        self.at_time(t).openness()
+    }
+
     /// Where the ramp is at `t`, which lies on it: from the nearer end, by the exact time since.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
         let [start, end] = [self.ends[0].time, self.ends[1].time];
         let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
@@ -347,13 +357,17 @@ impl Ramp {
     fn offset_at(&self, side: usize, target: Pair) -> Offset {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor = Anchor { place: Pair::ZERO, c, sought: target.hi };
+        let mut anchor = Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
         // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
-        let slowest = -c2 / (3.0 * c3);
-        if c3 > 0.0 && slowest > 0.0 && slowest < ONE && c1 + c2 * slowest < SLOW {
+        let thrice = 3.0 * c3;
+        if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
+            let slowest = -c2 / thrice;
             let sought = target.difference(series.at(slowest));
             if sought.abs() < target.hi {
-                anchor = Anchor { place: Pair::new(slowest), c: around(series, slowest), sought };
+                let [c1, c2, c3] = around(self.end(side).elapsed, self.cubic, slowest);
+                let back = sought.to_bits() & 1 << 31;
+                let c = [c1, flipped(c2, back), c3];
+                anchor = Anchor { place: Pair::new(slowest), back, c, sought: sought.abs() };
             }
         }
         let seed = seed(&anchor.c, anchor.sought);
@@ -364,7 +378,7 @@ impl Ramp {
 /// A number that is negative for what counts from the later end, as it is seen from a side: negative for the other end.
 #[inline(always)]
 const fn seen_from(side: usize, x: Pair) -> Pair {
-    if side == 0 { x } else { x.negated() }
+    x.flipped((side as u32) << 31)
 }
 
 impl End {
@@ -396,8 +410,19 @@ fn on_grid(start: f32, end: f32, t: f32) -> f32 {
 /// coefficients keep their bits.
 #[inline(always)]
 const fn unit_of_mass(share: Pair) -> f32 {
+    power_of_two(up_of_mass(share))
+}
+
+/// The factor back.
+#[inline(always)]
+const fn per_unit_of_mass(share: Pair) -> f32 {
+    power_of_two(-up_of_mass(share))
+}
+
+#[inline(always)]
+const fn up_of_mass(share: Pair) -> i32 {
     let exponent = exponent(share.hi);
-    power_of_two(80 - if exponent < -46 { -46 } else { exponent })
+    80 - if exponent < -46 { -46 } else { exponent }
 }
 
 /// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that.
@@ -424,12 +449,13 @@ const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> (
 }
 
 /// The coefficients around `x` in single precision, taken in pairs, for they may be differences of nearly the same.
-fn around(series: Series, x: f32) -> [f32; 3] {
-    let (a, b, c) = (series.c[0], series.c[1], series.last);
-    let thrice = c.plus(c.scaled(2.0));
-    let slope = Series { c: &[b.scaled(2.0)], last: thrice }.at(x);
-    let bend = thrice.times(Pair::new(x));
-    [slope.plus(a).rounded(), bend.plus(b).rounded(), c.hi]
+#[cold]
+#[inline(never)]
+fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {
+    let x = Pair::new(x);
+    let bend = c.thrice().times(x);
+    let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
+    [slope.rounded(), bend.plus(b).rounded(), c.hi]
 }
 
 /// A time on a ramp, as a place.
@@ -441,35 +467,32 @@ pub(crate) struct OnRamp<'a> {
 
 impl OnRamp<'_> {
     /// The fraction collected between the end that faces the side and here, in [`WHOLE`].
-    #[inline]
+    #[inline(always)]
     pub(crate) fn mass(&self) -> Pair {
-        let mass = self.offset.value(self.ramp.collected(self.side));
-        let mass = if mass.rounded() < 0.0 { Pair::ZERO } else { mass };
-        mass.scaled(1.0 / unit_of_mass(self.ramp.share))
+        self.offset.value(self.ramp.collected(self.side)).scaled(per_unit_of_mass(self.ramp.share))
     }
 
     /// What rounding makes of that at most: see [`Series::at`].
     pub(crate) fn noise(&self) -> f32 {
         let c = self.ramp.single(self.side);
         let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
-        size / unit_of_mass(self.ramp.share) / (1u64 << 40) as f32
+        size * per_unit_of_mass(self.ramp.share) / (1u64 << 40) as f32
     }
 
     /// The openness, at least 0, in units of a power of two, and the exponent of that.
-    #[inline]
-    pub(crate) fn openness(&self) -> (Pair, i32) {
+    #[inline(always)]
+    fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
         // Scaled so that the second halves of all coefficients, and what they make of the least place, keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
-        let f = f.map(|f| scaled(Pair::new(f), -unit));
-        let d = [f[1].minus(f[0]), f[2].minus(f[1]), f[3].minus(f[2])];
-        let thrice = |x: Pair| x.plus(x.scaled(2.0));
-        let bend = d[1].minus(d[0]);
+        let f = f.map(|f| scaled(Pair::new(f), -unit).hi);
+        let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
+        let bend = d[1].less(d[0]);
         let (one, two, three) = (1.0 / ONE, 1.0 / ONE / ONE, 1.0 / ONE / ONE / ONE);
-        let c = [thrice(d[0]).scaled(one), thrice(bend).scaled(two)];
-        let series = Series { c: &c, last: d[2].minus(d[1]).minus(bend).scaled(three) };
-        let value = f[0].plus(self.offset.value(series));
+        let c = [d[0].thrice().scaled(one), bend.thrice().scaled(two)];
+        let series = Series { c: &c, last: d[2].less(d[1]).less(bend).scaled(three) };
+        let value = Pair::new(f[0]).plus(self.offset.value(series));
         (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
     }
 }

@@ -6,9 +6,9 @@ use core::ops::Range;
 
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
-use crate::pair::{Pair, fixed};
+use crate::pair::{Pair, fixed, power_of_two};
 use crate::plan::{Plan, Words};
-use crate::ramp::{Place, WHOLE, scaled};
+use crate::ramp::{Place, WHOLE_EXPONENT, scaled};
 use crate::shutter::ShutterCurve;
 
 /// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
@@ -54,7 +54,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         // The cast rounds down and saturates.
         // The area is known to some 2⁻⁵¹, so what is so near to the next number is that.
         let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
-        let most = (self.plan.exposure.area() * trace / min_gap as f64) as u32;
+        let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
     }
 
@@ -87,7 +87,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let least = [self.plan.least_direct(0), self.plan.least_direct(1)];
         let least = if least[0] > least[1] { least[0] } else { least[1] };
         // The first and the last trigger come nearest to the ends: 1/2n away, in units of 2⁻⁶⁴, and as `f32` 2⁻²⁴ less.
-        let least = (least * 18446744073709551616.0) as u64 + (1 << 40);
+        // One more where that is even, so that the compiler sees that it is not 0.
+        let least = ((least * 18446744073709551616.0) as u64 + (1 << 40)) | 1;
         let most = (1 << 63) / least;
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }
@@ -153,15 +154,34 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(ticks.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
+        let mut places = ticks.iter_mut();
+        self.checked(n, tick_hz, min_gap, |tick| {
+            if let Some(place) = places.next() {
+                *place = tick;
+            }
+        })
+    }
+
+    /// Hands out the ticks of `n` triggers that keep the gap.
+    #[inline(always)]
+    fn checked(
+        &self,
+        n: u32,
+        tick_hz: u32,
+        min_gap: u32,
+        mut place: impl FnMut(u32),
+    ) -> Result<(), ScheduleError> {
+        let frame = Ticks::new(&self.plan, n, tick_hz)?;
         let mut last = None;
-        for (i, (place, tick)) in (0..n).zip(ticks.iter_mut().zip(self.trigger_ticks(n, tick_hz)?))
-        {
+        for i in 0..n {
+            let tick = frame.at(i);
             if let Some(last) = last
                 && tick - last < min_gap
             {
                 return Err(ScheduleError::GapTooSmall { trigger: i, gap: tick - last, min_gap });
             }
-            (*place, last) = (tick, Some(tick));
+            place(tick);
+            last = Some(tick);
         }
         Ok(())
     }
@@ -178,10 +198,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
-        if schedule.resize_default(n as usize).is_err() {
+        if n as usize > N {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        self.schedule_into(&mut schedule, tick_hz, min_gap)?;
+        self.checked(n, tick_hz, min_gap, |tick| {
+            let _ = schedule.push(tick);
+        })?;
         Ok(schedule)
     }
 
@@ -276,7 +298,7 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
     /// Is trigger `i` of the frame placed without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.direct(2 * i as u64 + 1).is_some()
+        self.frame.direct(i).is_some()
     }
 }
 
@@ -286,7 +308,8 @@ macro_rules! iterate {
         impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
             type Item = $item;
 
-            #[inline]
+            // Into the one loop that there mostly is.
+            #[inline(always)]
             fn next(&mut self) -> Option<$item> {
                 let i = self.left.next()?;
                 Some(self.frame.at(i))
@@ -387,23 +410,24 @@ impl Fractions {
 
     /// The fraction `odd / 2n` from below, in units of 2⁻⁶⁴: by less than `odd` of these.
     #[inline(always)]
-    fn in_words(&self, odd: u64) -> u64 {
-        odd.wrapping_mul(self.share)
+    fn in_words(&self, odd: u32) -> u64 {
+        self.share.wrapping_mul(odd as u64)
     }
 
     /// The fraction `odd / 2n` counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
     fn exactly(&self, odd: u64) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) = if odd <= n { (0, odd) } else { (1, 2 * n - odd) };
-        // By words: near times a number of 96 bits.
+        // By words: near times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
-        let high = near * (self.share >> 32) + (middle >> 32);
-        let word = |word: u64, unit: f32| Pair::from_u32(word as u32).scaled(unit);
-        const WORD: f32 = (1u64 << 32) as f32;
-        let upper = word(high >> 32, WHOLE).plus(word(high, WHOLE / WORD));
-        let lower = word(middle, 1.0).plus(word(low, 1.0 / WORD));
-        (side, upper.plus(lower.scaled(WHOLE / WORD / WORD)))
+        let words = near * (self.share >> 32) + (middle >> 32) << 32 | middle as u32 as u64;
+        // The first 48 bits, halved; at least 2⁻³³ of all.
+        let zeros = words.leading_zeros() & 63;
+        let bits = words << zeros | (low as u32 as u64) << zeros >> 32;
+        let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
+        let unit = power_of_two(WHOLE_EXPONENT - 24 - zeros as i32);
+        (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
     }
 }
 
@@ -457,17 +481,18 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
     #[inline(always)]
     fn at(&self, i: u32) -> u32 {
-        let odd = 2 * i as u64 + 1;
-        match self.direct(odd) {
+        match self.direct(i) {
             Some(tick) => tick,
-            None => self.searched(odd),
+            None => self.searched(2 * i as u64 + 1),
         }
     }
 
-    /// The tick at the fraction `odd / 2n`, if no search is needed.
+    /// The tick of trigger `i`, if no search is needed.
     #[inline(always)]
-    fn direct(&self, odd: u64) -> Option<u32> {
+    fn direct(&self, i: u32) -> Option<u32> {
         let direct = self.direct.as_ref()?;
+        // A frame of which some are direct has so few that this fits.
+        let odd = (2 * i) | 1;
         let time = self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)?;
         Some(direct.tick(time))
     }

@@ -6,8 +6,6 @@
 //! fourth root, `libm` or `micromath` take it if these features are on. The search behind it is the same, and so, to the
 //! last bit or so, is its answer.
 
-use crate::pair::power_of_two;
-
 /// Logarithms here have 20 fraction bits, so that a difference of two fits 32 bits.
 const ONE: i32 = 1 << 20;
 
@@ -30,17 +28,18 @@ const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
-/// The least root's linear logarithm, with its `k` for the lowest bits. On the way back, where `sought` is negative, even
-/// powers of the distance have the other sign.
+/// Does a feature take square roots? Then it has to be known which root is the least.
+const ROOTS: bool = cfg!(any(feature = "libm", feature = "micromath"));
+
+/// The least root's linear logarithm; with its `k` for the lowest bits, if that is asked for.
 #[inline(always)]
-const fn least_root(c: &[f32], sought: f32, log: i32) -> i32 {
-    let back = (sought < 0.0) as u32;
+const fn least_root(c: &[f32], log: i32) -> i32 {
     let mut least = i32::MAX;
     let mut i = 0;
     while i < c.len() {
         let k = i as i32 + 1;
-        let c = f32::from_bits(c[i].to_bits() ^ (back & i as u32) << 31);
-        let root = divided(log - rough_log(c), k) & !7 | k;
+        let root = divided(log - rough_log(c[i]), k);
+        let root = if ROOTS { root & !7 | k } else { root };
         if root < least {
             least = root;
         }
@@ -49,33 +48,25 @@ const fn least_root(c: &[f32], sought: f32, log: i32) -> i32 {
     least
 }
 
-/// `2^exponent (1 + fraction / ONE)`, within what a search can have.
+/// The number with a linear logarithm, at least 0; what is beyond all `f32` is infinite or NaN.
 #[inline(always)]
-const fn guess(exponent: i32, fraction: i32) -> f32 {
-    if exponent >= 40 {
-        return power_of_two(40);
-    }
-    let exponent = if exponent < -126 { -126 } else { exponent };
-    f32::from_bits((((exponent + 127) << 23) + (fraction << 3)) as u32)
+const fn power(log: i32) -> f32 {
+    let log = log + 127 * ONE;
+    let log = if log < 0 { 0 } else { log };
+    f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })
 }
 
 /// The guess of a distance from logarithms alone; all that a constant can use.
 #[inline(always)]
 pub(crate) const fn seed_by_bits(c: &[f32], sought: f32) -> f32 {
-    by_bits(least_root(c, sought, rough_log(sought.abs())))
-}
-
-#[inline(always)]
-const fn by_bits(root: i32) -> f32 {
-    let root = root - MEAN;
-    guess(root >> 20, root & (ONE - 1))
+    power(least_root(c, rough_log(sought)) - MEAN)
 }
 
 /// The guess of a distance by the root that the features choose.
 #[inline(always)]
 pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
-    let log = rough_log(sought.abs());
-    let root = least_root(c, sought, log);
+    let log = rough_log(sought);
+    let root = least_root(c, log);
     #[cfg(any(feature = "libm", feature = "micromath"))]
     {
         let k = root & 7;
@@ -85,15 +76,13 @@ pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
             let exponent = (log >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
-            let significand = |bits: u32| f32::from_bits(127 << 23 | bits);
-            let ratio = significand((log as u32 & 0xF_FFFF) << 3)
-                / significand((divisor as u32 & 0xF_FFFF) << 3);
-            let root = square_root(ratio * (1 << rest) as f32);
-            let root = if k == 4 { square_root(root) } else { root }.to_bits();
-            return guess(whole + (root >> 23) as i32 - 127, (root >> 3) as i32 & (ONE - 1));
+            let significand = |log: i32| power(log & (ONE - 1));
+            let root = square_root(significand(log) / significand(divisor) * (1 << rest) as f32);
+            let root = if k == 4 { square_root(root) } else { root };
+            return power(rough_log(root) + whole * ONE);
         }
     }
-    by_bits(root)
+    power(root - MEAN)
 }
 
 #[cfg(feature = "libm")]

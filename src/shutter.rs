@@ -252,17 +252,17 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.
     pub const fn exposure(&self) -> f32 {
-        self.plan.exposure.area() as f32
+        self.plan.exposure.area as f32
     }
 
     /// `K = 1/A`, which makes the openness a probability density; per unit of the curve's time.
     pub const fn normalization(&self) -> f32 {
-        self.plan.exposure.normalization as f32
+        (1.0 / self.plan.exposure.area) as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
     pub const fn efficiency(&self) -> f32 {
-        (self.plan.exposure.area() / (self.close_end() as f64 - self.open_start() as f64)) as f32
+        (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
     /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search? For measurements.

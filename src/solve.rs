@@ -3,7 +3,7 @@
 //! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and in
 //! single precision from an [`Anchor`] near the target, to search by. One search is
 //!
-//! 1. Halley's steps in single precision, inside a bracket, until next to nothing is missing;
+//! 1. Halley's steps in single precision, none too long, until next to nothing is missing;
 //! 2. what is missing, measured in pairs;
 //! 3. one more step for that, and a computed bound of what it leaves, which accepts the answer or not.
 //!
@@ -31,7 +31,7 @@
 //! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
 //! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 6 at most.
 
-use crate::pair::{Pair, Series};
+use crate::pair::{Pair, Series, flipped};
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -50,8 +50,10 @@ pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 /// cube: 2⁻⁴².
 const NEAR: f32 = 1.0 / 8192.0;
 
-/// A step leads at most this many times as far from the anchor: Newton overshoots where the density dips ahead.
-const FARTHER: f32 = 2.5;
+/// A step in single precision leads to between a quarter of the distance from the anchor and some 2.5 times that: Newton
+/// overshoots where the density dips ahead. In the bits of the `f32`, where a binade is 2²³.
+const NEARER: i32 = -2 << 23;
+const FARTHER: i32 = (1 << 23) + (1 << 21);
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
 const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
@@ -62,12 +64,14 @@ const MOVED: f32 = 1.0 / (1 << 16) as f32;
 /// The distance between neighbours, relative to them, at most.
 const ULP: f32 = f32::EPSILON;
 
-/// Where a search starts: a place on the ramp, and the series around it.
+/// Where a search starts: a place on the ramp, and the series around it in the direction of the target.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
-    /// What is collected from here, by powers of the distance, which is negative on the way back.
+    /// The direction: the sign bit where it is back.
+    pub(crate) back: u32,
+    /// What is collected from here, by powers of the distance.
     pub(crate) c: [f32; N],
-    /// What is to be collected from here; negative if the target lies before it.
+    /// What is to be collected from here.
     pub(crate) sought: f32,
 }
 
@@ -75,7 +79,13 @@ impl<const N: usize> Anchor<N> {
     /// How far from the anchor a place is.
     #[inline(always)]
     const fn distance(&self, p: f32) -> f32 {
-        (p - self.place.hi) - self.place.lo
+        flipped((p - self.place.hi) - self.place.lo, self.back)
+    }
+
+    /// How far the ramp goes on.
+    #[inline(always)]
+    const fn reach(&self) -> f32 {
+        if self.back == 0 { ONE - self.place.hi } else { self.place.hi }
     }
 }
 
@@ -116,13 +126,21 @@ impl Taylor {
     }
 
     /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`, with the quotient's series up to
-    /// `b²`. A division is dear, and where `b` is too great for the series the bracket holds.
+    /// `b²`. A division is dear, and where `b` is too great for the series the step is not taken.
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
         let inverse = 1.0 / self.d1;
         let newton = missing * inverse;
         let bend = self.d2 * newton * inverse;
         newton * (1.0 - bend * (1.0 - bend))
+    }
+
+    /// The same for a step that is next to nothing.
+    #[inline(always)]
+    const fn short_step(&self, missing: f32) -> f32 {
+        let inverse = 1.0 / self.d1;
+        let newton = missing * inverse;
+        newton * (1.0 - self.d2 * newton * inverse)
     }
 }
 
@@ -168,75 +186,69 @@ pub(crate) const fn solve<const N: usize>(
     seed: f32,
     [error, most]: [f32; 2],
 ) -> Offset {
-    let Anchor { place, ref c, sought } = *anchor;
+    let Anchor { place, back, c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
-    if sought.abs() <= 0.5 * error {
+    if sought <= 0.5 * error {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
     }
-    let near = NEAR * sought.abs() + error;
-    // The bracket, as distances: from the anchor to the end of the ramp.
-    let is_ahead = sought > 0.0;
-    let (mut low, mut high) = if is_ahead { (0.0, ONE - place.hi) } else { (-place.hi, 0.0) };
+    let near = (NEAR * sought + error).to_bits() as i32;
+    let reach = anchor.reach();
     // At the end of the ramp the density may be 0.
-    let most_at_first = 0.75 * (high - low);
-    let x = if seed < most_at_first { seed } else { most_at_first };
-    let mut x = if is_ahead { x } else { -x };
-    let (mut is_near, mut p, mut moved) = (false, 0.0, 0.0f32);
+    let mut x = if seed < 0.75 * reach { seed } else { 0.75 * reach };
+    let reach = reach.to_bits() as i32;
+    let mut p = f32::NAN;
+    let mut moved = 0.0;
+    // The bracket, by bits, as it is halved.
+    let (mut low, mut high) = (0, ONE.to_bits() as i32);
     let mut evaluations = 0;
     loop {
-        let local = Taylor::new(c, x);
+        let local = Taylor::new(&c, x);
         evaluations += 1;
-        let mut missing = sought - local.value;
-        if !is_near && (missing.abs() <= near || evaluations >= NEWTON) {
-            is_near = true;
-            // What the bracket was made of may have been rounding; from here on signs are certain.
-            (low, high) = (-place.hi, ONE - place.hi);
+        if p.is_nan() {
+            let missing = sought - local.value;
+            if missing.abs().to_bits() as i32 > near && evaluations < NEWTON {
+                // By bits, where a NaN is but one of the limits.
+                let next = (x + local.step(missing)).to_bits() as i32;
+                let bits = x.to_bits() as i32;
+                let (least, most) = (bits + NEARER, bits + FARTHER);
+                // Not below 0.
+                let least = least & !(least >> 31);
+                let most = if most < reach { most } else { reach };
+                let next = if next < least { least } else { next };
+                x = f32::from_bits(if next < most { next } else { most } as u32);
+                continue;
+            }
             // Only a place that is an `f32` can be measured.
-            p = place.hi + x;
+            p = place.hi + flipped(x, back);
             let distance = anchor.distance(p);
             moved = distance - x;
-            if moved.abs() > MOVED * x.abs() {
+            if moved.abs() > MOVED * x {
                 (x, moved) = (distance, 0.0);
                 continue;
             }
         }
-        if is_near {
-            missing = target.difference(series.at(p));
-            evaluations += 1;
-        }
-        *(if missing > 0.0 { &mut low } else { &mut high }) = x;
-        let mut step = local.step(missing);
-        let (mut least, mut greatest) = (low, high);
-        if !is_near {
-            let far = FARTHER * x;
-            if is_ahead {
-                greatest = if high < far { high } else { far };
-            } else {
-                least = if low > far { low } else { far };
-            }
-        }
-        // Written so that a NaN is no step.
-        if !(x + step >= least && x + step <= greatest) {
-            step = 0.5 * (least + greatest) - x;
-        }
-        if !is_near {
-            x += step;
-            continue;
-        }
-        let is_last = evaluations >= MAX_EVALUATIONS - 1;
+        // From here on signs are certain.
+        let missing = target.difference(series.at(p));
+        evaluations += 1;
+        *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
+        let missing = flipped(missing, back);
+        let step = local.short_step(missing);
+        let way = flipped(step, back);
+        let end = p + way;
+        // A NaN is beyond.
+        let bits = end.to_bits() as i32;
+        let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { most } else { error };
-        if is_last || left(c, [x, moved], &local, missing, step) <= 0.75 * error {
-            let Pair { hi, lo } = Pair::sum(p, step);
+        if is_inside && left(&c, [x, moved], &local, missing, step) <= 0.75 * error {
+            let Pair { hi, lo } = Pair::sum(p, way);
             return Offset { x: hi, rest: lo, evaluations };
         }
-        p = if evaluations < NEWTON { p + step } else { middle(place.hi + low, place.hi + high) };
+        if evaluations >= MAX_EVALUATIONS - 1 {
+            return Offset { x: p, rest: 0.0, evaluations };
+        }
+        // The middle by bits: half of the `f32` between lie on either side.
+        let middle = f32::from_bits((low + (high - low) / 2) as u32);
+        p = if is_inside && evaluations < NEWTON { end } else { middle };
         (x, moved) = (anchor.distance(p), 0.0);
     }
-}
-
-/// The middle of two places by their bits: half of the `f32` between lie on either side.
-#[inline(always)]
-const fn middle(low: f32, high: f32) -> f32 {
-    let low = if low > 0.0 { low.to_bits() } else { 0 };
-    f32::from_bits(low + high.to_bits().saturating_sub(low) / 2)
 }

@@ -239,7 +239,7 @@ fn no_triggers() {
     assert_eq!(curve.trigger_times(0).next(), None);
     assert_eq!(curve.trigger_times(0).next_back(), None);
     assert_eq!(curve.trigger_ticks(0, 1000).unwrap().next(), None);
-    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().nth(0), None);
+    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().nth(1), None);
 }
 
 #[test]

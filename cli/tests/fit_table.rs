@@ -2,11 +2,12 @@
 //! its picture, come from
 //!
 //! ```text
-//! cargo test --release --package shutter --test fit_table -- --ignored --nocapture
+//! cargo test --package shutter --test fit_table -- --ignored --nocapture
 //! ```
 
 mod generator;
 
+use std::ops::RangeInclusive;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -106,7 +107,7 @@ fn share(rows: &[&Row], of: impl Fn(&Row) -> f64) -> f64 {
     rows.iter().map(|row| of(row)).sum::<f64>() / rows.len() as f64
 }
 
-/// No simpler kind has the shutter's curve.
+/// The simplest kind that has the shutter's curve, if any has it.
 fn truly(shutter: Shutter) -> Option<Kind> {
     match shutter {
         Shutter::Box => Some(Kind::Box),
@@ -123,7 +124,7 @@ fn kept_simple(rows: &[&Row]) -> Option<f64> {
     (count > 0).then(|| simple().filter(|kept| *kept).count() as f64 / count as f64)
 }
 
-fn is_box_or(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
+fn of(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
     rows.iter().filter(|row| row.shutter == shutter).collect()
 }
 
@@ -158,21 +159,25 @@ fn print(name: &str, rows: &[&Row]) {
     );
 }
 
-/// The limits on a table's rows: the median and the 90 % quantile of the errors.
-fn judge(rows: &[Row], failed: usize, (median, most): (f64, f64), coverage: (f64, f64)) {
-    let all: Vec<&Row> = rows.iter().collect();
+/// The limits on the errors: their median, and what 90 % of the traces keep.
+fn judge_errors(rows: &[Row], failed: usize, (median, most): (f64, f64)) {
     assert!(failed * 1000 <= rows.len() + failed, "{failed} traces without a result");
-    let error = |q| quantile(all.iter().map(|row| row.rms), q);
+    let error = |q| quantile(rows.iter().map(|row| row.rms), q);
     assert!(error(0.5) <= median, "median {}", error(0.5));
     assert!(error(0.9) <= most, "90 % {}", error(0.9));
-    let kept = kept_simple(&all).unwrap();
+}
+
+/// The limits on the choice of the model, and on how often an interval holds the truth.
+fn judge_claims(rows: &[Row], coverage: RangeInclusive<f64>) {
+    let all: Vec<&Row> = rows.iter().collect();
+    let kept = kept_simple(&all).expect("some are simple");
     assert!(kept >= 0.9, "kept simple: {kept}");
     for (what, share) in [
         ("triggers", share(&all, |row| row.covered)),
         ("exposure", share(&all, |row| f64::from(row.exposure_covered))),
-        ("efficiency", efficiency_covered(&all).unwrap()),
+        ("efficiency", efficiency_covered(&all).expect("some have an end")),
     ] {
-        assert!((coverage.0..=coverage.1).contains(&share), "{what} covered: {share}");
+        assert!(coverage.contains(&share), "{what} covered: {share}");
     }
 }
 
@@ -185,13 +190,16 @@ const DISTURBANCES: [(Disturbance, &str, (f64, f64)); 4] = [
 
 #[test]
 fn some_traces_are_fitted_as_well_as_promised() {
+    let mut all = Vec::new();
     for (disturbance, name, limits) in DISTURBANCES {
-        let (rows, failed) =
-            rows(disturbance, if disturbance == Disturbance::White { 6 } else { 2 });
         println!("{name}");
-        // Of 14 or 42 traces with a coverage of 95 %, one in a thousand tests sees less than 70 % or so.
-        judge(&rows, failed, limits, (0.7, 1.0));
+        let (rows, failed) =
+            rows(disturbance, if disturbance == Disturbance::White { 5 } else { 2 });
+        judge_errors(&rows, failed, limits);
+        all.extend(rows);
     }
+    // Of 77 intervals that hold the truth in 90 % of all cases, one sample in a hundred holds it in less than 82 %.
+    judge_claims(&all, 0.82..=1.0);
 }
 
 #[test]
@@ -208,10 +216,11 @@ fn table() {
         );
         println!("|---|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|--:|");
         for shutter in SHUTTERS {
-            print(&format!("{shutter:?}"), &is_box_or(&rows, shutter));
+            print(&format!("{shutter:?}"), &of(&rows, shutter));
         }
         print("all", &rows.iter().collect::<Vec<_>>());
-        judge(&rows, failed, limits, (0.9, 0.99));
+        judge_errors(&rows, failed, limits);
+        judge_claims(&rows, 0.9..=0.99);
         if is_white {
             white = rows;
         }
@@ -278,7 +287,7 @@ fn picture(rows: &[Row]) -> String {
         }
         for (shutter, color) in SHUTTERS.into_iter().zip(COLORS) {
             let mut errors: Vec<f64> =
-                is_box_or(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
+                of(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
             errors.sort_by(f64::total_cmp);
             let n = errors.len() as f64;
             let line =

@@ -105,15 +105,15 @@ function cost(plan) {
   if (!box.firstChild) {
     const table = element('table');
     const head = element('tr');
-    head.append(...['call', 'typical', 'worst'].map((name) => element('th', name, { scope: 'col' })));
+    head.append(...['call', 'typical', 'worst', 'code'].map((name) => element('th', name, { scope: 'col' })));
     table.append(element('thead'), element('tbody'));
     table.tHead.append(head);
-    for (const { call, typical, worst } of plan.costs) {
+    for (const { call, typical, worst, code } of plan.costs) {
       const row = element('tr');
-      row.append(element('th', call.replaceAll('`', ''), { scope: 'row' }), element('td', String(typical)), element('td', String(worst)));
+      row.append(element('th', call.replaceAll('`', ''), { scope: 'row' }), element('td', String(typical)), element('td', String(worst)), element('td', String(code)));
       table.tBodies[0].append(row);
     }
-    const note = `Cycles of a Cortex-M4F, modelled; of the shutters measured in docs/cost.md, not of this one. A curve built by the compiler takes ${plan.bytes} bytes of flash.`;
+    const note = `Cycles of a Cortex-M4F, modelled, and bytes of code: of the shutters measured in docs/cost.md, not of this one. A curve built by the compiler takes ${plan.bytes} bytes of flash.`;
     box.append(element('p', undefined, { class: 'direct' }), table, element('p', note, { class: 'note' }));
   }
   const n = plan.ticks.length;

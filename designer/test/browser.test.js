@@ -374,6 +374,11 @@ test('a dropped trace is fitted as the program fits it', async () => {
   assert.match(await page.textContent('#trace'), /residual/);
   assert.ok((await page.getAttribute('#graph path.trace', 'd')).length > 1000);
   assert.ok(Math.abs(Number(await page.inputValue('#open_end')) - 2) < 0.05);
+  // The example that is there to be tried.
+  await page.click('#example');
+  await page.waitForFunction(() => /leaf\.csv/.test(document.getElementById('trace').textContent) && document.querySelector('#trace dl'));
+  shutter('fit', join(ROOT, 'cli', 'traces', 'leaf.csv'), '--zero', 'open', '--out', scene);
+  assert.deepEqual(JSON.parse(await copied('json')).triggers, JSON.parse(shutter('plan', scene, '--emit', 'json')).triggers);
   await page.click('#trace button:text-is("Remove the trace")');
   assert.equal(await page.getAttribute('#graph path.trace', 'd'), '');
 });

@@ -9,15 +9,15 @@ use defmt::{Format, error, info};
 use defmt_semihosting as _;
 use heapless::Vec;
 use semihosting::process::ExitCode;
-use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve, valid};
+use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks};
 
 use crate::board::{TICK_HZ, TIMER_IRQ, acknowledge, interrupt_in, now, start, trigger_line};
+use crate::measured;
 
-/// A leaf shutter of 1/100 s, in flash, its polynomials computed by the compiler.
-static CURVE: ShutterCurve = valid(ShutterCurve::new(
-    CubicBezier::new([(0.0, 0.0), (0.001, 0.0), (0.0015, 1.0), (0.0025, 1.0)]),
-    CubicBezier::new([(0.0075, 1.0), (0.0085, 1.0), (0.009, 0.0), (0.01, 0.0)]),
-));
+// In flash, its polynomials computed by the compiler.
+static CURVE: ShutterCurve = measured::SHUTTER;
+// The program that planned knew this timer.
+const _: () = assert!(measured::TIMER_HZ == TICK_HZ);
 
 /// The most triggers in a frame.
 const CAPACITY: usize = 96;
@@ -32,23 +32,41 @@ const LEAD: u32 = 128;
 /// From one frame's start to the next's: 20 ms.
 const PERIOD: u32 = TICK_HZ / 50;
 
+// The handler computes a tick between two pulses, so none may be searched for: a curve that needs that does not compile.
+const _: () = assert!(CURVE.direct_triggers() >= CAPACITY as u32);
+/// The most cycles of a direct tick, by the crate's README; the timer counts cycles.
+const DIRECT_TICK: u32 = 160;
+// And there is time enough between two pulses.
+const _: () = assert!(LATEST + DIRECT_TICK + LEAD < MIN_GAP);
+
 /// An error to make, to see that it is seen.
 const FAULT: Option<&str> = option_env!("TRIGGER_FAULT");
 
-type Ticks = Vec<u32, CAPACITY>;
-
 /// A frame as it is being fired.
 struct Frame {
-    /// When each pulse has to come.
-    due: Ticks,
-    /// The pulse that is next.
+    /// The pulses that come after the next, and when the shutter starts to open.
+    ticks: Option<TriggerTicks<'static>>,
+    base: u32,
+    /// When the next pulse has to come, and its number.
+    due: Option<u32>,
     next: usize,
     /// When the line went high, with room for one time too many. Nothing but the check reads it.
     fired: Vec<u32, { CAPACITY + 1 }>,
 }
 
 static FRAME: Mutex<RefCell<Frame>> =
-    Mutex::new(RefCell::new(Frame { due: Vec::new(), next: 0, fired: Vec::new() }));
+    Mutex::new(RefCell::new(Frame { ticks: None, base: 0, due: None, next: 0, fired: Vec::new() }));
+
+impl Frame {
+    /// Arms the timer for the next pulse, if there is one.
+    fn proceed(&mut self) {
+        let tick = self.ticks.as_mut().and_then(Iterator::next);
+        self.due = tick.map(|tick| self.base.wrapping_add(tick));
+        if let Some(due) = self.due {
+            arm(due);
+        }
+    }
+}
 
 /// What is wrong with a frame's pulses.
 #[derive(Format)]
@@ -58,28 +76,25 @@ enum Wrong {
     Early(usize),
     Late(usize, u32),
     TooClose(usize, u32),
+    /// Not the ticks that the host planned for as many triggers.
+    Other,
 }
 
-/// The schedule of a frame, with fewer triggers where the gap asks for it, and the ticks it took.
-fn plan(wanted: u32) -> (Result<Ticks, ScheduleError>, u32) {
-    let begun = now();
+/// The ticks of a frame, of fewer triggers where the gap asks for it.
+fn plan(wanted: u32) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
     let gap = if FAULT == Some("close") { 1 } else { MIN_GAP + LATEST };
-    let plan = match CURVE.schedule(wanted, TICK_HZ, gap) {
-        Err(ScheduleError::GapTooSmall { most }) => CURVE.schedule(most, TICK_HZ, gap),
-        plan => plan,
-    };
-    (plan, now().wrapping_sub(begun))
+    let n = CURVE.most_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
+    CURVE.trigger_ticks(n, TICK_HZ)
 }
 
-/// Fires the pulses that are due and arms the timer for the next.
+/// Fires the pulse that is due, and has the next one come.
 fn fire(frame: &mut Frame) {
     acknowledge();
-    let next = frame.next;
-    let Some(&due) = frame.due.get(next) else { return };
+    let Some(due) = frame.due else { return };
     while (now().wrapping_sub(due) as i32) < 0 && FAULT != Some("early") {}
     // Each fault but `early` spoils one pulse.
-    let fault = FAULT.filter(|_| next == 5);
+    let fault = FAULT.filter(|_| frame.next == 5);
     if fault == Some("late") {
         while now().wrapping_sub(due) <= LATEST {}
     }
@@ -90,9 +105,7 @@ fn fire(frame: &mut Frame) {
         pulse(frame);
     }
     frame.next += 1;
-    if let Some(&due) = frame.due.get(frame.next) {
-        arm(due);
-    }
+    frame.proceed();
 }
 
 /// One pulse, and when it was.
@@ -118,15 +131,18 @@ unsafe fn DefaultHandler(irq: i16) {
 
 /// The greatest lateness of a frame's pulses, if they are what was planned. Those on time are in order, for
 /// the plan is.
-fn check(base: u32, plan: &[u32], fired: &[u32]) -> Result<u32, Wrong> {
+fn check(base: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong> {
     if fired.len() < plan.len() {
         return Err(Wrong::Missing(fired.len()));
     }
     if fired.len() > plan.len() {
         return Err(Wrong::TooMany(fired.len()));
     }
+    if plan.len() == measured::TICKS.len() && !plan.clone().eq(measured::TICKS) {
+        return Err(Wrong::Other);
+    }
     let mut worst = 0;
-    for (i, (&tick, &at)) in plan.iter().zip(fired).enumerate() {
+    for (i, (tick, &at)) in plan.zip(fired).enumerate() {
         let late = at.wrapping_sub(base.wrapping_add(tick));
         if (late as i32) < 0 {
             return Err(Wrong::Early(i));
@@ -146,28 +162,26 @@ fn check(base: u32, plan: &[u32], fired: &[u32]) -> Result<u32, Wrong> {
 fn main() -> ! {
     // The counter wraps in the middle of the third frame.
     start(if FAULT == Some("nowrap") { u32::MAX } else { PERIOD * 3 + PERIOD / 4 });
-    let first = now().wrapping_add(PERIOD);
+    let begin = now().wrapping_add(PERIOD);
     let mut good = true;
     let mut wrapped = false;
     info!("{}: exposure {} s", CURVE, CURVE.exposure());
     for (i, wanted) in FRAMES.into_iter().enumerate() {
-        let base = first.wrapping_add(i as u32 * PERIOD);
-        let (plan, planning) = plan(wanted);
-        let plan = match plan {
+        let base = begin.wrapping_add(i as u32 * PERIOD);
+        let begun = now();
+        let plan = match plan(wanted) {
             Ok(plan) => plan,
             Err(error) => {
                 error!("frame {}: {}", i, error);
                 exit(false)
             }
         };
+        let planning = now().wrapping_sub(begun);
         critical_section::with(|cs| {
             let mut frame = FRAME.borrow_ref_mut(cs);
-            frame.due = plan.iter().map(|tick| base.wrapping_add(*tick)).collect();
-            frame.next = 0;
+            (frame.ticks, frame.base, frame.next) = (Some(plan.clone()), base, 0);
             frame.fired.clear();
-            if let Some(&due) = frame.due.first() {
-                arm(due);
-            }
+            frame.proceed();
         });
         // The frame is over when a gap has passed after its end.
         let length = (CURVE.close_end() * TICK_HZ as f32) as u32 + MIN_GAP;
@@ -175,7 +189,7 @@ fn main() -> ! {
             // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
             critical_section::with(|cs| {
                 let frame = FRAME.borrow_ref(cs);
-                if frame.next < frame.due.len() {
+                if frame.due.is_some() {
                     wfi();
                 }
             });
@@ -183,20 +197,23 @@ fn main() -> ! {
         let fired = critical_section::with(|cs| FRAME.borrow_ref(cs).fired.clone());
         let across = fired.last() < fired.first();
         wrapped |= across;
-        match check(base, &plan, &fired) {
+        let n = plan.len();
+        let [first, last] =
+            [plan.clone().next(), plan.clone().last()].map(Option::unwrap_or_default);
+        match check(base, plan, &fired) {
             Ok(late) => info!(
                 "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",
                 i,
                 fired.len(),
                 wanted,
-                plan[0],
-                plan[plan.len() - 1],
+                first,
+                last,
                 late,
                 planning,
                 if across { ", across the counter's wrap" } else { "" }
             ),
             Err(wrong) => {
-                error!("frame {}: {} of {} triggers: {}", i, fired.len(), plan.len(), wrong);
+                error!("frame {}: {} of {} triggers: {}", i, fired.len(), n, wrong);
                 good = false;
             }
         }

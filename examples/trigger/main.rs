@@ -1,4 +1,4 @@
-//! Firmware that triggers: a frame's pulses, planned before it begins, fired by a timer's interrupt and
+//! Firmware that triggers: a frame's pulses, each placed and fired by a timer's interrupt and
 //! checked against the clock. It runs on the mps2-an386 board, a Cortex-M4F at 25 MHz, that QEMU has:
 //!
 //! ```text
@@ -17,6 +17,10 @@
 mod board;
 #[cfg(target_os = "none")]
 mod firmware;
+/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv`, then `shutter plan --emit rust` for this board's timer.
+#[cfg(target_os = "none")]
+#[rustfmt::skip]
+mod measured;
 
 #[cfg(not(target_os = "none"))]
 fn main() {

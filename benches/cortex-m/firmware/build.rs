@@ -1,6 +1,6 @@
 //! The curves of `tests/data/curves.csv` with the inputs of `tests/data/inverse_cdf.csv`, and those of
 //! `tests/support/cases/found.rs`, as Rust, each with the inputs that a search finds hardest; and the folder of the
-//! board's `memory.x`, which is the crate's.
+//! board's `memory.x`: the crate's, or this one for the board with a Cortex-M33.
 
 use std::collections::HashSet;
 use std::{array, cmp::Reverse, env, fmt::Write, fs, path::PathBuf};
@@ -14,7 +14,16 @@ type Ramp = [(f32, f32); 4];
 
 fn main() {
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../..");
-    println!("cargo:rustc-link-search={}", root.display());
+    let target = env::var("TARGET").unwrap();
+    if target != env::var("HOST").unwrap() {
+        println!("cargo:rustc-cfg=bare");
+    }
+    let is_m33 = target.starts_with("thumbv8m");
+    if is_m33 {
+        println!("cargo:rustc-cfg=m33");
+    }
+    let map = if is_m33 { root.join("benches/cortex-m/firmware") } else { root.clone() };
+    println!("cargo:rustc-link-search={}", map.display());
     let watched = |name: &str| {
         let path = root.join(name);
         println!("cargo:rerun-if-changed={}", path.display());
@@ -25,6 +34,7 @@ fn main() {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     };
     watched("memory.x");
+    watched("benches/cortex-m/firmware/memory.x");
     watched("tests/support/cases/found.rs");
 
     // Eight lines a curve, four a ramp: its name, its kind, the ramp, the point's number, t and f.

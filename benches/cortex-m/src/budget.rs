@@ -60,6 +60,11 @@ pub fn run() -> Result<(), String> {
     let worst = [Inputs::Hard, Inputs::Solved].map(|inputs| m4f.worst(TickStep, inputs, 8));
     let (worst, curve) = worst.into_iter().max().flatten().ok_or(none)?;
     check(&format!("cycles of a tick, worst ({curve})"), worst.into(), 2500.0, 2500.0);
+    // What a deadline stands on.
+    let (worst, place) = m4f.worst_direct(InverseCdf, 8).ok_or(none)?;
+    check(&format!("cycles of a direct inverse_cdf, worst ({place})"), worst.into(), 140.0, 140.0);
+    let (worst, place) = m4f.worst_direct(TickStep, 8).ok_or(none)?;
+    check(&format!("cycles of a direct tick, worst ({place})"), worst.into(), 160.0, 160.0);
     let what = "cycles of a tick on all ramp, CELLS = 0, mean";
     check(what, mean(TickStep, all_ramp, 0)?, 1870.0, 1970.0);
     check("cycles of cdf on all ramp, mean", mean(Cdf, all_ramp, 8)?, 1150.0, 1330.0);
@@ -71,12 +76,12 @@ pub fn run() -> Result<(), String> {
             &format!("cycles of planning {TRIGGERS} triggers on {name}"),
             mean(Schedule, row, 8)?,
             target,
-            1.27 * target,
+            1.28 * target,
         );
     }
 
     check("bytes of a curve", m4f.curve_bytes[&8].into(), 1376.0, 1376.0);
-    check("bytes of a curve, CELLS = 0", m4f.curve_bytes[&0].into(), 480.0, 480.0);
+    check("bytes of a curve, CELLS = 0", m4f.curve_bytes[&0].into(), 480.0, 488.0);
     let code = m4f.code_bytes(InverseCdf, 8).ok_or(none)?;
     check("bytes of inverse_cdf's code", code.into(), 3584.0, 4080.0);
     let (painted, said) = m4f.stack(InverseCdf, 8).ok_or(none)?;
@@ -99,12 +104,6 @@ pub fn run() -> Result<(), String> {
         );
     }
 
-    // What a deadline is to stand on one day; a plateau's edge is no search, but no polynomial's place either.
-    println!("\nWithout a search, on typical curves, most cycles:");
-    for (what, function) in [("inverse_cdf", InverseCdf), ("a tick", TickStep)] {
-        let (cycles, place) = m4f.worst_direct(function, 8).ok_or(none)?;
-        println!("{what:22} {cycles:6} ({place})");
-    }
     println!("\nTypical curves, inverse_cdf: mean cycles, and the share that is searched for");
     for curve in m4f.typical(InverseCdf, 8) {
         println!("{:22} {:6.1} {:5.1} %", curve.name, curve.cycles.mean, 100.0 * curve.searched);

@@ -1,31 +1,74 @@
 //! Builds the firmware and runs it in QEMU.
 
 use std::ffi::OsStr;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// A core that the firmware is measured on, as a board of QEMU's.
-#[derive(Clone, Copy)]
+/// What the firmware's programs are built for and run on.
+#[derive(Clone, Copy, PartialEq)]
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
     pub has_fpu: bool,
-    board: &'static str,
+    runs_in: RunsIn,
 }
 
-pub const M4F: Core = Core {
-    name: "Cortex-M4F",
-    target: "thumbv7em-none-eabihf",
-    has_fpu: true,
-    board: "mps2-an386",
-};
+#[derive(Clone, Copy, PartialEq)]
+enum RunsIn {
+    /// A board of QEMU's with an Arm core.
+    Board(&'static str),
+    /// QEMU's user mode for a processor.
+    Linux(&'static str),
+    Node,
+}
+
+use RunsIn::{Board, Linux, Node};
+
+pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", true, Board("mps2-an386"));
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core =
-    Core { name: "Cortex-M0+", target: "thumbv6m-none-eabi", has_fpu: false, board: "mps2-an385" };
+pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", false, Board("mps2-an385"));
+pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", true, Board("mps2-an505"));
+pub const IMC: Core =
+    core("riscv32imc", "riscv32imc-unknown-none-elf", false, Linux("qemu-riscv32"));
+pub const IMAFC: Core =
+    core("riscv32imafc", "riscv32imafc-unknown-none-elf", true, Linux("qemu-riscv32"));
+pub const RISCV64: Core =
+    core("riscv64gc", "riscv64gc-unknown-none-elf", true, Linux("qemu-riscv64"));
+pub const I686: Core = core("i686", "i686-unknown-linux-gnu", true, Linux("qemu-i386"));
+pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", true, Linux("qemu-s390x"));
+pub const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", true, Linux("qemu-ppc"));
+pub const WASM: Core = core("wasm32", "wasm32-unknown-unknown", true, Node);
+
+const fn core(name: &'static str, target: &'static str, has_fpu: bool, runs_in: RunsIn) -> Core {
+    Core { name, target, has_fpu, runs_in }
+}
 
 pub const QEMU: &str = "qemu-system-arm";
 pub const OBJDUMP: &str = "llvm-objdump";
+
+/// How a program is built: with one of the crate's seeds, a feature or none, and at an optimisation level.
+#[derive(Clone, Copy)]
+pub struct Flavour {
+    pub seed: &'static str,
+    pub level: &'static str,
+    pub debug: bool,
+}
+
+impl Flavour {
+    /// As what is measured is built.
+    pub const fn fast(seed: &'static str) -> Self {
+        Self { seed, level: OPT_LEVEL, debug: false }
+    }
+}
+
+/// Gives WebAssembly what it asks for: a way to print.
+const NODE: &str = "node";
+const HOST: &str = "
+const host = { write: (at, length) => process.stdout.write(new Uint8Array(program.exports.memory.buffer, at, length)) };
+const { instance: program } = await WebAssembly.instantiate(process.getBuiltinModule('fs').readFileSync(process.argv[1]), { host });
+program.exports._start();
+";
 
 /// The firmware's, as the compiler takes it.
 const OPT_LEVEL: &str = "3";
@@ -38,31 +81,45 @@ pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds a program of the firmware with one of the crate's seeds, a feature or none.
-pub fn build(core: Core, program: &str, seed: &str) -> Result<PathBuf, String> {
-    let mut cargo = cargo(core, program, seed);
+/// Builds a program of the firmware.
+pub fn build(core: Core, program: &str, flavour: Flavour) -> Result<PathBuf, String> {
+    let mut cargo = cargo(core, program, flavour);
     let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
     if !status.success() {
-        return Err(format!("cannot build {program} for {}; has rustc the target?", core.target));
+        return Err(format!(
+            "cannot build {program} for {}; `rustup target add {0}`, or run this by .ci/matrix.sh",
+            core.target
+        ));
     }
-    Ok(elf(core, program))
-}
-
-pub fn elf(core: Core, program: &str) -> PathBuf {
+    let suffix = if core == WASM { ".wasm" } else { "" };
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
-    target.join(core.target).join("release").join(program)
+    let profile = if flavour.debug { "debug" } else { "release" };
+    Ok(target.join(core.target).join(profile).join(format!("{program}{suffix}")))
 }
 
 /// The command that builds a program.
-pub fn cargo(core: Core, program: &str, seed: &str) -> Command {
+pub fn cargo(core: Core, program: &str, Flavour { seed, level, debug }: Flavour) -> Command {
     let mut cargo = Command::new("cargo");
-    cargo.current_dir(folder()).args(["build", "--quiet", "--release", "--package", "firmware"]);
+    cargo.current_dir(folder()).args(["build", "--quiet", "--package", "firmware"]);
     cargo.args(["--bin", program, "--target", core.target, "--features", seed]);
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag
     // that is not stable.
-    cargo.env("RUSTFLAGS", "-C link-arg=-Tlink.x -Z emit-stack-sizes").env("RUSTC_BOOTSTRAP", "1");
-    cargo.env("CARGO_PROFILE_RELEASE_OPT_LEVEL", OPT_LEVEL);
+    let flags = match core.runs_in {
+        Board(_) => "-C link-arg=-Tlink.x -Z emit-stack-sizes",
+        // No library of Linux's is linked, so none of its linkers is needed.
+        Linux(_) => {
+            "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static -Z emit-stack-sizes"
+        }
+        Node => "",
+    };
+    cargo.env("RUSTFLAGS", flags).env("RUSTC_BOOTSTRAP", "1");
+    if debug {
+        cargo.env("CARGO_PROFILE_DEV_PANIC", "abort");
+    } else {
+        cargo.arg("--release").env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
+        cargo.env("CARGO_PROFILE_RELEASE_PANIC", "abort");
+    }
     cargo
 }
 
@@ -86,32 +143,72 @@ pub fn missing(program: &OsStr, error: &std::io::Error) -> String {
     }
     let install = match program.to_str() {
         Some(QEMU) => "install QEMU (Debian: qemu-system-arm)",
+        Some(NODE) => "install Node.js (Debian: nodejs)",
+        Some(name) if name.starts_with("qemu-") => "install QEMU's user mode (Debian: qemu-user)",
         Some(OBJDUMP) => "install LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
         _ => "install Rust",
     };
-    format!("{name} not found: {install}, or run this by .ci/thumb.sh")
+    format!("{name} not found: {install}, or run this by .ci/matrix.sh")
 }
 
-/// Starts a program in QEMU, its output piped; `options` are QEMU's.
-pub fn start(core: Core, elf: &Path, options: &[String]) -> Result<Child, String> {
-    Command::new(QEMU)
-        .args(["-M", core.board, "-nographic", "-monitor", "none", "-serial", "null"])
-        .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-        .arg(elf)
-        .args(options)
-        .stdin(Stdio::null())
+/// Starts a program, its input, output and errors piped; `options` are QEMU's.
+pub fn start(core: Core, program: &Path, options: &[String]) -> Result<Child, String> {
+    let (runner, first): (&str, &[&str]) = match core.runs_in {
+        Board(board) => (
+            QEMU,
+            &[
+                "-M",
+                board,
+                "-nographic",
+                "-monitor",
+                "none",
+                "-serial",
+                "null",
+                "-semihosting-config",
+                "enable=on,target=native",
+            ],
+        ),
+        Linux(qemu) => (qemu, &[]),
+        Node => (NODE, &["-e", HOST]),
+    };
+    let mut command = Command::new(runner);
+    command.args(first).args(options);
+    command.args(matches!(core.runs_in, Board(_)).then_some("-kernel")).arg(program);
+    command
+        .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(|error| missing(OsStr::new(QEMU), &error))
+        .map_err(|error| missing(OsStr::new(runner), &error))
+}
+
+/// Starts a program that finds this in its memory, in [`firmware::SELECTED`] and behind.
+pub fn start_with(
+    core: Core,
+    program: &Path,
+    memory: &[u8],
+    options: &[String],
+) -> Result<Child, String> {
+    let Board(_) = core.runs_in else {
+        let mut child = start(core, program, options)?;
+        // A program that stops early is found out by its status.
+        let _ = child.stdin.take().map(|mut stdin| stdin.write_all(memory));
+        return Ok(child);
+    };
+    let file = program.with_extension("memory");
+    std::fs::write(&file, memory).map_err(|error| format!("{}: {error}", file.display()))?;
+    let at = ::firmware::selected_at(core == M33);
+    let loader = format!("loader,file={},addr={at:#x},force-raw=on", file.display());
+    start(core, program, &[options, &["-device".into(), loader]].concat())
 }
 
 /// What a program writes.
-pub fn output(core: Core, elf: &Path) -> Result<Vec<u8>, String> {
-    let child = start(core, elf, &[])?;
+pub fn output(core: Core, program: &Path) -> Result<Vec<u8>, String> {
+    let child = start(core, program, &[])?;
     let output = child.wait_with_output().map_err(|error| error.to_string())?;
     if !output.status.success() {
-        return Err(format!("{}: {}", elf.display(), String::from_utf8_lossy(&output.stderr)));
+        let texts = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        return Err(format!("{}: {}", program.display(), texts.join("\n")));
     }
     Ok(output.stdout)
 }

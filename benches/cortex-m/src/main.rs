@@ -3,12 +3,13 @@
 //! ```text
 //! cargo run --release              # prints the report and writes ../../docs/cost.md; some minutes
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
-//! cargo run --release -- --answers # the same answers on the host, on a Cortex-M4F and in soft float?
-//! cargo run --release -- --links   # a firmware that links only if nothing can panic
+//! cargo run --release -- --answers # the same answers on the host and on processors that differ? With --all: on ten
+//! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
 //! cargo run --release -- --quick [SEED [CELLS [FUNCTION]]] # the tuner's loop: one function, with a listing
 //! ```
 //!
-//! It needs the targets thumbv7em-none-eabihf and thumbv6m-none-eabi, qemu-system-arm, and llvm-objdump.
+//! It needs the targets of `.ci/matrix.sh`, which sets up all of this, qemu-system-arm, QEMU's user mode, Node.js and
+//! llvm-objdump.
 
 mod answers;
 mod budget;
@@ -29,7 +30,8 @@ fn main() -> ExitCode {
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => report::run(),
         ["--short"] => budget::run(),
-        ["--answers"] => answers::run(),
+        ["--answers"] => answers::run(false),
+        ["--answers", "--all"] => answers::run(true),
         ["--links"] => links::run(),
         ["--quick"] => quick::run("none", "8", "inverse_cdf"),
         ["--quick", seed] => quick::run(seed, "8", "inverse_cdf"),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ::firmware::{CELLS, CURVES, Function, Inputs};
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, build, output};
+use crate::firmware::{Core, Flavour, build, output};
 use crate::searched::asked;
 use crate::trace::{Call, Key, Selection, Trace, trace};
 
@@ -53,8 +53,8 @@ impl Spread {
 impl Measured {
     /// Builds for a core with a seed and traces each selection; the stack is looked at on a core with an FPU alone,
     /// since in soft float that takes longer than all else.
-    pub fn new(core: Core, seed: &str, selections: &[Selection]) -> Result<Self, String> {
-        let elf = build(core, "cost", seed)?;
+    pub fn new(core: Core, seed: &'static str, selections: &[Selection]) -> Result<Self, String> {
+        let elf = build(core, "cost", Flavour::fast(seed))?;
         let code = Disassembly::of(&elf)?;
         let (mut calls, mut instance) = (BTreeMap::new(), BTreeMap::new());
         for selection in selections {
@@ -86,7 +86,7 @@ impl Measured {
             let key = Key { function, cells, inputs: Inputs::Typical, curve };
             let cycles = self.cycles(&key)?;
             let asked = asked(&key);
-            let searched = asked.iter().filter(|asked| asked.searched == Some(true)).count();
+            let searched = asked.iter().filter(|asked| asked.searched).count();
             Some(Typical {
                 name: CURVES[curve].name,
                 cycles,
@@ -103,20 +103,18 @@ impl Measured {
         (!curves.is_empty()).then(|| total / curves.len() as f64)
     }
 
-    /// The most cycles of a call that was not searched for, over all typical curves with uniform and with hard inputs;
-    /// with its curve and its fraction.
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
+    /// ones, too; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
         let keys = self.calls.keys().filter(|key| {
-            key.function == function
-                && key.cells == cells
-                && CURVES[key.curve].is_typical
-                && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
+            let is_measured = key.function == function && key.cells == cells;
+            is_measured && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
         });
         let calls = keys.flat_map(|key| {
             let calls = asked(key).into_iter().zip(self.calls(key));
             calls.map(|(asked, call)| (call.cycles, key.curve, asked))
         });
-        let direct = calls.filter(|(.., asked)| asked.searched == Some(false));
+        let direct = calls.filter(|(.., asked)| !asked.searched);
         let (cycles, curve, asked) = direct.max_by_key(|(cycles, ..)| *cycles)?;
         Some((cycles, format!("{}, u = {}", CURVES[curve].name, asked.u)))
     }
@@ -149,8 +147,8 @@ impl Measured {
 type Stack = (BTreeMap<(Function, usize), u32>, BTreeMap<usize, u32>);
 
 /// Two lines a number of cells: `bytes 8 1376`, and the depth of each function.
-fn stack(core: Core, seed: &str) -> Result<Stack, String> {
-    let output = output(core, &build(core, "stack", seed)?)?;
+fn stack(core: Core, seed: &'static str) -> Result<Stack, String> {
+    let output = output(core, &build(core, "stack", Flavour::fast(seed))?)?;
     let output = String::from_utf8_lossy(&output);
     let numbers =
         output.lines().map(|line| line.split_whitespace().filter_map(|n| n.parse().ok()).collect());

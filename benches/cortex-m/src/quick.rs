@@ -7,7 +7,7 @@ use ::firmware::{
 };
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{M4F, SEEDS, build};
+use crate::firmware::{Flavour, M4F, SEEDS, build};
 use crate::trace::{Call, Key, Selection, trace};
 
 pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
@@ -21,12 +21,11 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let called = functions.iter().copied().find(|f| name(*f) == function);
     let called = called.ok_or_else(|| format!("{function}: one of {}", names.join(", ")))?;
     let seed = if seed == "none" { "" } else { seed };
-    if !SEEDS.contains(&seed) {
-        return Err(format!("{seed}: one of none, {}", SEEDS[1..].join(", ")));
-    }
+    let seed = SEEDS.into_iter().find(|known| *known == seed);
+    let seed = seed.ok_or_else(|| format!("the seed is one of none, {}", SEEDS[1..].join(", ")))?;
     let cells = CELLS.into_iter().find(|c| c.to_string() == cells);
     let cells = cells.ok_or_else(|| format!("CELLS is one of {CELLS:?}"))?;
-    let elf = build(M4F, "cost", seed)?;
+    let elf = build(M4F, "cost", Flavour::fast(seed))?;
     let code = Disassembly::of(&elf)?;
     let mut selection = Selection { cells: vec![cells], functions: vec![called], inputs: ON_ROWS };
     for (row, (name, data)) in ROWS.iter().enumerate() {

@@ -63,7 +63,7 @@ pub fn run() -> Result<(), String> {
     std::fs::write(&path, out).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn m4f(seed: &str) -> Result<Measured, String> {
+fn m4f(seed: &'static str) -> Result<Measured, String> {
     use Function::*;
     let some = |cells: &[usize], functions: &[Function], inputs| Selection {
         cells: cells.to_vec(),
@@ -82,7 +82,7 @@ fn m4f(seed: &str) -> Result<Measured, String> {
     Measured::new(M4F, seed, &selections)
 }
 
-fn m0(seed: &str) -> Result<Measured, String> {
+fn m0(seed: &'static str) -> Result<Measured, String> {
     use Function::*;
     let mut functions = vec![InverseCdf, Cdf, Opening, TickStep, Schedule];
     if seed == SEEDS[0] {
@@ -150,9 +150,9 @@ fn overview(out: &mut String, Build { m4f, m0, .. }: &Build) {
 
     let _ = write!(
         out,
-        "\nThe calls with `CELLS = 8`, in cycles. *No search* is the worst call on typical curves for which the mass is not \
-         evaluated; a schedule is of {TRIGGERS} triggers, checked.\n\n\
-         | call | soft | all ramp | box | typical | worst | no search | code, bytes | stack, bytes |\n\
+        "\nThe calls with `CELLS = 8`, in cycles. *Direct* is the worst call, on any curve, that is answered by a polynomial or the plateau's line, as all of a frame of \
+         `direct_triggers()` are; a schedule is of {TRIGGERS} triggers, checked.\n\n\
+         | call | soft | all ramp | box | typical | worst | direct | code, bytes | stack, bytes |\n\
          |---|--:|--:|--:|--:|--:|--:|--:|--:|\n"
     );
     let calls = [
@@ -253,7 +253,8 @@ fn typical(out: &mut String, Build { m4f, .. }: &Build) {
         if let Some((cycles, place)) = m4f.worst_direct(function, 8) {
             let _ = writeln!(
                 out,
-                "\nThe most cycles of {what} that is not searched for, with uniform and hard inputs: {cycles} ({place})."
+                "\nThe most cycles of {what} that is answered by a polynomial or the plateau's line, on all curves, with uniform \
+                 and hard inputs: {cycles} ({place})."
             );
         }
     }
@@ -328,8 +329,8 @@ fn others(out: &mut String, build: &Build) {
         "\nWorst over the hard curves and inputs, cycles: `cdf` {}, `opening` {}. Of triggers, the steps of a frame \
          of {TRIGGERS} and the first of a frame whose first share ends near a hard input, and the frame as a whole; \
          the curves on a scale of time that makes the interval one to two million ticks, and *solved*: 64 times \
-         that, where no polynomial serves. A frame that is refused for its gap costs as \
-         many frames as are then tried.",
+         that, where no polynomial serves. A frame that is refused for its gap costs no more \
+         than one that is not.",
         worst(m4f, Cdf, Inputs::Hard, 8),
         worst(m4f, Opening, Inputs::Hard, 8)
     );

@@ -10,7 +10,7 @@ use std::path::Path;
 use firmware::{CELLS, Function, Inputs, baselines, series};
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, output, start};
+use crate::firmware::{Core, output, start_with};
 use crate::model::{Cost, refill};
 
 /// What one call took, within the called function and what it calls: from its first instruction to its
@@ -197,21 +197,11 @@ pub fn trace(
     selection: &Selection,
     annotate: Option<Key>,
 ) -> Result<Trace, String> {
-    let region = elf.with_extension("curves");
-    std::fs::write(&region, output(core, elf)?).map_err(|error| error.to_string())?;
-    let loader = |what: String| ["-device".to_owned(), format!("loader,{what}")];
-    let mut options = Vec::from(["-d", "in_asm,exec,nochain"].map(str::to_owned));
-    options.extend(loader(format!(
-        "file={},addr={:#x},force-raw=on",
-        region.display(),
-        firmware::REGION
-    )));
-    options.extend(loader(format!(
-        "addr={:#x},data={},data-len=4",
-        firmware::SELECTION,
-        selection.mask()
-    )));
-    let mut child = start(core, elf, &options)?;
+    let mut memory = vec![0; ::firmware::PAGE as usize];
+    memory[..4].copy_from_slice(&selection.mask().to_le_bytes());
+    memory.extend(output(core, elf)?);
+    let options = ["-d", "in_asm,exec,nochain"].map(str::to_owned);
+    let mut child = start_with(core, elf, &memory, &options)?;
 
     let mut replay = Replay::new(code, selection, annotate);
     // The instructions of each block, by QEMU's number for it; and of the one just translated.

@@ -146,7 +146,7 @@ impl Exposure {
         let Curve { opening, plateau, closing, .. } = self.curve;
         let [start, open_end, close_start, end] = self.curve.times();
         let [opened, closed] = &self.whole;
-        if !(t > start) {
+        if t <= start {
             return Collected { amount: 0.0, moves };
         }
         if t < open_end {

@@ -31,7 +31,8 @@ impl Covariance {
         let fitted = &fit.kinds[kind as usize];
         let solution = &fitted.solution;
         let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
-        let on_bound = |k: &usize| packed[*k] <= bounds[*k].0 || packed[*k] >= bounds[*k].1;
+        // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
+        let on_bound = |k: &usize| *k < CONTROLS && packed[*k] <= bounds[*k].0;
         let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
         let cell =
             |i: usize, j: usize| solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 };
@@ -94,6 +95,12 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     };
     widen(&mut chosen.exposure, &|results| results.exposure);
     widen(&mut chosen.efficiency, &|results| results.efficiency);
+    // Where soft ends lie is known least. That they are mirror images is economy, no finding: the freer kind counts by half.
+    if kind == Kind::Symmetric {
+        let (free, here) = (of_kind(fit, Kind::Free, n).efficiency, &mut chosen.efficiency);
+        let variance = free.error * free.error + (free.value - here.value).powi(2);
+        here.error = here.error.max((0.5 * (here.error * here.error + variance)).sqrt());
+    }
     for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
         widen(trigger, &|results| results.triggers[i]);
     }

@@ -88,8 +88,8 @@ pub struct FrameFit {
 }
 
 impl FrameFit {
-    /// Fits every kind up to `most`; the freest one is always among them.
-    pub fn new(pulses: &Pulses, frame: &Frame) -> Self {
+    /// Fits every kind; `progress` is told the share that is done, as far as that is known.
+    pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
         let times: Vec<f64> =
             pulses.trace.times[frame.samples.clone()].iter().map(|t| units.time(*t)).collect();
@@ -111,7 +111,10 @@ impl FrameFit {
             drift: None,
             hum: None,
         };
-        let mut solutions = every_kind(&problem, &crossings, step, &plain);
+        // If a column turns out to be worth it, all of this comes twice.
+        let mut solutions = every_kind(&problem, &crossings, step, &plain, &mut |done| {
+            progress(0.5 * done);
+        });
         let mut free = Fitted::new(solutions[Kind::Free as usize].clone(), &samples);
         let mut columns = false;
         for column in [Column::Drift, Column::Hum] {
@@ -121,7 +124,10 @@ impl FrameFit {
             }
         }
         if columns {
-            solutions = every_kind(&problem, &crossings, step, &free.solution.signal);
+            solutions =
+                every_kind(&problem, &crossings, step, &free.solution.signal, &mut |done| {
+                    progress(0.5 + 0.5 * done);
+                });
             let last = &mut solutions[Kind::Free as usize];
             if free.solution.cost < last.cost {
                 *last = free.solution;
@@ -234,9 +240,16 @@ impl Missed {
 
 /// Every kind's best signal. Levels and columns start as they are in `like`: a hum's frequency, say, that the misfit of
 /// a simple kind has led astray is not handed on to the next.
-fn every_kind(problem: &Problem, crossings: &Crossings, step: f64, like: &Signal) -> Vec<Solution> {
+fn every_kind(
+    problem: &Problem,
+    crossings: &Crossings,
+    step: f64,
+    like: &Signal,
+    progress: &mut dyn FnMut(f64),
+) -> Vec<Solution> {
     let mut found: Vec<Solution> = Vec::new();
     for kind in Kind::ALL {
+        progress(found.len() as f64 / Kind::ALL.len() as f64);
         found.push(starts::search(problem, kind, crossings, step, found.last(), like));
     }
     found
@@ -284,7 +297,7 @@ pub fn correlation(residuals: &[f64]) -> f64 {
         residuals[lag.min(n)..].iter().zip(residuals).map(|(a, b)| a * b).sum()
     };
     let squares = lagged(0);
-    if !(squares > 0.0) {
+    if squares <= 0.0 {
         return 1.0;
     }
     let most = (10.0 * (n as f64).log10()) as usize;
@@ -298,7 +311,7 @@ pub fn correlation(residuals: &[f64]) -> f64 {
         weights.iter_mut().zip(turned).for_each(|(w, t)| *w -= t);
         weights.push(next);
         left *= 1.0 - next * next;
-        if !(left > 0.0) {
+        if left <= 0.0 {
             break;
         }
         let criterion = n as f64 * left.ln() + 2.0 * order as f64;

@@ -17,16 +17,20 @@ mod signal;
 mod solve;
 mod starts;
 
-pub use curve::Curve;
-pub use errors::Measured;
-pub use report::{because, plus_minus, text};
-pub use scene::{Scene, Zero};
-pub use signal::{Hum, Kind, Signal};
+use std::iter::once;
 
 use crate::trace::{Frame, Light, Pulses, Refusal, Trace, Warning, pulses};
 use crate::unit::Unit;
+pub use curve::Curve;
+pub use errors::Measured;
 use frame::FrameFit;
+pub use report::{because, plus_minus, text};
+pub use scene::{Scene, Zero};
 use shots::Shots;
+pub use signal::{Hum, Kind, Signal};
+
+/// As many as `shutter plan` plans.
+const MOST_TRIGGERS: u32 = 10_000;
 
 /// A difference in trigger times that is small enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +54,7 @@ pub struct Options {
     pub frame: Option<usize>,
     /// Which way light moves the signal.
     pub light: Light,
-    /// How many triggers are judged and planned; at least 1.
+    /// How many triggers are judged and planned: 1 to 10 000, clamped to that.
     pub triggers: u32,
 }
 
@@ -174,6 +178,7 @@ pub fn fit(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
+    let n = options.triggers.clamp(1, MOST_TRIGGERS);
     let pulses = pulses(trace, options.light)?;
     let number = match options.frame {
         Some(number) if number == 0 || number > pulses.frames.len() => {
@@ -186,21 +191,19 @@ pub fn fit(
     let shots_wanted = options.model.is_none() && options.tolerance.is_none();
     let others = if shots_wanted { shots::others(&pulses.frames, number) } else { Vec::new() };
     let steps = 1.0 + others.len() as f64;
-    progress(0.0);
-    let fitted = FrameFit::new(&pulses, frame);
-    progress(1.0 / steps);
-    let mut all = vec![fitted];
-    for (i, other) in others.iter().enumerate() {
-        all.push(FrameFit::new(&pulses, &pulses.frames[*other]));
-        progress((i as f64 + 2.0) / steps);
+    let mut all = Vec::new();
+    for (i, frame) in once(frame).chain(others.iter().map(|k| &pulses.frames[*k])).enumerate() {
+        let mut progress = |done: f64| progress((i as f64 + done) / steps);
+        all.push(FrameFit::new(&pulses, frame, &mut progress));
     }
-    let shots = (all.len() >= shots::FEWEST).then(|| Shots::new(&all, options.triggers));
+    progress(1.0);
+    let shots = (all.len() >= shots::FEWEST).then(|| Shots::new(&all, n));
     let fitted = &all[0];
-    let candidates = candidates(fitted, shots.as_ref(), options.triggers);
+    let candidates = candidates(fitted, shots.as_ref(), n);
     let (chosen, reason) = choose(options, &candidates, fitted, shots.as_ref());
     let units = fitted.units;
     let errors::Results { mut exposure, mut efficiency, triggers } =
-        errors::results(fitted, chosen, options.triggers.max(1));
+        errors::results(fitted, chosen, n);
     let seconds =
         |m: Measured| Measured { value: units.seconds(m.value), error: units.pulse() * m.error };
     let peak = peak(options.full, &pulses, &candidates[chosen as usize])?;

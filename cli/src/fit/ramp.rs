@@ -65,7 +65,7 @@ impl UnitRamp {
 
     /// The ramp at the share `z` of its length, which is clamped to [0, 1].
     pub fn at(&self, z: f64) -> At {
-        if !(z > 0.0) {
+        if z.is_nan() || z <= 0.0 {
             return At::START;
         }
         let p = if z < 1.0 { self.place(z) } else { 1.0 };

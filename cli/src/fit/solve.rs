@@ -24,7 +24,7 @@ pub struct Problem<'a> {
 pub struct Solution {
     pub signal: Signal,
     pub cost: f64,
-    /// `JᵀJ`
+    /// `JᵀJ`, up to its diagonal: it is symmetric.
     pub normal: Vec<Vec<f64>>,
     /// `Jᵀr`, what lowers the sum pointing against it.
     pub gradient: Vec<f64>,
@@ -56,11 +56,6 @@ impl Problem<'_> {
             cost += self.prior * miss * miss;
             gradient[k] += self.prior * miss;
             normal[k][k] += self.prior;
-        }
-        for i in 0..n {
-            for j in 0..i {
-                normal[j][i] = normal[i][j];
-            }
         }
         Solution { signal: *signal, cost, normal, gradient }
     }
@@ -119,7 +114,7 @@ fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) ->
     Some(to)
 }
 
-/// `A = L Lᵀ` of a symmetric, positive matrix.
+/// `A = L Lᵀ` of a symmetric, positive matrix, which is read up to its diagonal.
 pub struct Cholesky {
     lower: Vec<Vec<f64>>,
 }

@@ -8,6 +8,9 @@ pub use pulse::{Frame, Light, Pulses, pulses};
 pub use read::{Column, Options, decode, read};
 pub use told::{Refusal, Warning};
 
+/// No time and no signal is larger than this: squares and sums of them stay far from the end of `f64`.
+const LARGEST: f64 = 1e30;
+
 /// A signal over time: seconds, in order, no two the same; values in the file's own unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {

@@ -1,6 +1,6 @@
 //! Where the pulses of a trace are: its levels in the dark and in the light, its noise, its frames.
 
-use super::{Refusal, Trace, Warning};
+use super::{LARGEST, Refusal, Trace, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
 const SPIKE: f64 = 6.0;
@@ -68,6 +68,12 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     if trace.times.len() < FEWEST.0 {
         return Err(Refusal::TooFewSamples { samples: trace.times.len(), required: FEWEST.0 });
     }
+    let is_sound = trace.times.len() == trace.values.len()
+        && trace.times.iter().chain(&trace.values).all(|x| x.abs() <= LARGEST)
+        && trace.times.windows(2).all(|pair| pair[0] < pair[1]);
+    if !is_sound {
+        return Err(Refusal::Unsound);
+    }
     let mut warnings = Vec::new();
     let noise = noise(&trace.values);
     let mut trace = trace.clone();
@@ -76,7 +82,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
         warnings.push(Warning::Spikes { count: spikes.len(), first: *first });
     }
     let (low, high) = range(&trace.values);
-    if !(high > low) {
+    if high <= low {
         return Err(Refusal::NoPulse { contrast: 0.0 });
     }
     // Noise of a twentieth of the light after smoothing switches no state.

@@ -5,7 +5,7 @@
 
 use std::iter::once;
 
-use super::{Refusal, Trace, Warning};
+use super::{LARGEST, Refusal, Trace, Warning};
 use crate::unit::Unit;
 
 /// A longer line is no row of samples.
@@ -14,8 +14,6 @@ const LONGEST_LINE: usize = 1 << 16;
 const LOOKED_AT: usize = 60;
 /// What stands above the numbers is shorter than this, in lines.
 const LONGEST_HEADER: usize = 500;
-/// No time and no signal is larger than this; squares and sums of them stay far from the end of `f64`.
-const LARGEST: f64 = 1e30;
 /// The share of the rows that may be broken.
 const BROKEN: f64 = 0.2;
 

@@ -33,6 +33,8 @@ pub enum Refusal {
         /// What is wrong with that.
         reason: String,
     },
+    /// Times and values that are not as many, not finite or beyond 10³⁰, or out of order; no file that was read gives these.
+    Unsound,
     /// So few that nothing can be told.
     TooFewSamples {
         /// So many there are.
@@ -94,6 +96,9 @@ impl fmt::Display for Refusal {
                 out,
                 "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out: is this the file, \
                  and are --columns right?"
+            ),
+            Self::Unsound => out.write_str(
+                "times and values have to be as many, finite numbers up to 1e30, and times in order",
             ),
             Self::TooFewSamples { samples, required } => write!(
                 out,

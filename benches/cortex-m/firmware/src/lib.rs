@@ -234,10 +234,17 @@ pub fn baselines() -> impl Iterator<Item = (Function, Inputs)> {
 /// The numbers of cells measured.
 pub const CELLS: [usize; 4] = [0, 4, 8, 16];
 
-/// Where the host places the curves, and a selection of what to run: one bit a number of cells, one a
-/// function, and one a kind of inputs. In RAM, above the statics and far below the stack.
-pub const REGION: u32 = 0x2010_0000;
-pub const SELECTION: u32 = REGION - 8;
+/// The address at which the host places a selection of what to run: one bit a number of cells, one a function, and one a kind
+/// of inputs; and a page behind it the curves. In RAM, above the statics and far below the stack.
+pub const SELECTED: u32 = selected_at(cfg!(m33));
+pub const REGION: u32 = SELECTED + PAGE;
+pub const PAGE: u32 = 4096;
+
+/// The same of the board with a Cortex-M33, or else of all others.
+pub const fn selected_at(is_m33: bool) -> u32 {
+    if is_m33 { 0x3810_0000 } else { 0x2010_0000 }
+}
+
 /// The kinds of inputs in a selection: those of the rows, of all typical curves, and the hard ones.
 pub const ON_ROWS: u32 = 1 << 29;
 pub const ON_TYPICAL: u32 = 1 << 30;

@@ -35,6 +35,7 @@ pub fn everything() {
             .map_err(curve_error)
             .is_ok(),
     );
+    linear::<16>(ramp);
     shutter::<0>(opening, closing);
     shutter::<4>(opening, closing);
     shutter::<8>(opening, closing);
@@ -42,6 +43,15 @@ pub fn everything() {
     black_box(BezierPdf::new(opening).map_err(curve_error).is_ok());
     pdf::<0>(opening);
     pdf::<8>(opening);
+}
+
+fn linear<const CELLS: usize>(ramp: &Ramp) {
+    let [(a, b), (c, d), ..] = *ramp;
+    black_box(ShutterCurve::<CELLS>::linear_with_cells(a, b, c, d).map_err(curve_error).is_ok());
+    let (times, inner) = (black_box([0.0; 4]), black_box([0.0; 8]));
+    black_box(
+        ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner).map_err(curve_error).is_ok(),
+    );
 }
 
 fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
@@ -59,20 +69,34 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
     black_box(curve.evaluations(x));
     let n: u32 = black_box(64);
     black_box(curve.max_triggers(x));
-    let times = curve.trigger_times(n);
+    black_box(curve.direct_triggers());
+    let mut times = curve.trigger_times(n);
     black_box(times.len());
+    black_box([times.nth(black_box(2)), times.next_back(), times.nth_back(black_box(2))]);
+    black_box(times.clone().last());
     for t in times {
         black_box(t);
     }
     match curve.trigger_ticks(n, black_box(1_000)) {
-        Ok(ticks) => {
+        Ok(mut ticks) => {
             black_box(ticks.len());
+            black_box([ticks.nth(black_box(2)), ticks.next_back(), ticks.nth_back(black_box(2))]);
+            black_box(ticks.clone().last());
             for tick in ticks {
                 black_box(tick);
             }
         }
         Err(error) => schedule_error(error),
     }
+    black_box(
+        curve.most_triggers(n, black_box(1_000), black_box(3)).map_err(schedule_error).is_ok(),
+    );
+    let mut ticks = [0; 16];
+    let places = ticks.get_mut(..black_box(9)).unwrap_or(&mut []);
+    black_box(
+        curve.schedule_into(places, black_box(1_000), black_box(3)).map_err(schedule_error).is_ok(),
+    );
+    black_box(ticks);
     match curve.schedule::<64>(n, black_box(1_000), black_box(3)) {
         Ok(ticks) => drop(black_box(ticks)),
         Err(error) => schedule_error(error),

@@ -1,11 +1,10 @@
 //! Every curve for every number of cells and on every scale of time, in a region of RAM.
 //!
 //! Building them takes a thousand times the instructions of what is measured, too many to trace. So the
-//! firmware runs twice: where the region is empty it builds the curves and writes the region to stdout;
-//! QEMU's loader puts it in place for the second run.
+//! firmware runs twice: where the region is empty it builds the curves and writes the region to stdout; for the second run
+//! QEMU's loader puts it in place, or as a bare Linux program it reads it from stdin.
 
 use firmware::{CELLS, CURVES, SCALES};
-use semihosting::io::{Write, stdout};
 use shutter_curve::ShutterCurve;
 
 const REGION: usize = firmware::REGION as usize;
@@ -35,6 +34,11 @@ fn at<const C: usize>() -> *mut [[ShutterCurve<C>; COUNT]; SCALES.len()] {
 }
 
 pub fn loaded() -> bool {
+    #[cfg(target_arch = "riscv32")]
+    crate::machine::map(
+        firmware::SELECTED as usize,
+        REGION - firmware::SELECTED as usize + offset(usize::MAX),
+    );
     // SAFETY: the region is aligned RAM that nothing else uses.
     unsafe { (REGION as *const u64).read_volatile() == MAGIC }
 }
@@ -42,7 +46,7 @@ pub fn loaded() -> bool {
 /// The host's selection.
 pub fn selection() -> u32 {
     // SAFETY: aligned RAM that nothing else uses.
-    unsafe { (firmware::SELECTION as *const u32).read_volatile() }
+    unsafe { (firmware::SELECTED as *const u32).read_volatile() }
 }
 
 /// The curves in place, on a scale of [`SCALES`]; `loaded` must have been true.
@@ -69,5 +73,5 @@ pub fn build() {
     fill::<16>();
     // SAFETY: QEMU clears RAM, so that padding is initialised too.
     let region = unsafe { core::slice::from_raw_parts(REGION as *const u8, offset(usize::MAX)) };
-    stdout().unwrap().write_all(region).unwrap();
+    crate::machine::write(region);
 }

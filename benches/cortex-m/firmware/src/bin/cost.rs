@@ -4,13 +4,15 @@
 
 use core::hint::black_box;
 
-use cortex_m_rt::entry;
 use firmware::baseline::{InverseTable, TextbookNewton};
 use firmware::{CELLS, CURVES, Function, TICK_HZ, baselines, selected, series};
-use semihosting::process::ExitCode;
 
+#[path = "../machine.rs"]
+mod machine;
 #[path = "../measured.rs"]
 mod measured;
+#[path = "../panicked.rs"]
+mod panicked;
 #[path = "../prebuilt.rs"]
 mod prebuilt;
 
@@ -20,10 +22,11 @@ use prebuilt::prebuilt;
 /// Tells the host that the next series begins.
 #[inline(never)]
 fn series_begins() {
-    cortex_m::asm::nop();
+    // SAFETY: does nothing; any Arm core or RISC-V knows it.
+    unsafe { core::arch::asm!("nop") };
 }
 
-fn run<const C: usize>() {
+fn run_with<const C: usize>() {
     let selection = prebuilt::selection();
     let index = CELLS.iter().position(|cells| *cells == C).unwrap();
     if selection & 1 << index == 0 {
@@ -73,17 +76,15 @@ fn run<const C: usize>() {
     }
 }
 
-#[entry]
-fn main() -> ! {
+fn run() {
     if !prebuilt::loaded() {
-        prebuilt::build();
-        ExitCode::SUCCESS.exit_process()
+        return prebuilt::build();
     }
     const { assert!(matches!(CELLS, [0, 4, 8, 16])) };
-    run::<0>();
-    run::<4>();
-    run::<8>();
-    run::<16>();
+    run_with::<0>();
+    run_with::<4>();
+    run_with::<8>();
+    run_with::<16>();
     let selection = prebuilt::selection();
     for (function, inputs) in baselines().filter(|(f, i)| selected(selection, *f, *i)) {
         for index in inputs.curves() {
@@ -100,11 +101,4 @@ fn main() -> ! {
             });
         }
     }
-    ExitCode::SUCCESS.exit_process()
-}
-
-#[panic_handler]
-fn panic(info: &core::panic::PanicInfo) -> ! {
-    semihosting::eprintln!("{info}");
-    ExitCode::FAILURE.exit_process()
 }

@@ -4,10 +4,13 @@
 
 #[path = "../link.rs"]
 mod link;
+#[allow(dead_code, unused_imports, reason = "nothing is printed")]
+#[path = "../machine.rs"]
+mod machine;
 
-#[cortex_m_rt::entry]
-fn main() -> ! {
+fn run() -> ! {
     link::everything();
+    // Ends nowhere: what ends a program may panic.
     loop {
         core::hint::spin_loop();
     }

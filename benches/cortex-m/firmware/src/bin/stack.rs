@@ -3,17 +3,22 @@
 #![no_main]
 
 use core::arch::asm;
+use core::fmt::Write;
 use core::hint::black_box;
 
-use cortex_m_rt::entry;
 use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, uniform};
-use semihosting::{print, println, process::ExitCode};
 use shutter_curve::ShutterCurve;
 
 #[allow(dead_code, reason = "the baselines are not measured here")]
 #[path = "../measured.rs"]
 mod measured;
 
+#[path = "../machine.rs"]
+mod machine;
+#[path = "../panicked.rs"]
+mod panicked;
+
+use machine::Out;
 use measured::*;
 
 const PAINT: u32 = 0xA5A5_5A5A;
@@ -26,7 +31,12 @@ const DEPTH: usize = 16 << 10;
 fn depth<T>(inputs: impl Iterator<Item = T>, mut call: impl FnMut(T)) -> u32 {
     let top: usize;
     // SAFETY: reads a register.
-    unsafe { asm!("mov {}, sp", out(reg) top) };
+    unsafe {
+        #[cfg(target_arch = "arm")]
+        asm!("mov {}, sp", out(reg) top);
+        #[cfg(target_arch = "riscv32")]
+        asm!("mv {}, sp", out(reg) top);
+    };
     let words = (top - DEPTH..top).step_by(4);
     for word in words.clone() {
         // SAFETY: below the stack pointer is free RAM, and no interrupt is enabled.
@@ -41,8 +51,8 @@ fn depth<T>(inputs: impl Iterator<Item = T>, mut call: impl FnMut(T)) -> u32 {
     (DEPTH - 4 * untouched.count()) as u32
 }
 
-fn run<const C: usize>() {
-    println!("bytes {C} {}", size_of::<ShutterCurve<C>>());
+fn run_with<const C: usize>() {
+    let _ = writeln!(Out, "bytes {C} {}", size_of::<ShutterCurve<C>>());
     let mut deepest = [0; Function::ALL.len()];
     let mut note = |function: Function, depth: u32| {
         let deepest = &mut deepest[function as usize];
@@ -89,23 +99,15 @@ fn run<const C: usize>() {
         }
     }
     for function in Function::ALL {
-        print!("{} ", deepest[function as usize]);
+        let _ = write!(Out, "{} ", deepest[function as usize]);
     }
-    println!();
+    let _ = writeln!(Out);
 }
 
-#[entry]
-fn main() -> ! {
+fn run() {
     const { assert!(matches!(CELLS, [0, 4, 8, 16])) };
-    run::<0>();
-    run::<4>();
-    run::<8>();
-    run::<16>();
-    ExitCode::SUCCESS.exit_process()
-}
-
-#[panic_handler]
-fn panic(info: &core::panic::PanicInfo) -> ! {
-    semihosting::eprintln!("{info}");
-    ExitCode::FAILURE.exit_process()
+    run_with::<0>();
+    run_with::<4>();
+    run_with::<8>();
+    run_with::<16>();
 }

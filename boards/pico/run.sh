@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Builds the strobe controller, runs it on an emulated Pico, and checks every pulse, to the cycle, and every answer.
+#
+#   boards/pico/run.sh             exits with 0 only if every pulse comes on the cycle that `trigger_ticks` says
+#   boards/pico/run.sh --jitter    the same, and the table of docs/firmware.md: state machine against alarm
+#
+# TRIGGER_FAULT=lost (or twice, early, late, close) builds a fault into the firmware, to see that it is seen.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+target=thumbv6m-none-eabi
+fail() { echo "pico: $*" >&2; exit 1; }
+
+command -v node >/dev/null || fail "missing node, to run the emulator: your system's package nodejs, version 18 or later"
+node --eval 'process.exit(process.versions.node.split(".")[0] >= 18 ? 0 : 1)' ||
+    fail "node $(node --version) is too old: your system's package nodejs, version 18 or later"
+command -v cargo >/dev/null || fail "missing cargo: https://rustup.rs"
+[ -d "$("${RUSTC:-rustc}" --print target-libdir --target $target)" ] ||
+    fail "missing the target: rustup target add $target (or put .ci/thumb.sh before this command)"
+
+# The emulator, if it is not there as the lock file has it.
+if ! [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ]; then
+    command -v npm >/dev/null || fail "missing npm, to fetch the emulator rp2040js: your system's package npm"
+    (cd emulator && npm ci --silent --no-audit --no-fund) || fail "npm cannot fetch the emulator rp2040js"
+fi
+
+cargo build --quiet --locked --release --target $target --package firmware
+folder=$(cargo metadata --no-deps --format-version 1 | node --print 'JSON.parse(fs.readFileSync(0)).target_directory')
+# What has to come, by the host.
+cargo run --quiet --locked --package expected >"$folder/expected.json"
+node emulator/check.mjs "$folder/$target/release/strobe" "$folder/expected.json"
+if [ "${1:-}" = --jitter ]; then
+    node emulator/jitter.mjs "$folder/$target/release" "$folder/expected.json"
+fi
