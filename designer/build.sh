@@ -27,6 +27,10 @@ built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory
 cp "$built" dist.new/engine.wasm
 "${build[@]}" --features studio
 cp "$built" dist.new/studio.wasm
+# What is kept for when there is no network.
+files=$(cd dist.new && printf "'%s', " *)
+sed -i.bak "s|^const FILES = \[\].*|const FILES = [${files%, }];|" dist.new/sw.js
+rm dist.new/sw.js.bak
 rm -rf dist
 mv dist.new dist
 echo "designer: built designer/dist" >&2

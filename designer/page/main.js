@@ -248,6 +248,8 @@ async function begin() {
   $('bar').addEventListener('input', () => set(scene, { isTyped: true }));
   receive();
   document.body.dataset.ready = '';
+  // Without it, which old browsers and private windows may refuse, the page needs its server.
+  navigator.serviceWorker?.register('sw.js').catch(() => {});
 }
 
 begin();
