@@ -87,8 +87,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let least = [self.plan.least_direct(0), self.plan.least_direct(1)];
         let least = if least[0] > least[1] { least[0] } else { least[1] };
         // The first and the last trigger come nearest to the ends: 1/2n away, in units of 2⁻⁶⁴, and as `f32` 2⁻²⁴ less.
-        // One more where that is even, so that the compiler sees that it is not 0.
-        let least = ((least * 18446744073709551616.0) as u64 + (1 << 40)) | 1;
+        // It saturates, so that the compiler sees that it is not 0.
+        let least = ((least * 18446744073709551616.0) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / least;
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }

@@ -245,6 +245,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// # Panics
     /// If the lengths differ.
+    // Where the caller's lengths are known, so is the check.
+    #[inline(always)]
     pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
         assert!(u.len() == t.len(), "u and t differ in length");
         batch::inverse_cdf_slice(&self.plan, u, t);

@@ -139,6 +139,7 @@ impl Disassembly {
                 "push" => 4 * registers(operands),
                 "vpush" => 8 * registers(operands),
                 "sub" => operands.strip_prefix("sp, #").and_then(|n| n.parse().ok()).unwrap_or(0),
+                "addi" => operands.strip_prefix("sp, sp, -").and_then(number).unwrap_or(0),
                 _ => 0,
             }
         });
@@ -171,12 +172,12 @@ impl Disassembly {
 impl Instruction {
     /// Does it leave where to return to?
     fn is_call(&self) -> bool {
-        matches!(self.name.trim_end_matches(".w"), "bl" | "blx")
+        matches!(self.name.trim_end_matches(".w"), "bl" | "blx" | "jal")
     }
 
     /// Where a direct branch goes.
     pub fn target(&self) -> Option<u32> {
-        if !self.name.starts_with(['b', 'c']) {
+        if !self.name.starts_with(['b', 'c', 'j']) {
             return None;
         }
         let target = self.operands.split("0x").nth(1)?.split([' ', ',']).next()?;
@@ -200,6 +201,14 @@ fn instruction(line: &str) -> Option<Instruction> {
         name: name.to_owned(),
         operands: operands.trim_end().to_owned(),
     })
+}
+
+/// Decimal, or hexadecimal behind `0x`.
+fn number(text: &str) -> Option<u32> {
+    match text.strip_prefix("0x") {
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    }
 }
 
 /// Pairs of an address, four bytes, and a size in LEB128.

@@ -10,7 +10,6 @@ use std::process::{Child, Command, Stdio};
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
-    pub has_fpu: bool,
     runs_in: RunsIn,
 }
 
@@ -25,23 +24,21 @@ enum RunsIn {
 
 use RunsIn::{Board, Linux, Node};
 
-pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", true, Board("mps2-an386"));
+pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"));
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", false, Board("mps2-an385"));
-pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", true, Board("mps2-an505"));
-pub const IMC: Core =
-    core("riscv32imc", "riscv32imc-unknown-none-elf", false, Linux("qemu-riscv32"));
+pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"));
+pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", Board("mps2-an505"));
+pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", Linux("qemu-riscv32"));
 pub const IMAFC: Core =
-    core("riscv32imafc", "riscv32imafc-unknown-none-elf", true, Linux("qemu-riscv32"));
-pub const RISCV64: Core =
-    core("riscv64gc", "riscv64gc-unknown-none-elf", true, Linux("qemu-riscv64"));
-pub const I686: Core = core("i686", "i686-unknown-linux-gnu", true, Linux("qemu-i386"));
-pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", true, Linux("qemu-s390x"));
-pub const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", true, Linux("qemu-ppc"));
-pub const WASM: Core = core("wasm32", "wasm32-unknown-unknown", true, Node);
+    core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
+pub const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
+pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
+pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
+pub const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
+pub const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
 
-const fn core(name: &'static str, target: &'static str, has_fpu: bool, runs_in: RunsIn) -> Core {
-    Core { name, target, has_fpu, runs_in }
+const fn core(name: &'static str, target: &'static str, runs_in: RunsIn) -> Core {
+    Core { name, target, runs_in }
 }
 
 pub const QEMU: &str = "qemu-system-arm";

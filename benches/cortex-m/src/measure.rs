@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ::firmware::{CELLS, CURVES, Function, Inputs};
 
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, Flavour, build, output};
+use crate::firmware::{Core, Flavour, M4F, build, output};
 use crate::searched::asked;
 use crate::trace::{Call, Key, Selection, Trace, trace};
 
@@ -51,8 +51,8 @@ impl Spread {
 }
 
 impl Measured {
-    /// Builds for a core with a seed and traces each selection; the stack is looked at on a core with an FPU alone,
-    /// since in soft float that takes longer than all else.
+    /// Builds for a core with a seed and traces each selection; the stack is looked at on a Cortex-M4F alone, since in soft
+    /// float that takes longer than all else.
     pub fn new(core: Core, seed: &'static str, selections: &[Selection]) -> Result<Self, String> {
         let elf = build(core, "cost", Flavour::fast(seed))?;
         let code = Disassembly::of(&elf)?;
@@ -64,7 +64,7 @@ impl Measured {
             instance.extend(and);
         }
         let (painted, curve_bytes) =
-            if core.has_fpu { stack(core, seed)? } else { Default::default() };
+            if core == M4F { stack(core, seed)? } else { Default::default() };
         Ok(Self { code, calls, instance, painted, curve_bytes })
     }
 
@@ -135,6 +135,11 @@ impl Measured {
 
     pub fn code_bytes(&self, function: Function, cells: usize) -> Option<u32> {
         Some(self.code.code_bytes(*self.instance.get(&(function, cells))?))
+    }
+
+    /// The stack of a call as the compiler says.
+    pub fn stack_said(&self, function: Function, cells: usize) -> Option<u32> {
+        Some(self.code.stack_bytes(*self.instance.get(&(function, cells))?))
     }
 
     /// The stack of a call as painted, and as the compiler says.

@@ -9,7 +9,7 @@ use ::firmware::{
 };
 use shutter_curve::ShutterCurve;
 
-use crate::firmware::{M0, M4F, SEEDS, folder, made_with};
+use crate::firmware::{Core, IMAFC, IMC, M0, M4F, M33, SEEDS, folder, made_with};
 use crate::measure::{Measured, Spread};
 use crate::trace::{Key, Selection};
 
@@ -23,15 +23,20 @@ call itself.
 table of the Cortex-M4's Technical Reference Manual (`benches/cortex-m/src/model.rs`), without flash wait
 states; the float costs have not been checked against a board. *Worst* is the most cycles found over the hard
 curves of the tests and those found by search, and over hard inputs, some 700 a curve: the tests', the ends of
-sections, powers of two, and those of 20 000 and their neighbours that take most evaluations. The Cortex-M0+
-columns are instructions in soft float.
+sections, powers of two, and those of 20 000 and their neighbours that take most evaluations.
+
+The other columns are mean instructions: on a Cortex-M33 and a riscv32imafc, which compute in `f32` as well, and in soft float
+on a Cortex-M0+ and a riscv32imc.
 ";
 
-/// What was measured with a seed on both cores.
+/// The cores whose instructions are counted beside the Cortex-M4F's, in the order of their columns.
+const OTHER_CORES: [Core; 4] = [M33, M0, IMAFC, IMC];
+
+/// What was measured with a seed: on a Cortex-M4F, and without a seed on each of the others.
 struct Build {
     seed: &'static str,
     m4f: Measured,
-    m0: Measured,
+    others: Vec<Measured>,
 }
 
 pub fn run() -> Result<(), String> {
@@ -39,11 +44,14 @@ pub fn run() -> Result<(), String> {
     for seed in SEEDS {
         let name = if seed.is_empty() { "none" } else { seed };
         eprintln!("measuring seed {name} ...");
-        builds.push(Build { seed: name, m4f: m4f(seed)?, m0: m0(seed)? });
+        let others = if seed.is_empty() { &OTHER_CORES[..] } else { &[] };
+        let others = others.iter().map(|core| other(*core)).collect::<Result<_, _>>()?;
+        builds.push(Build { seed: name, m4f: m4f(seed)?, others });
     }
     let [default, seeds @ ..] = &builds[..] else { return Err("no seed".into()) };
 
     let mut out = String::from("# What it costs on a microcontroller\n");
+    on_each_core(&mut out, default);
     overview(&mut out, default);
     let _ = writeln!(
         out,
@@ -71,25 +79,24 @@ fn m4f(seed: &'static str) -> Result<Measured, String> {
         inputs,
     };
     let rows = [InverseCdf, Cdf, Opening, TickStep, Schedule, Newton, Table];
-    let mut selections =
-        vec![some(&CELLS, &rows, ON_ROWS), some(&CELLS, &[InverseCdf], ON_TYPICAL | ON_HARD)];
-    if seed == SEEDS[0] {
-        selections.push(some(&[8], &[Cdf, Opening, Newton, Table], ON_TYPICAL | ON_HARD));
-        selections.push(some(&CELLS, &[TickStep, Schedule], ON_TYPICAL | ON_HARD));
-        // Building knows but one seed.
-        selections.push(some(&CELLS, &[Construct], ON_ROWS));
+    if seed != SEEDS[0] {
+        let inverse = some(&CELLS, &[InverseCdf], ON_ROWS | ON_HARD);
+        return Measured::new(M4F, seed, &[inverse]);
     }
+    let selections = [
+        some(&CELLS, &rows, ON_ROWS),
+        some(&CELLS, &[InverseCdf, TickStep, Schedule], ON_TYPICAL | ON_HARD),
+        some(&[8], &[Cdf, Opening, Newton, Table], ON_TYPICAL | ON_HARD),
+        some(&CELLS, &[Construct], ON_ROWS),
+    ];
     Measured::new(M4F, seed, &selections)
 }
 
-fn m0(seed: &'static str) -> Result<Measured, String> {
-    use Function::*;
-    let mut functions = vec![InverseCdf, Cdf, Opening, TickStep, Schedule];
-    if seed == SEEDS[0] {
-        functions.extend([Newton, Table, Construct]);
-    }
-    let selection = Selection { cells: CELLS.to_vec(), functions, inputs: ON_ROWS };
-    Measured::new(M0, seed, &[selection])
+fn other(core: Core) -> Result<Measured, String> {
+    eprintln!("on {} ...", core.name);
+    let selection =
+        Selection { cells: CELLS.to_vec(), functions: Function::ALL.to_vec(), inputs: ON_ROWS };
+    Measured::new(core, SEEDS[0], &[selection])
 }
 
 fn key(function: Function, row: usize, cells: usize) -> Key {
@@ -114,13 +121,67 @@ fn worst(build: &Measured, function: Function, inputs: Inputs, cells: usize) -> 
     text(worst.map(|(cycles, curve)| format!("{cycles} ({curve})")))
 }
 
-/// What most readers want.
-fn overview(out: &mut String, Build { m4f, m0, .. }: &Build) {
+/// The first screen: what an answer, a tick, a schedule and a curve cost, on each core.
+fn on_each_core(out: &mut String, Build { m4f, others, .. }: &Build) {
+    use Function::{Construct, InverseCdf, Newton, Schedule, TickStep};
+    let names: Vec<&str> = OTHER_CORES.iter().map(|core| core.name).collect();
+    let _ = write!(
+        out,
+        "\nMean instructions, and on the Cortex-M4F modelled cycles, too; *soft* has a third of its mass in ramps, *all ramp* \
+         all of it. With `CELLS = 8`, a curve of {} bytes in flash, unless it says otherwise.\n\n\
+         | | M4F cycles | M4F | {} |\n|---|--:|{}\n",
+        m4f.curve_bytes[&8],
+        names.join(" | ").replace("Cortex-", ""),
+        "--:|".repeat(1 + others.len()),
+    );
+    let all = || [m4f].into_iter().chain(others);
+    let mut line = |what: &str, cycles: String, of: &dyn Fn(&Measured) -> String| {
+        let figures: Vec<String> = all().map(of).collect();
+        let _ = writeln!(out, "| {what} | {cycles} | {} |", figures.join(" | "));
+    };
+    let schedule = format!("a checked schedule of {TRIGGERS} triggers");
+    for (what, function, cells) in [
+        ("`inverse_cdf`", InverseCdf, 8),
+        ("a tick of `trigger_ticks`", TickStep, 8),
+        (&schedule, Schedule, 8),
+        ("`inverse_cdf`, `CELLS = 0`", InverseCdf, 0),
+        ("textbook Newton in `f32`", Newton, 0),
+    ] {
+        for (row, (name, _)) in ROWS.iter().enumerate().take(2) {
+            let key = key(function, row, cells);
+            let cycles = format!("**{}**", mean(m4f.cycles(&key)));
+            line(&format!("{what}, {name}"), cycles, &|core| mean(core.instructions(&key)));
+        }
+    }
+    let build = key(Construct, 0, 8);
+    line("a curve built at run time, soft", mean(m4f.cycles(&build)), &|core| {
+        mean(core.instructions(&build))
+    });
+    for (what, function) in [
+        ("`inverse_cdf`", InverseCdf),
+        ("a tick", TickStep),
+        ("a schedule", Schedule),
+        ("building", Construct),
+    ] {
+        line(&format!("bytes of code: {what}"), String::new(), &|core| {
+            text(core.code_bytes(function, 8))
+        });
+    }
+    for (what, function) in
+        [("`inverse_cdf`", InverseCdf), ("a schedule", Schedule), ("building", Construct)]
+    {
+        line(&format!("bytes of stack: {what}"), String::new(), &|core| {
+            text(core.stack_said(function, 8))
+        });
+    }
+}
+
+/// The inverse beside its baselines, and the calls.
+fn overview(out: &mut String, Build { m4f, .. }: &Build) {
     use Function::{Cdf, InverseCdf, Newton, Opening, Schedule, Table, TickStep};
     let typical = Inputs::Typical.curves().count();
     out.push_str(
-        "\n`inverse_cdf` beside its baselines. Cycles are of a Cortex-M4F, by a model, over uniform `u`; *soft* has a \
-         third of its mass in ramps, *all ramp* all of it.\n\n\
+        "\n`inverse_cdf` beside its baselines, in cycles over uniform `u`.\n\n\
          | | `CELLS = 0` | `CELLS = 8` | textbook Newton in `f32` | linear table of 256 |\n\
          |---|--:|--:|--:|--:|\n",
     );
@@ -144,9 +205,6 @@ fn overview(out: &mut String, Build { m4f, m0, .. }: &Build) {
         _ => m4f.curve_bytes[&cells].to_string(),
     });
     line("bytes of code", &|function, cells| text(m4f.code_bytes(function, cells)));
-    let soft_float = |row| move |function, cells| mean(m0.instructions(&key(function, row, cells)));
-    line("Cortex-M0+ instructions: mean on *soft*", &soft_float(0));
-    line("mean on *all ramp*", &soft_float(1));
 
     let _ = write!(
         out,
@@ -178,25 +236,29 @@ fn overview(out: &mut String, Build { m4f, m0, .. }: &Build) {
     }
 }
 
-const COLUMNS: &str = "\
-M4F instructions, mean | cycles: min | median | mean | 99 % | max | M0+ instructions, mean |\n";
+const COLUMNS: &str = "M4F instructions, mean | cycles: min | median | mean | 99 % | max |";
 
 /// A table's header: of so many columns of text, with these names, and the columns of figures.
-fn header(out: &mut String, texts: &str) {
-    let count = texts.split(" | ").count();
+fn header(out: &mut String, texts: &str, build: &Build) {
+    let others = OTHER_CORES.iter().take(build.others.len());
+    let others: String =
+        others.map(|core| format!(" {} |", core.name.replace("Cortex-", ""))).collect();
+    let columns = format!("{COLUMNS}{others}");
     let (texts_ruled, figures) =
-        ("---|".repeat(count), "--:|".repeat(COLUMNS.split(" | ").count()));
-    let _ = writeln!(out, "\n| {texts} | {COLUMNS}|{texts_ruled}{figures}");
+        ("---|".repeat(texts.split(" | ").count()), "--:|".repeat(columns.matches('|').count()));
+    let _ = writeln!(out, "\n| {texts} | {columns}\n|{texts_ruled}{figures}");
 }
 
 /// One row of figures.
-fn row(out: &mut String, head: &str, Build { m4f, m0, .. }: &Build, key: &Key) {
-    let (instructions, soft) = (mean(m4f.instructions(key)), mean(m0.instructions(key)));
+fn row(out: &mut String, head: &str, Build { m4f, others, .. }: &Build, key: &Key) {
+    let instructions = mean(m4f.instructions(key));
     let cycles = m4f.cycles(key).map_or_else(
         || "- | - | - | - | -".into(),
         |s| format!("{} | {} | **{:.0}** | {} | {}", s.min, s.median, s.mean, s.most, s.max),
     );
-    let _ = writeln!(out, "| {head} | {instructions} | {cycles} | {soft} |");
+    let others: String =
+        others.iter().map(|core| format!(" {} |", mean(core.instructions(key)))).collect();
+    let _ = writeln!(out, "| {head} | {instructions} | {cycles} |{others}");
 }
 
 fn worst_header(out: &mut String) {
@@ -210,7 +272,7 @@ fn worst_row(out: &mut String, name: &str, build: &Measured, function: Function,
 
 fn inverse(out: &mut String, build: &Build) {
     out.push_str("\n## `inverse_cdf`\n");
-    header(out, "curve | CELLS");
+    header(out, "curve | CELLS", build);
     for (index, (curve, _)) in ROWS.iter().enumerate() {
         for cells in CELLS {
             let key = key(Function::InverseCdf, index, cells);
@@ -269,7 +331,7 @@ fn baselines(out: &mut String, build: &Build) {
         size_of::<TextbookNewton>(),
         size_of::<InverseTable<256>>(),
     );
-    header(out, "curve | method | largest error");
+    header(out, "curve | method | largest error", build);
     for (index, (curve, data)) in ROWS.iter().enumerate() {
         for (method, function) in
             [("textbook Newton", Function::Newton), ("table", Function::Table)]
@@ -314,7 +376,7 @@ fn others(out: &mut String, build: &Build) {
         "\n## `cdf`, `opening`, a step of `trigger_ticks`, and a checked schedule of {TRIGGERS} triggers\n\n\
          `cdf` and `opening` have no use for the octaves, and cost the same for all CELLS.",
     );
-    header(out, "call | curve | CELLS");
+    header(out, "call | curve | CELLS", build);
     for (name, function, cells) in OTHERS {
         for (index, (curve, _)) in ROWS.iter().enumerate() {
             for cells in cells {
@@ -382,35 +444,51 @@ fn bytes_row(out: &mut String, head: &str, m4f: &Measured, cells: usize) {
     let _ = writeln!(out, "| {head} | {} | {code} | {stack} |", m4f.curve_bytes[&cells]);
 }
 
-fn construction(out: &mut String, Build { m4f, m0, .. }: &Build) {
-    out.push_str(
+fn construction(out: &mut String, Build { m4f, others, .. }: &Build) {
+    let names: Vec<String> =
+        OTHER_CORES.iter().map(|core| core.name.replace("Cortex-", "")).collect();
+    let _ = write!(
+        out,
         "\n## Building a curve at run time\n\n\
-         A `const` curve costs nothing. Built on the microcontroller, *soft* takes, with doubles in software:\n\n\
-         | CELLS | M4F instructions | modelled cycles | M0+ instructions | code, bytes | stack, bytes |\n\
-         |--:|--:|--:|--:|--:|--:|\n",
+         A `const` curve costs nothing: it is built by the compiler. Built on the microcontroller, *soft* takes, with doubles \
+         in software, so many instructions, code and stack. Where that is too much, as on a core without an FPU it soon is, build \
+         as a `const` what is known beforehand, and the rest with `CELLS = 0`, which fits no polynomials and searches.\n\n\
+         | CELLS | M4F cycles | M4F | {} | stack of M4F as painted |\n|---|--:|{}\n",
+        names.join(" | "),
+        "--:|".repeat(2 + others.len()),
     );
+    let all = || [m4f].into_iter().chain(others);
     for cells in CELLS {
         let key = key(Function::Construct, 0, cells);
-        let stack = m4f.stack(Function::Construct, cells);
+        let painted = m4f.stack(Function::Construct, cells).map(|(painted, _)| painted);
+        let figures: Vec<String> = all()
+            .map(|core| {
+                format!(
+                    "{}; {} B code, {} B stack",
+                    mean(core.instructions(&key)),
+                    text(core.code_bytes(Function::Construct, cells)),
+                    text(core.stack_said(Function::Construct, cells)),
+                )
+            })
+            .collect();
         let _ = writeln!(
             out,
-            "| {cells} | {} | {} | {} | {} | {} |",
-            mean(m4f.instructions(&key)),
+            "| {cells} | {} | {} | {} |",
             mean(m4f.cycles(&key)),
-            mean(m0.instructions(&key)),
-            m4f.code_bytes(Function::Construct, cells).unwrap_or(0),
-            text(stack.map(|(painted, said)| format!("{painted} ({said})"))),
+            figures.join(" | "),
+            text(painted),
         );
     }
 }
 
-/// The same tables again, with each seed feature.
+/// The inverse once more, with each seed feature.
 fn with_seeds(out: &mut String, builds: &[Build]) {
     out.push_str(
         "\n## With the seed features\n\n\
-         All of the above is without one. These choose the root with which a search starts.\n",
+         All of the above is without one. These choose the root with which a search starts, and change nothing else.\n",
     );
-    header(out, "curve | CELLS | seed");
+    let Some(first) = builds.first() else { return };
+    header(out, "curve | CELLS | seed", first);
     for (index, (curve, _)) in ROWS.iter().enumerate() {
         for cells in CELLS {
             for build in builds {
@@ -423,22 +501,8 @@ fn with_seeds(out: &mut String, builds: &[Build]) {
     for build in builds {
         worst_row(out, build.seed, &build.m4f, Function::InverseCdf, Inputs::Hard);
     }
-    header(out, "call | curve | CELLS | seed");
-    for (name, function, cells) in OTHERS {
-        for (index, (curve, _)) in ROWS.iter().enumerate() {
-            for cells in cells {
-                for build in builds {
-                    let head = format!("{name} | {curve} | {cells} | {}", build.seed);
-                    row(out, &head, build, &key(function, index, *cells));
-                }
-            }
-        }
-    }
-    out.push('\n');
-    bytes_header(out, "CELLS | seed");
-    for cells in CELLS {
-        for build in builds {
-            bytes_row(out, &format!("{cells} | {}", build.seed), &build.m4f, cells);
-        }
+    for build in builds {
+        let code = CELLS.map(|cells| text(build.m4f.code_bytes(Function::InverseCdf, cells)));
+        let _ = writeln!(out, "| bytes of code, {} | {} |", build.seed, code.join(" | "));
     }
 }
