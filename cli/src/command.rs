@@ -2,6 +2,7 @@
 //!
 //! Whatever goes wrong is told on standard error with exit code 2, and nothing is written then.
 
+mod design;
 mod fit;
 mod plan;
 
@@ -28,6 +29,7 @@ struct Args {
 #[derive(Subcommand)]
 enum Command {
     Plan(plan::Args),
+    Design(design::Args),
     Fit(Box<fit::Args>),
 }
 
@@ -51,6 +53,7 @@ pub fn run(
     };
     let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
         Command::Plan(args) => plan::run(&args, out),
+        Command::Design(args) => design::run(&args, out),
         Command::Fit(args) => fit::run(&args, out, err),
     };
     match ended {

@@ -16,6 +16,7 @@ pub mod plan;
 #[cfg(feature = "terminal")]
 pub mod report;
 pub mod scene;
+pub mod set_up;
 pub mod shape;
 pub mod trace;
 pub mod unit;

@@ -234,10 +234,26 @@ impl Frames {
 
     /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
     fn most(&self, asked: &Asked, mut keep: u32, mut fail: u32) -> u32 {
+        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves room for.
+        let lit = match asked.lamp {
+            Lamp::Equal { ticks } => ticks.into(),
+            _ => asked.lit,
+        };
+        let room = f64::from(self.curve.exposure()) * f64::from(self.timer_hz);
+        let mut next = (room / asked.dark.saturating_add(lit).max(1) as f64) as u32;
+        // Away from there in growing steps, until it lies between two of them.
+        let (mut step, mut is_between) = (1, [false; 2]);
         while fail - keep > 1 {
-            let middle = keep + (fail - keep) / 2;
-            let kept = self.checked(asked, middle).is_ok();
-            *(if kept { &mut keep } else { &mut fail }) = middle;
+            next = next.clamp(keep + 1, fail - 1);
+            let kept = self.checked(asked, next).is_ok();
+            *(if kept { &mut keep } else { &mut fail }) = next;
+            is_between[usize::from(kept)] = true;
+            next = match (is_between, kept) {
+                ([true, true], _) => keep + (fail - keep) / 2,
+                (_, true) => keep.saturating_add(step),
+                (_, false) => fail.saturating_sub(step),
+            };
+            step = step.saturating_mul(2);
         }
         keep
     }

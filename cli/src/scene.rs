@@ -1,6 +1,6 @@
 //! A scene: what stands in its text, and where it is wrong.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use shutter_curve::CurveError;
 use toml::Spanned;
 
@@ -8,7 +8,7 @@ use crate::shape::Shape;
 use crate::unit::{Unit, short};
 
 /// A scene as it is written; each value knows its place in the text.
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Of all times; seconds without.
@@ -27,7 +27,7 @@ pub struct Scene {
     pub(crate) min_pulse: Option<Spanned<Number>>,
 }
 
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize, Serialize)]
 #[serde(untagged, expecting = "a number is required")]
 pub(crate) enum Number {
     Any(f64),
@@ -40,7 +40,7 @@ impl Number {
     }
 }
 
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize, Serialize)]
 #[serde(untagged, expecting = "a whole number from 0 to 4294967295 is required")]
 pub(crate) enum Count {
     Any(u32),
@@ -50,6 +50,84 @@ impl Count {
     pub(crate) fn get(self) -> u32 {
         let Self::Any(n) = self;
         n
+    }
+}
+
+/// A scene's numbers without a text, as a page in a browser has them. A number of pieces or ticks need not be whole yet.
+#[derive(Clone, Debug)]
+pub struct Values {
+    /// Of all times.
+    pub unit: Unit,
+    /// `open_start`, `open_end`, `close_start` and `close_end`.
+    pub times: [f64; 4],
+    /// As in [`Shape`].
+    pub shutteropening: Option<[f64; 8]>,
+    /// How many.
+    pub triggers: f64,
+    /// The timer's ticks in a second.
+    pub timer_hz: f64,
+    /// Between two triggers or pulses.
+    pub min_gap: f64,
+    /// The exposure that the shutter's maker names.
+    pub nominal: Option<f64>,
+    /// The length of equal pulses.
+    pub pulse: Option<f64>,
+    /// The part of each share in which the lamp shines.
+    pub duty: Option<f64>,
+    /// The least length of a pulse where `duty` is given.
+    pub min_pulse: Option<f64>,
+}
+
+/// The keys of [`Values`], as they are numbered in a fault's place.
+const KEYS: [&str; 12] = [
+    "open_start",
+    "open_end",
+    "close_start",
+    "close_end",
+    "shutteropening",
+    "triggers",
+    "timer_hz",
+    "min_gap",
+    "nominal",
+    "pulse",
+    "duty",
+    "min_pulse",
+];
+
+impl TryFrom<Values> for Scene {
+    type Error = Fault;
+
+    /// The scene of these numbers. The place in its faults is the number of a key; [`Fault::key_of_values`] tells which.
+    fn try_from(values: Values) -> Result<Self, Fault> {
+        fn at<T>(key: &str, value: T) -> Spanned<T> {
+            let place = KEYS.iter().position(|known| *known == key).unwrap_or(KEYS.len());
+            Spanned::new(place..place, value)
+        }
+        let number = |key, x| at(key, Number::Any(x));
+        let count = |key, x: f64| {
+            if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x) {
+                return Ok(at(key, Count::Any(x as u32)));
+            }
+            let reason = format!("{key}: a whole number from 0 to 4294967295 is required");
+            Err(Fault::at(&at(key, ()), reason))
+        };
+        let [open_start, open_end, close_start, close_end] = values.times;
+        let eight = values.shutteropening.map(|eight| eight.map(Number::Any).to_vec());
+        Ok(Self {
+            unit: Some(values.unit),
+            open_start: number("open_start", open_start),
+            open_end: number("open_end", open_end),
+            close_start: number("close_start", close_start),
+            close_end: number("close_end", close_end),
+            shutteropening: eight.map(|eight| at("shutteropening", eight)),
+            triggers: count("triggers", values.triggers)?,
+            timer_hz: count("timer_hz", values.timer_hz)?,
+            min_gap: number("min_gap", values.min_gap),
+            nominal: values.nominal.map(|x| number("nominal", x)),
+            pulse: values.pulse.map(|x| number("pulse", x)),
+            duty: values.duty.map(|x| number("duty", x)),
+            min_pulse: values.min_pulse.map(|x| number("min_pulse", x)),
+        })
     }
 }
 
@@ -67,6 +145,11 @@ pub struct Fault {
 impl Fault {
     pub(crate) fn at<T>(value: &Spanned<T>, reason: impl ToString) -> Self {
         Self { at: Some(value.span().start), reason: reason.to_string(), notes: Vec::new() }
+    }
+
+    /// The key that it is about, in a scene made of [`Values`].
+    pub fn key_of_values(&self) -> Option<&'static str> {
+        KEYS.get(self.at?).copied()
     }
 
     /// `file:line: reason`, the line itself below it, and the notes.
@@ -105,8 +188,21 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
 const ROUNDING: f64 = 1e-4;
 
 impl Scene {
-    /// The curve's numbers, known to be finite and kept by `f32`, with what the crate makes of them.
-    pub(crate) fn shape(&self) -> Result<Shape, Fault> {
+    /// How many triggers it asks for; not all can be planned.
+    pub fn triggers(&self) -> u32 {
+        self.triggers.get_ref().get()
+    }
+
+    /// The unit of its times.
+    pub fn unit(&self) -> Unit {
+        self.unit.unwrap_or(Unit::Second)
+    }
+
+    /// The curve's numbers, known to be finite and kept by `f32`; what the crate makes of them is not known yet.
+    ///
+    /// # Errors
+    /// Numbers that are not finite or that `f32` loses, and other than eight of `shutteropening`.
+    pub fn shape(&self) -> Result<Shape, Fault> {
         let keys = ["open_start", "open_end", "close_start", "close_end"];
         let mut seconds = [0.0; 4];
         for ((key, value), seconds) in keys.into_iter().zip(self.times()).zip(&mut seconds) {
@@ -138,7 +234,7 @@ impl Scene {
     /// A time in seconds, known to be finite.
     pub(crate) fn seconds(&self, key: &str, time: &Spanned<Number>) -> Result<f64, Fault> {
         let time = finite(key, time, time.get_ref().get())?;
-        Ok(self.unit.unwrap_or(Unit::Second).seconds(time))
+        Ok(self.unit().seconds(time))
     }
 
     fn times(&self) -> [&Spanned<Number>; 4] {
@@ -166,9 +262,7 @@ impl Scene {
         let is_time = matches!(error, CurveError::InnerTimesTurnBack(_));
         let mut fault = Fault::at(inner, error);
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        if let Some((convention, inner)) =
-            shape.misread(self.unit.unwrap_or(Unit::Second)).filter(|_| is_time)
-        {
+        if let Some((convention, inner)) = shape.misread(self.unit()).filter(|_| is_time) {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));

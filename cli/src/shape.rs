@@ -2,7 +2,7 @@
 
 use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
 
-use crate::unit::{Unit, short};
+use crate::unit::{Unit, rounded, short};
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,13 +54,13 @@ impl Shape {
             ("fractions of each ramp".into(), &as_ramps),
         ];
         conventions.into_iter().find_map(|(name, convert)| {
-            let written: [String; 8] = std::array::from_fn(|i| {
+            let inner: [f64; 8] = std::array::from_fn(|i| {
                 let x = f64::from(inner[i]);
-                short(if i % 2 == 0 { convert(i / 4, x) } else { x }, 6)
+                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, 6)
             });
             // What is written is what has to fit.
-            let read = written.each_ref().map(|number| number.parse().unwrap_or(f32::NAN));
-            ShutterCurve::shutteropening(self.times, read).is_ok().then_some((name, written))
+            let curve = ShutterCurve::shutteropening(self.times, inner.map(|x| x as f32));
+            curve.is_ok().then(|| (name, inner.map(|x| short(x, 6))))
         })
     }
 }

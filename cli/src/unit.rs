@@ -1,9 +1,9 @@
 //! Units of time, and numbers as people write them.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A unit of time, by the name that it has in a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub enum Unit {
     /// `s`
     #[serde(rename = "s")]
@@ -76,6 +76,13 @@ pub fn short(x: f64, digits: i32) -> String {
         return format!("{x:.0$e}", digits as usize - 1);
     }
     trimmed(x, decimals(x, digits))
+}
+
+/// The number that [`short`] writes.
+pub fn rounded(x: f64, digits: i32) -> f64 {
+    let scale = 10f64.powi(decimals(x, digits) as i32);
+    let rounded = (x * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { x }
 }
 
 /// `x` to so many decimals, without the zeros that say nothing.

@@ -24,7 +24,7 @@ use crate::unit::Unit;
 pub use curve::Curve;
 pub use errors::Measured;
 use frame::FrameFit;
-pub use report::text;
+pub use report::{because, plus_minus, text};
 pub use scene::{Scene, Zero};
 use shots::Shots;
 pub use signal::{Hum, Kind, Signal};

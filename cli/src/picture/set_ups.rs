@@ -7,27 +7,16 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::style::{self, Area, BLUE, FAINT, GREY, VERMILION};
 use super::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture};
-use crate::lamp::Lamp;
 use crate::plan::Plan;
+use crate::set_up::{Row, SetUps};
 use crate::unit::short;
 
 const SIZE: (i32, i32) = (1000, 760);
 const HEADING: i32 = 70;
 const TITLE: i32 = 34;
 const LEFT: i32 = 650;
-/// How much of each share the lamp is on, where the scene does not say.
-const DUTY: f32 = 0.5;
 /// With more pulses than this, their doses would not be legible below their bars.
 const MOST_LABELS: usize = 12;
-
-/// What exposes, in one of the set-ups.
-struct Row {
-    title: String,
-    /// The openness of what is in the light's path.
-    is_shuttered: bool,
-    /// When the lamp is on, in seconds.
-    pulses: Vec<(f32, f32)>,
-}
 
 /// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays open,
 /// the same with the shutter in the light's path, and pulses of equal doses there.
@@ -35,41 +24,7 @@ struct Row {
 /// # Errors
 /// Where it cannot be drawn.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
-    let n = plan.triggers.len();
-    let duty = match plan.lamp {
-        Lamp::Doses { duty } => duty,
-        _ => DUTY,
-    };
-    // As long as a pulse of the same dose where the shutter is fully open, so that both set-ups get the same light.
-    let length = duty * plan.curve.exposure() / n as f32;
-    let around = |t: f32| (t - 0.5 * length, t + 0.5 * length);
-    let equal: Vec<_> = plan.triggers.iter().map(|trigger| around(trigger.time)).collect();
-    let time = |fraction: f32| plan.curve.inverse_cdf(fraction / n as f32);
-    let doses = (0..n).map(|i| {
-        let middle = i as f32 + 0.5;
-        (time(middle - 0.5 * duty), time(middle + 0.5 * duty))
-    });
-    let rows = [
-        Row {
-            title:
-                "The curve is emulated: the camera stays open, equal pulses come at the triggers"
-                    .into(),
-            is_shuttered: false,
-            pulses: equal.clone(),
-        },
-        Row {
-            title: "The shutter is in the light's path: it dims the same pulses a second time"
-                .into(),
-            is_shuttered: true,
-            pulses: equal,
-        },
-        Row {
-            title: "The shutter is in the light's path: these pulses get equal doses through it"
-                .into(),
-            is_shuttered: true,
-            pulses: doses.collect(),
-        },
-    ];
+    let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan));
     let title = format!(
         "The doses of {n} pulses with the shutter {name}, emulated and in the light's path"
     );
@@ -91,16 +46,11 @@ pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
 fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
     let (title, rest) = area.split_vertically(TITLE * SCALE);
     let label = style::text(15 * SCALE, HPos::Left, VPos::Center);
-    title.draw_text(&row.title, &label, (24 * SCALE, 20 * SCALE))?;
+    title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
     let (left, right) = rest.split_horizontally(LEFT * SCALE);
     draw_light(&left, plan, row)?;
-    let curve = &plan.curve;
-    // Against the equal pulse where nothing dims it.
-    let dose = |(on, off): (f32, f32)| match row.is_shuttered {
-        true => (curve.cdf(off) - curve.cdf(on)) * curve.exposure() / length,
-        false => (off - on) / length,
-    };
-    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(dose(pulse))).collect();
+    let doses: Vec<_> =
+        row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
     draw_doses(&right, &doses)
 }
 

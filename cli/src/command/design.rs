@@ -1,0 +1,123 @@
+//! `shutter design`: serves the curve designer's page to this machine alone, and opens it.
+
+use std::collections::HashMap;
+use std::ffi::OsStr;
+use std::fs;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use super::print;
+
+/// The same each time, so that links to curves stay good; another if it is taken.
+const PORT: u16 = 8417;
+/// A browser asks in less.
+const LONGEST_REQUEST: u64 = 1 << 14;
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// Serve the curve designer's page on 127.0.0.1, and open it in the browser
+///
+/// designer/build.sh makes the page.
+#[derive(clap::Args)]
+pub struct Args {
+    /// The page's folder
+    #[arg(long, value_name = "FOLDER", default_value = "designer/dist")]
+    page: PathBuf,
+    /// The port; 8417 or, if that is taken, any free one if left out
+    #[arg(long)]
+    port: Option<u16>,
+    /// Print the address, and open no browser
+    #[arg(long)]
+    no_open: bool,
+}
+
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
+    let page = Arc::new(Page::read(&args.page)?);
+    let bind = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    let listener = match args.port {
+        Some(port) => bind(port),
+        None => bind(PORT).or_else(|_| bind(0)),
+    };
+    let listener = listener.map_err(|e| format!("cannot serve: {e}"))?;
+    let address = listener.local_addr().map_err(|e| format!("cannot serve: {e}"))?;
+    let url = format!("http://{address}/");
+    print(out, &format!("The curve designer is at {url} (Ctrl+C ends it)\n"))?;
+    // Who has no browser here has the address.
+    if !args.no_open {
+        let _ = open::that_detached(url);
+    }
+    for stream in listener.incoming().flatten() {
+        let page = Arc::clone(&page);
+        // A visitor who breaks off is none of our business.
+        thread::spawn(move || _ = page.answer(&stream));
+    }
+    Ok(())
+}
+
+/// All files of the page by the paths that a browser asks for. Nothing else can be asked for.
+struct Page(HashMap<String, (&'static str, Vec<u8>)>);
+
+impl Page {
+    fn read(folder: &Path) -> Result<Self, String> {
+        let here = folder.display();
+        let missing = |e: io::Error| format!("{here}: {e}; designer/build.sh makes the page");
+        let mut files = HashMap::new();
+        for entry in fs::read_dir(folder).map_err(missing)? {
+            let path = entry.map_err(missing)?.path();
+            let (Some(name), Some(kind)) = (path.file_name().and_then(OsStr::to_str), kind(&path))
+            else {
+                continue;
+            };
+            files.insert(format!("/{name}"), (kind, fs::read(&path).map_err(missing)?));
+        }
+        let index = files.get("/index.html").cloned();
+        files.insert(
+            "/".into(),
+            index.ok_or(format!("{here}: no page; designer/build.sh makes it"))?,
+        );
+        Ok(Self(files))
+    }
+
+    fn answer(&self, mut stream: &TcpStream) -> io::Result<()> {
+        stream.set_read_timeout(Some(PATIENCE))?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        let mut lines = BufReader::new(stream.take(LONGEST_REQUEST)).lines();
+        let request = lines.next().unwrap_or_else(|| Ok(String::new()))?;
+        // The rest has nothing for us, but is read: a connection that is closed before would be reset.
+        while lines.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
+        let mut words = request.split(' ');
+        let (method, target) = (words.next(), words.next().unwrap_or_default());
+        let path = target.split('?').next().unwrap_or_default();
+        let (status, kind, body) = match (method, self.0.get(path)) {
+            (Some("GET" | "HEAD"), Some((kind, body))) => ("200 OK", *kind, body.as_slice()),
+            (Some("GET" | "HEAD"), None) => ("404 Not Found", "text/plain", &b"not found\n"[..]),
+            _ => ("405 Method Not Allowed", "text/plain", &b"GET alone\n"[..]),
+        };
+        let head = format!(
+            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n\
+             Cache-Control: no-cache\r\nX-Content-Type-Options: nosniff\r\nConnection: close\r\n\r\n",
+            body.len()
+        );
+        stream.write_all(head.as_bytes())?;
+        if method != Some("HEAD") {
+            stream.write_all(body)?;
+        }
+        stream.flush()
+    }
+}
+
+/// What a file of the page is, by its name.
+fn kind(path: &Path) -> Option<&'static str> {
+    Some(match path.extension()?.to_str()? {
+        "html" => "text/html; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "js" => "text/javascript; charset=utf-8",
+        "svg" => "image/svg+xml",
+        "csv" => "text/csv; charset=utf-8",
+        "wasm" => "application/wasm",
+        _ => return None,
+    })
+}

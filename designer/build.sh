@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Builds the curve designer into designer/dist, plain files for any web server: `cargo run -- design` serves them here.
+#
+# It needs Rust with the target wasm32-unknown-unknown, and adds it by rustup where it is missing.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+target=wasm32-unknown-unknown
+build=(cargo build --quiet --profile page --target "$target" --package designer --lib)
+if [ ! -d "$(rustc --print target-libdir --target "$target")" ] && ! rustup target add "$target"; then
+    # Without it, the standard library can be compiled, if its source is there.
+    if [ ! -d "$(rustc --print sysroot)/lib/rustlib/src/rust/library" ]; then
+        echo "designer: missing the target $target: rustup target add $target (or rustup component add rust-src)" >&2
+        exit 1
+    fi
+    export RUSTC_BOOTSTRAP=1
+    build+=(-Zbuild-std=std,panic_abort)
+fi
+
+rm -rf dist.new
+mkdir dist.new
+cp page/* ../cli/traces/leaf.csv dist.new
+cargo run --quiet --package designer --bin presets >dist.new/presets.js
+built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
+# First what the page begins with, then what it loads when that is asked for.
+"${build[@]}"
+cp "$built" dist.new/engine.wasm
+"${build[@]}" --features studio
+cp "$built" dist.new/studio.wasm
+# What is kept for when there is no network.
+files=$(cd dist.new && printf "'%s', " *)
+sed -i.bak "s|^const FILES = \[\].*|const FILES = [${files%, }];|" dist.new/sw.js
+rm dist.new/sw.js.bak
+rm -rf dist
+mv dist.new dist
+echo "designer: built designer/dist" >&2
