@@ -150,6 +150,17 @@ pub enum ScheduleError {
         /// So many are required.
         min_gap: u32,
     },
+    /// A duty that is not above 0 and at most 1.
+    DutyOutOfRange,
+    /// A pulse would be shorter than asked for.
+    PulseTooShort {
+        /// The first such pulse, by its index.
+        pulse: u32,
+        /// So many ticks it lasts.
+        length: u32,
+        /// So many are required.
+        min_pulse: u32,
+    },
 }
 
 impl fmt::Display for ScheduleError {
@@ -173,6 +184,14 @@ impl fmt::Display for ScheduleError {
                 write!(
                     out,
                     "trigger {trigger} comes {gap} tick{plural} after the one before, and {min_gap} are required"
+                )
+            }
+            Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
+            Self::PulseTooShort { pulse, length, min_pulse } => {
+                let plural = if *length == 1 { "" } else { "s" };
+                write!(
+                    out,
+                    "pulse {pulse} lasts {length} tick{plural}, and {min_pulse} are required"
                 )
             }
         }

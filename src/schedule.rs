@@ -1,7 +1,5 @@
 //! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
 
-use core::fmt;
-use core::iter::FusedIterator;
 use core::ops::Range;
 
 use crate::error::ScheduleError;
@@ -353,11 +351,11 @@ macro_rules! iterate {
 
         impl<const CELLS: usize> ExactSizeIterator for $name<'_, CELLS> {}
 
-        impl<const CELLS: usize> FusedIterator for $name<'_, CELLS> {}
+        impl<const CELLS: usize> core::iter::FusedIterator for $name<'_, CELLS> {}
 
-        impl<const CELLS: usize> fmt::Debug for $name<'_, CELLS> {
-            fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-                let (n, left) = (self.frame.fractions.n, &self.left);
+        impl<const CELLS: usize> core::fmt::Debug for $name<'_, CELLS> {
+            fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                let (n, left) = (self.frame.n(), &self.left);
                 out.debug_struct(stringify!($name))
                     .field("n", &n)
                     .field("left", left)
@@ -368,7 +366,7 @@ macro_rules! iterate {
         #[cfg(feature = "defmt")]
         impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
             fn format(&self, out: defmt::Formatter<'_>) {
-                let (n, left) = (self.frame.fractions.n, &self.left);
+                let (n, left) = (self.frame.n(), &self.left);
                 defmt::write!(
                     out,
                     "{=str} {{ n: {}, left: {}..{}, .. }}",
@@ -381,6 +379,7 @@ macro_rules! iterate {
         }
     };
 }
+pub(crate) use iterate;
 
 iterate!(TriggerTimes, f32);
 iterate!(TriggerTicks, u32);
@@ -390,8 +389,8 @@ const DIRECT_TRIGGERS: u32 = 1 << 22;
 
 /// The fractions `(2i + 1) / 2n` of the exposure.
 #[derive(Clone)]
-struct Fractions {
-    n: u32,
+pub(crate) struct Fractions {
+    pub(crate) n: u32,
     /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
     share: u64,
     /// ... and what is missing of it, in units of 2⁻⁹⁶.
@@ -414,21 +413,54 @@ impl Fractions {
         self.share.wrapping_mul(odd as u64)
     }
 
-    /// The fraction `odd / 2n` counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
-    fn exactly(&self, odd: u64) -> (usize, Pair) {
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
+    fn exactly(&self, odd: u64, edge: Edge) -> (usize, Pair) {
         let n = self.n as u64;
-        let (side, near) = if odd <= n { (0, odd) } else { (1, 2 * n - odd) };
+        let (side, near) =
+            if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
         // By words: near times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
         let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
-        // The first 48 bits, halved; at least 2⁻³³ of all.
+        // The pulse's half is at most as much.
+        let (words, low) = if edge.is_off == (side == 0) {
+            let (low, carry) = (low as u32).overflowing_add(edge.rest);
+            (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)
+        } else {
+            let (low, borrow) = (low as u32).overflowing_sub(edge.rest);
+            (words.saturating_sub(edge.half).saturating_sub(borrow as u64), low)
+        };
+        // The first 48 bits, halved.
         let zeros = words.leading_zeros() & 63;
-        let bits = words << zeros | (low as u32 as u64) << zeros >> 32;
+        let bits = words << zeros | (low as u64) << zeros >> 32;
         let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
         let unit = power_of_two(WHOLE_EXPONENT - 24 - zeros as i32);
         (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
     }
+
+    /// The ends of a pulse that takes the part `duty`, above 0 and at most 1, of each share: when it goes on, and off.
+    pub(crate) fn edges(&self, duty: f32) -> [Edge; 2] {
+        let bits = duty.to_bits();
+        let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));
+        // Below 2¹²⁰.
+        let share = (self.share as u128) << 32 | self.rest as u128;
+        let half = (share * significand as u128).checked_shr(down).unwrap_or(0);
+        let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
+        [edge(false), edge(true)]
+    }
+}
+
+/// One end of a pulse: so far from the middle of its share, in units of 2⁻⁶⁴ and 2⁻⁹⁶, and on which side. A trigger is a pulse without
+/// length.
+#[derive(Clone, Copy)]
+pub(crate) struct Edge {
+    half: u64,
+    rest: u32,
+    is_off: bool,
+}
+
+impl Edge {
+    const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
 }
 
 /// What times the triggers of one frame.
@@ -439,6 +471,10 @@ struct Times<'a, const CELLS: usize> {
 }
 
 impl<const CELLS: usize> Times<'_, CELLS> {
+    fn n(&self) -> u32 {
+        self.fractions.n
+    }
+
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {
@@ -446,16 +482,16 @@ impl<const CELLS: usize> Times<'_, CELLS> {
         if n <= EXACT_HALVES {
             self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
         } else {
-            place(&self.curve.plan, &self.fractions, 2 * i as u64 + 1).time()
+            place(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, Edge::TRIGGER).time()
         }
     }
 }
 
 /// What places the triggers of one frame.
 #[derive(Clone)]
-struct Ticks<'a, const CELLS: usize> {
+pub(crate) struct Ticks<'a, const CELLS: usize> {
     plan: &'a Plan<CELLS>,
-    fractions: Fractions,
+    pub(crate) fractions: Fractions,
     tick_hz: u32,
     plateau: Words,
     /// None for frames that are searched for throughout.
@@ -463,7 +499,7 @@ struct Ticks<'a, const CELLS: usize> {
 }
 
 impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
-    fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
+    pub(crate) fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
         if tick_hz == 0 {
             return Err(ScheduleError::TickRateZero);
         }
@@ -478,13 +514,43 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         Ok(Self { plan, fractions, tick_hz, plateau, direct })
     }
 
+    pub(crate) fn n(&self) -> u32 {
+        self.fractions.n
+    }
+
     /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
     #[inline(always)]
     fn at(&self, i: u32) -> u32 {
         match self.direct(i) {
             Some(tick) => tick,
-            None => self.searched(2 * i as u64 + 1),
+            None => self.searched(2 * i as u64 + 1, Edge::TRIGGER),
         }
+    }
+
+    /// The tick of one end of a pulse around trigger `i`.
+    pub(crate) fn at_edge(&self, i: u32, edge: Edge) -> u32 {
+        let odd = 2 * i as u64 + 1;
+        if let Some(direct) = &self.direct {
+            let middle = self.fractions.share.wrapping_mul(odd);
+            let u = if edge.is_off {
+                middle.wrapping_add(edge.half)
+            } else {
+                middle.wrapping_sub(edge.half)
+            };
+            if let Some(time) = self.plan.direct_in_words(u, &self.plateau) {
+                return direct.tick(time);
+            }
+        }
+        self.searched(odd, edge)
+    }
+
+    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the polynomials, all are
+    /// searched for.
+    pub(crate) fn of_pulses(self, duty: f32) -> Self {
+        let dark = if duty < 1.0 { 1.0 - duty } else { 1.0 };
+        let closest = if duty < dark { duty } else { dark };
+        let is_direct = self.fractions.n as f32 <= closest * DIRECT_TRIGGERS as f32;
+        Self { direct: if is_direct { self.direct } else { None }, ..self }
     }
 
     /// The tick of trigger `i`, if no search is needed.
@@ -500,9 +566,9 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The same by a search; out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn searched(&self, odd: u64) -> u32 {
+    fn searched(&self, odd: u64, edge: Edge) -> u32 {
         let unit = self.plan.unit();
-        let place = place(self.plan, &self.fractions, odd);
+        let place = place(self.plan, &self.fractions, odd, edge);
         let delay = place.since(self.plan.exposure.start(0), unit);
         if let Some(direct) = &self.direct {
             // Rounded as the direct way rounds, so that neighbours keep their order.
@@ -519,10 +585,20 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     }
 }
 
-/// The place of the fraction `odd / 2n`, by a search.
+/// The place of the fraction `odd / 2n`, or of one end of a pulse around it, by a search.
 #[inline(never)]
-fn place<const CELLS: usize>(plan: &Plan<CELLS>, fractions: &Fractions, odd: u64) -> Place {
-    let (side, a) = fractions.exactly(odd);
+fn place<const CELLS: usize>(
+    plan: &Plan<CELLS>,
+    fractions: &Fractions,
+    odd: u64,
+    edge: Edge,
+) -> Place {
+    let (side, a) = fractions.exactly(odd, edge);
+    if a.hi == 0.0 {
+        // The end itself, though no light may fall there.
+        let end = plan.exposure.start(side);
+        return Place::on_way(end, end, false, Pair::ZERO, 0);
+    }
     plan.exposure.at_fraction(side, a, FOR_TICK)
 }
 

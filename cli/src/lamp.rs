@@ -49,28 +49,9 @@ impl Lamp {
                 })
                 .collect(),
             Self::Doses { duty } => ticks
-                .zip(pulse_ticks(curve, n, duty, timer_hz))
+                .zip(curve.pulse_ticks(n, duty, timer_hz)?)
                 .map(|(tick, (on, off))| flash(tick, on.into(), off.into()))
                 .collect(),
         })
     }
-}
-
-/// The `n` pulses, each as its ticks of on and off, that take the part `duty` out of the middle of each share.
-fn pulse_ticks(
-    curve: &ShutterCurve,
-    n: u32,
-    duty: f32,
-    timer_hz: u32,
-) -> impl Iterator<Item = (u32, u32)> {
-    let tick = move |fraction: f64| {
-        let time = curve.inverse_cdf((fraction / f64::from(n)) as f32);
-        let delay = f64::from(time) - f64::from(curve.open_start());
-        (delay * f64::from(timer_hz)).round() as u32
-    };
-    let half = 0.5 * f64::from(duty);
-    (0..n).map(move |i| {
-        let middle = f64::from(i) + 0.5;
-        (tick(middle - half), tick(middle + half))
-    })
 }

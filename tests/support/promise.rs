@@ -238,7 +238,16 @@ impl fmt::Display for Figures {
 
 /// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁶ of `min(u, 1 - u)` is forgiven.
 pub fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
-    let u = Dd::from(2.0 * f64::from(i) + 1.0) / Dd::from(2.0 * f64::from(n));
+    tick_error_at(
+        exact,
+        tick,
+        Dd::from(2.0 * f64::from(i) + 1.0) / Dd::from(2.0 * f64::from(n)),
+        hz,
+    )
+}
+
+/// The same of the fraction `u`.
+pub fn tick_error_at(exact: &Exact, tick: u32, u: Dd, hz: u32) -> f64 {
     let delay = |u: Dd| {
         let delay = exact.inverse_cdf_dd(u) - Dd::from(exact.curve().open_start());
         (delay * f64::from(hz)).hi
