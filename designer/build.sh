@@ -8,10 +8,13 @@ cd "$(dirname "$0")"
 target=wasm32-unknown-unknown
 build=(cargo build --quiet --profile page --target "$target" --package designer --lib)
 if [ ! -d "$(rustc --print target-libdir --target "$target")" ] && ! rustup target add "$target"; then
-    # Without it, the standard library can be compiled, if its source is there.
+    # Without it, the standard library can be compiled where its source is there: rustup's, or that of Debian's compiler.
     if [ ! -d "$(rustc --print sysroot)/lib/rustlib/src/rust/library" ]; then
-        echo "designer: missing the target $target: rustup target add $target (or rustup component add rust-src)" >&2
-        exit 1
+        RUSTC=$(TARGETS=$target ../.ci/thumb.sh sh -c 'echo "${RUSTC:-}"') && [ -n "$RUSTC" ] || {
+            echo "designer: missing the target $target: rustup target add $target (or rustup component add rust-src)" >&2
+            exit 1
+        }
+        build=(env RUSTC="$RUSTC" "${build[@]}")
     fi
     export RUSTC_BOOTSTRAP=1
     build+=(-Zbuild-std=std,panic_abort)
