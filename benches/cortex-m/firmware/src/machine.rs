@@ -21,6 +21,7 @@ mod on {
     use semihosting::process::ExitCode;
 
     #[cortex_m_rt::entry]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     fn main() -> ! {
         crate::run();
         exit(true)
@@ -44,6 +45,7 @@ mod on {
     }
 
     #[unsafe(no_mangle)]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     extern "C" fn _start() {
         crate::run();
     }
@@ -73,6 +75,7 @@ mod on {
     global_asm!(".globl _start", "_start: stwu 1, -16(1)", "bl started");
 
     #[unsafe(no_mangle)]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     extern "C" fn started() -> ! {
         crate::run();
         exit(true)
