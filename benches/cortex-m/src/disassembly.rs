@@ -32,6 +32,19 @@ pub struct Disassembly {
     pub statics: u64,
 }
 
+/// The instructions' places: half an address, from the first one.
+#[derive(Clone, Copy)]
+pub struct Places {
+    first: u32,
+    pub count: usize,
+}
+
+impl Places {
+    pub fn of(&self, address: u32) -> usize {
+        (address.wrapping_sub(self.first) / 2) as usize
+    }
+}
+
 impl Disassembly {
     pub fn of(elf: &Path) -> Result<Self, String> {
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
@@ -60,8 +73,16 @@ impl Disassembly {
             return Err(String::from_utf8_lossy(&output.stderr).into_owned());
         }
         let text = String::from_utf8_lossy(&output.stdout);
-        let instructions = text.lines().filter_map(instruction).collect();
+        let mut instructions: Vec<_> = text.lines().filter_map(instruction).collect();
+        instructions.sort_by_key(|i| i.address);
         Ok(Self { instructions, functions, statics })
+    }
+
+    pub fn places(&self) -> Places {
+        let mut places =
+            Places { first: self.instructions.first().map_or(0, |i| i.address), count: 0 };
+        places.count = self.instructions.last().map_or(0, |i| places.of(i.address) + 1);
+        places
     }
 
     /// The instances of the firmware's function `name`, one for each number of cells, in no order.
@@ -147,7 +168,7 @@ impl Disassembly {
     }
 
     /// What the instructions of all that a function reaches did in a run, as a listing; `profile` holds
-    /// executions and cycles by half the address.
+    /// executions and cycles by the instructions' places.
     pub fn annotated(&self, function: u32, profile: &[(u32, u32)], calls: u32) -> String {
         use std::fmt::Write;
         let mut out = format!("executions and cycles a call, of {calls} calls\n");
@@ -155,7 +176,7 @@ impl Disassembly {
             let f = &self.functions[&start];
             let _ = writeln!(out, "\n{:#} ({} bytes)", rustc_demangle::demangle(&f.symbol), f.size);
             for i in self.in_function(start) {
-                let (count, cycles) = profile[i.address as usize / 2];
+                let (count, cycles) = profile[self.places().of(i.address)];
                 let a_call = |n: u32| f64::from(n) / f64::from(calls);
                 let counts = if count == 0 {
                     " ".repeat(16)
@@ -187,7 +208,7 @@ impl Instruction {
 
 /// `408: 4c 48`, `ldr` and `r0, [pc, #304]   @ 0x53c`, indented and with tabs between; other lines are none.
 fn instruction(line: &str) -> Option<Instruction> {
-    let (address, rest) = line.strip_prefix(' ')?.trim_start().split_once(':')?;
+    let (address, rest) = line.trim_start().split_once(':')?;
     let mut columns = rest.split('\t');
     let digits = columns.next()?.chars().filter(char::is_ascii_hexdigit).count();
     let name = columns.next()?.trim();

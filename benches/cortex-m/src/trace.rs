@@ -9,7 +9,7 @@ use std::path::Path;
 
 use firmware::{CELLS, Function, Inputs, baselines, series};
 
-use crate::disassembly::Disassembly;
+use crate::disassembly::{Disassembly, Places};
 use crate::firmware::{Core, output, start_with};
 use crate::model::{Cost, refill};
 
@@ -35,7 +35,7 @@ pub struct Trace {
     pub calls: HashMap<Key, Vec<Call>>,
     /// The function's instance that a series called.
     pub instance: HashMap<(Function, usize), u32>,
-    /// For each instruction, by half its address: how often it ran and its cycles, in the series annotated.
+    /// For each instruction, by its place: how often it ran and its cycles, in the series annotated.
     pub profile: Vec<(u32, u32)>,
 }
 
@@ -83,7 +83,7 @@ struct Step {
 
 /// The state of a replay.
 struct Replay {
-    /// By half the address.
+    places: Places,
     steps: Vec<Option<Step>>,
     keys: std::vec::IntoIter<Key>,
     key: Option<Key>,
@@ -98,17 +98,17 @@ struct Replay {
 
 impl Replay {
     fn new(code: &Disassembly, selection: &Selection, annotate: Option<Key>) -> Self {
-        let end = code.instructions.last().map_or(0, |i| i.address / 2 + 1) as usize;
+        let places = code.places();
         let mut steps: Vec<Option<Step>> = Vec::new();
-        steps.resize_with(end, || None);
+        steps.resize_with(places.count, || None);
         for i in &code.instructions {
             let step =
                 Step { cost: Cost::new(i), length: i.length, measured: false, begins: false };
-            steps[i.address as usize / 2] = Some(step);
+            steps[places.of(i.address)] = Some(step);
         }
         let mut mark = |name: &str, set: fn(&mut Step)| {
             for address in code.named(name) {
-                steps[address as usize / 2].as_mut().map(set);
+                steps[places.of(address)].as_mut().map(set);
             }
         };
         mark("series_begins", |step| step.begins = true);
@@ -116,6 +116,7 @@ impl Replay {
             mark(function.symbol(), |step| step.measured = true);
         }
         Self {
+            places,
             steps,
             keys: selection.keys().into_iter(),
             key: None,
@@ -124,12 +125,12 @@ impl Replay {
             calls: Vec::new(),
             last: None,
             before: None,
-            trace: Trace { profile: vec![(0, 0); end], ..Trace::default() },
+            trace: Trace { profile: vec![(0, 0); places.count], ..Trace::default() },
         }
     }
 
     fn step(&self, address: u32) -> Result<&Step, String> {
-        let step = self.steps.get(address as usize / 2).and_then(Option::as_ref);
+        let step = self.steps.get(self.places.of(address)).and_then(Option::as_ref);
         step.ok_or_else(|| {
             format!("QEMU executes {address:#x}, where the disassembly has no instruction")
         })
@@ -152,7 +153,7 @@ impl Replay {
                 call.cycles += cycles;
             }
             if self.annotate.is_some() && self.annotate == self.key {
-                let profile = &mut self.trace.profile[last as usize / 2];
+                let profile = &mut self.trace.profile[self.places.of(last)];
                 profile.0 += 1;
                 profile.1 += cycles;
             }

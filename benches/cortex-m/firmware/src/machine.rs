@@ -21,6 +21,7 @@ mod on {
     use semihosting::process::ExitCode;
 
     #[cortex_m_rt::entry]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     fn main() -> ! {
         crate::run();
         exit(true)
@@ -44,6 +45,7 @@ mod on {
     }
 
     #[unsafe(no_mangle)]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     extern "C" fn _start() {
         crate::run();
     }
@@ -73,6 +75,7 @@ mod on {
     global_asm!(".globl _start", "_start: stwu 1, -16(1)", "bl started");
 
     #[unsafe(no_mangle)]
+    #[allow(unreachable_code, reason = "some programs run for ever")]
     extern "C" fn started() -> ! {
         crate::run();
         exit(true)
@@ -127,6 +130,7 @@ mod on {
 
     /// The memory at a fixed address, filled from stdin as far as that goes.
     #[cfg(target_arch = "riscv32")]
+    #[allow(dead_code, reason = "only what is measured needs memory of its own")]
     pub fn map(address: usize, length: usize) {
         const READ_WRITE: usize = 3;
         const PRIVATE_FIXED_ANONYMOUS: usize = 0x32;
@@ -146,4 +150,5 @@ mod on {
 }
 
 #[cfg(target_arch = "riscv32")]
+#[allow(unused_imports, reason = "only what is measured needs memory of its own")]
 pub use on::map;
