@@ -24,6 +24,10 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// How the whole length moves with each parameter.
+    pub(super) const LENGTH: [f64; PARAMETERS] =
+        [0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+
     pub(super) fn trapezoid(start: f64, opening: f64, plateau: f64, closing: f64) -> Self {
         Self { start, opening, plateau, closing, controls: [STRAIGHT; 2] }
     }
