@@ -124,6 +124,12 @@ impl Exposure {
         opening * self.whole[0].area + plateau + closing * self.whole[1].area
     }
 
+    /// How long the ramps stay below an openness, each.
+    pub fn feet(&self, openness: f64) -> [f64; 2] {
+        let Curve { opening, closing, .. } = self.curve;
+        [opening * self.ramps[0].reaches(openness), closing * self.ramps[1].reaches(openness)]
+    }
+
     /// All that is collected, and how it moves with each parameter.
     pub fn whole(&self) -> Collected {
         // After the end, wherever that is.

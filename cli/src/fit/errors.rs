@@ -5,6 +5,10 @@ use super::frame::{FrameFit, Missed, fractions};
 use super::signal::Kind;
 use super::solve::Cholesky;
 
+/// Below this openness nobody knows a soft ramp's shape, a cubic or not: the time that it spends there is the standard error of
+/// its end beside the noise's.
+const FOOT: f64 = 0.005;
+
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
@@ -113,9 +117,10 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     let mut efficiency = measured(area / length, &ratio);
     if kind > Kind::Trapezoid {
         let linear = covariance.error(&Curve::LENGTH);
-        let lengths = length_error(fit, kind, linear, covariance.variance);
-        efficiency.error =
-            (covariance.error(&whole) / length).hypot(efficiency.value * lengths / length);
+        let noise = length_error(fit, kind, linear, covariance.variance);
+        let lengths = exposure.feet(FOOT).into_iter().fold(noise, f64::hypot);
+        let areas = covariance.error(&whole);
+        efficiency.error = (areas / length).hypot(efficiency.value * lengths / length);
     }
     let mut triggers: Vec<Measured> = fractions(n)
         .map(|u| {
