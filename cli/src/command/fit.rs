@@ -1,7 +1,7 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::fs;
-use std::io::Write;
+use std::fs::File;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ use crate::unit::Unit;
 /// Without progress for so long, nobody waits for any.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// A longer file is no trace of a shutter, and would fill the memory.
-const LONGEST: u64 = 1 << 30;
+const LONGEST: u64 = 1 << 28;
 
 /// Fit the simplest shutter to a measured trace, and write it as a scene
 ///
@@ -218,10 +218,12 @@ fn fitted(args: &Args) -> Result<(Fit, Vec<Warning>), String> {
 }
 
 fn read(path: &Path) -> Result<String, String> {
-    let size = fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > LONGEST {
-        return Err(format!("{} MB: cut the trace to the pulse", size >> 20));
+    let mut bytes = Vec::new();
+    // No more than that, whatever the file says of its size: a device may have no end.
+    let file = File::open(path).map_err(|e| e.to_string())?;
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(format!("more than {} MB: cut the trace to the pulse", LONGEST >> 20));
     }
-    let bytes = fs::read(path).map_err(|e| e.to_string())?;
     trace::decode(&bytes).map_err(|refusal| refusal.to_string())
 }

@@ -24,6 +24,10 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// How the whole length moves with each parameter.
+    pub(super) const LENGTH: [f64; PARAMETERS] =
+        [0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+
     pub(super) fn trapezoid(start: f64, opening: f64, plateau: f64, closing: f64) -> Self {
         Self { start, opening, plateau, closing, controls: [STRAIGHT; 2] }
     }
@@ -118,6 +122,12 @@ impl Exposure {
     pub fn area(&self) -> f64 {
         let Curve { opening, plateau, closing, .. } = self.curve;
         opening * self.whole[0].area + plateau + closing * self.whole[1].area
+    }
+
+    /// How long the ramps stay below an openness, each.
+    pub fn feet(&self, openness: f64) -> [f64; 2] {
+        let Curve { opening, closing, .. } = self.curve;
+        [opening * self.ramps[0].reaches(openness), closing * self.ramps[1].reaches(openness)]
     }
 
     /// All that is collected, and how it moves with each parameter.

@@ -1,9 +1,13 @@
 //! What the noise makes of the results: standard errors from the normal equations.
 
-use super::curve::{CONTROLS, Exposure, PARAMETERS};
+use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS};
 use super::frame::{FrameFit, Missed, fractions};
 use super::signal::Kind;
 use super::solve::Cholesky;
+
+/// Below this openness nobody knows a soft ramp's shape, a cubic or not: the time that it spends there is the standard error of
+/// its end beside the noise's.
+const FOOT: f64 = 0.005;
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,12 +99,6 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     };
     widen(&mut chosen.exposure, &|results| results.exposure);
     widen(&mut chosen.efficiency, &|results| results.efficiency);
-    // Where soft ends lie is known least. That they are mirror images is economy, no finding: the freer kind counts by half.
-    if kind == Kind::Symmetric {
-        let (free, here) = (of_kind(fit, Kind::Free, n).efficiency, &mut chosen.efficiency);
-        let variance = free.error * free.error + (free.value - here.value).powi(2);
-        here.error = here.error.max((0.5 * (here.error * here.error + variance)).sqrt());
-    }
     for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
         widen(trigger, &|results| results.triggers[i]);
     }
@@ -115,9 +113,15 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     let (area, length) = (exposure.area(), curve.length());
     let measured =
         |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
-    let lengths: [f64; PARAMETERS] =
-        std::array::from_fn(|k| if (1..CONTROLS).contains(&k) { 1.0 } else { 0.0 });
-    let ratio = std::array::from_fn(|k| (whole[k] - area / length * lengths[k]) / length);
+    let ratio = std::array::from_fn(|k| (whole[k] - area / length * Curve::LENGTH[k]) / length);
+    let mut efficiency = measured(area / length, &ratio);
+    if kind > Kind::Trapezoid {
+        let linear = covariance.error(&Curve::LENGTH);
+        let noise = length_error(fit, kind, linear, covariance.variance);
+        let lengths = exposure.feet(FOOT).into_iter().fold(noise, f64::hypot);
+        let areas = covariance.error(&whole);
+        efficiency.error = (areas / length).hypot(efficiency.value * lengths / length);
+    }
     let mut triggers: Vec<Measured> = fractions(n)
         .map(|u| {
             let (t, moves) = exposure.trigger(u);
@@ -126,11 +130,34 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
         .collect();
     let beside = misfit(fit, kind, &triggers);
     triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
-    Results {
-        exposure: measured(area, &whole),
-        efficiency: measured(area / length, &ratio),
-        triggers,
-    }
+    Results { exposure: measured(area, &whole), efficiency, triggers }
+}
+
+/// The standard error of a curve's length, by how far the sum of squares lets it go either way.
+///
+/// Where a soft ramp starts is not linear in the samples: a control number makes up for most of a shift, and only the square of
+/// the shift shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
+fn length_error(fit: &FrameFit, kind: Kind, linear: f64, variance: f64) -> f64 {
+    const SIDE: f64 = 1.96;
+    let length = fit.kinds[kind as usize].solution.signal.curve.length();
+    let (least, most) = (1e-4 * length, 0.5 * length);
+    let side = |way: f64| {
+        let mut by = if linear.is_finite() {
+            (SIDE * linear).clamp(least, 0.1 * length)
+        } else {
+            0.1 * length
+        };
+        for _ in 0..8 {
+            let cost = fit.cost_of_length(kind, way * by) / (SIDE * SIDE * variance);
+            if (0.8..1.25).contains(&cost) {
+                break;
+            }
+            // Between a square and the fourth power.
+            by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
+        }
+        by
+    };
+    side(1.0).max(side(-1.0)) / SIDE
 }
 
 /// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond

@@ -79,6 +79,9 @@ pub struct FrameFit {
     pub units: Units,
     /// The samples, each with the time that it owns.
     pub samples: Vec<Bin>,
+    /// What was fitted of them.
+    bins: Vec<Bin>,
+    prior: f64,
     /// The sampling interval.
     pub step: f64,
     /// Of each kind, simplest first.
@@ -101,7 +104,8 @@ impl FrameFit {
         let bins = bins::shared(&samples, around(&crossings, step));
         let noise = (pulses.noise / pulses.light()).max(LEAST);
         // A control number is 0.5 of the way around a straight ramp's, give or take.
-        let problem = Problem { bins: &bins, prior: 4.0 * noise * noise };
+        let prior = 4.0 * noise * noise;
+        let problem = Problem { bins: &bins, prior, length: None };
 
         let plain = Signal {
             kind: Kind::Box,
@@ -136,7 +140,18 @@ impl FrameFit {
         let kinds: Vec<Fitted> =
             solutions.into_iter().map(|solution| Fitted::new(solution, &samples)).collect();
         let correlation = correlation(&kinds[Kind::Free as usize].residuals);
-        Self { units, samples, step, kinds, correlation }
+        Self { units, samples, bins, prior, step, kinds, correlation }
+    }
+
+    /// By how much a kind's sum of squares grows if its curve is to be longer by so much.
+    pub fn cost_of_length(&self, kind: Kind, longer: f64) -> f64 {
+        let solution = &self.kinds[kind as usize].solution;
+        // Stiff enough to be kept to a hundredth.
+        let stiff = 1e4 * solution.cost / (longer * longer);
+        let target = solution.signal.curve.length() + longer;
+        let problem = |length| Problem { bins: &self.bins, prior: self.prior, length };
+        let held = problem(Some((target, stiff))).minimise(&solution.signal);
+        problem(None).at(&held.signal).cost - solution.cost
     }
 
     /// So many samples count.

@@ -78,6 +78,16 @@ impl UnitRamp {
         }
     }
 
+    /// When it reaches an openness.
+    pub fn reaches(&self, openness: f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if self.at(middle).openness < openness { low = middle } else { high = middle }
+        }
+        0.5 * (low + high)
+    }
+
     /// The integral over the whole ramp, and how it moves.
     pub fn whole(&self) -> At {
         self.at(1.0)

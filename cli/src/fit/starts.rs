@@ -65,7 +65,8 @@ pub fn search(
 fn through(crossings: &Crossings, step: f64, controls: [Controls; 2]) -> Curve {
     let [up25, _, up75, down75, _, down25] = *crossings;
     let ramp = |controls: &Controls, quarter: f64, three_quarters: f64| {
-        let (a, b) = (reached(controls, 0.25), reached(controls, 0.75));
+        let shape = UnitRamp::new(controls);
+        let (a, b) = (shape.reaches(0.25), shape.reaches(0.75));
         let length = ((three_quarters - quarter) / (b - a)).max(0.5 * step);
         (quarter - a * length, length)
     };
@@ -78,15 +79,4 @@ fn through(crossings: &Crossings, step: f64, controls: [Controls; 2]) -> Curve {
     }
     let peak = (0.5 * (open + close)).clamp(start + 0.1 * opening, end - 0.1 * closing);
     Curve { controls, ..Curve::trapezoid(start, peak - start, 0.0, (end - peak).max(0.0)) }
-}
-
-/// When a unit ramp reaches an openness.
-fn reached(controls: &Controls, openness: f64) -> f64 {
-    let ramp = UnitRamp::new(controls);
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..30 {
-        let middle = 0.5 * (low + high);
-        if ramp.at(middle).openness < openness { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
