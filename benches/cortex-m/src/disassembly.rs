@@ -7,7 +7,7 @@ use std::process::Command;
 
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 
-use crate::firmware::{OBJDUMP, missing};
+use crate::firmware::{Core, OBJDUMP, missing};
 
 pub struct Instruction {
     pub address: u32,
@@ -46,7 +46,7 @@ impl Places {
 }
 
 impl Disassembly {
-    pub fn of(elf: &Path) -> Result<Self, String> {
+    pub fn of(core: Core, elf: &Path) -> Result<Self, String> {
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
         let bytes = std::fs::read(elf).map_err(|error| failed(&error))?;
         let file = object::File::parse(&*bytes).map_err(|error| failed(&error))?;
@@ -67,14 +67,23 @@ impl Disassembly {
         let size = |name| file.section_by_name(name).map_or(0, |section| section.size());
         let statics = size(".data") + size(".bss");
 
-        let output = Command::new(OBJDUMP).args(["-d", "--no-leading-headers"]).arg(elf).output();
+        let output = Command::new(OBJDUMP)
+            .args(["-d", "--no-leading-headers"])
+            .args(core.disassembled_with())
+            .arg(elf)
+            .output();
         let output = output.map_err(|error| missing(OsStr::new(OBJDUMP), &error))?;
         if !output.status.success() {
             return Err(String::from_utf8_lossy(&output.stderr).into_owned());
         }
         let text = String::from_utf8_lossy(&output.stdout);
         let mut instructions: Vec<_> = text.lines().filter_map(instruction).collect();
-        instructions.sort_by_key(|i| i.address);
+        instructions.sort_by_key(|i: &Instruction| i.address);
+        for i in 1..instructions.len() {
+            if let Some(target) = far_target(&instructions[i - 1], &instructions[i]) {
+                instructions[i].operands = format!("{target:#x}");
+            }
+        }
         Ok(Self { instructions, functions, statics })
     }
 
@@ -193,7 +202,7 @@ impl Disassembly {
 impl Instruction {
     /// Does it leave where to return to?
     fn is_call(&self) -> bool {
-        matches!(self.name.trim_end_matches(".w"), "bl" | "blx" | "jal")
+        matches!(self.name.trim_end_matches(".w"), "bl" | "blx" | "jal" | "jalr")
     }
 
     /// Where a direct branch goes.
@@ -222,6 +231,23 @@ fn instruction(line: &str) -> Option<Instruction> {
         name: name.to_owned(),
         operands: operands.trim_end().to_owned(),
     })
+}
+
+/// Where a RISC-V goes by two instructions: `auipc ra, 18` and `jalr -12(ra)`, or `jr`.
+fn far_target(upper: &Instruction, jump: &Instruction) -> Option<u32> {
+    if upper.name != "auipc" || !matches!(jump.name.as_str(), "jalr" | "jr") {
+        return None;
+    }
+    let (register, pages) = upper.operands.split_once(", ")?;
+    let (offset, base) = jump.operands.trim_end_matches(')').split_once('(')?;
+    if base != register {
+        return None;
+    }
+    let (offset, negative) =
+        offset.strip_prefix('-').map_or((offset, false), |digits| (digits, true));
+    let offset = number(offset)?;
+    let page = upper.address.wrapping_add(number(pages)? << 12);
+    Some(if negative { page.wrapping_sub(offset) } else { page.wrapping_add(offset) })
 }
 
 /// Decimal, or hexadecimal behind `0x`.

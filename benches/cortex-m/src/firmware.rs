@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 /// What the firmware's programs are built for and run on.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
     runs_in: RunsIn,
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum RunsIn {
     /// A board of QEMU's with an Arm core.
     Board(&'static str),
@@ -36,6 +36,18 @@ pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386")
 pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
 pub const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
 pub const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
+
+impl Core {
+    /// What the disassembler is told, since an older one does not take it from the file.
+    pub fn disassembled_with(self) -> Option<&'static str> {
+        match self {
+            M33 => Some("--mattr=+fp-armv8d16sp,+dsp"),
+            IMC => Some("--mattr=+m,+c"),
+            IMAFC => Some("--mattr=+m,+a,+f,+c"),
+            _ => None,
+        }
+    }
+}
 
 const fn core(name: &'static str, target: &'static str, runs_in: RunsIn) -> Core {
     Core { name, target, runs_in }

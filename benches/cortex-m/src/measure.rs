@@ -55,7 +55,7 @@ impl Measured {
     /// float that takes longer than all else.
     pub fn new(core: Core, seed: &'static str, selections: &[Selection]) -> Result<Self, String> {
         let elf = build(core, "cost", Flavour::fast(seed))?;
-        let code = Disassembly::of(&elf)?;
+        let code = Disassembly::of(core, &elf)?;
         let (mut calls, mut instance) = (BTreeMap::new(), BTreeMap::new());
         for selection in selections {
             let Trace { calls: more, instance: and, .. } =

@@ -26,7 +26,7 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let cells = CELLS.into_iter().find(|c| c.to_string() == cells);
     let cells = cells.ok_or_else(|| format!("CELLS is one of {CELLS:?}"))?;
     let elf = build(M4F, "cost", Flavour::fast(seed))?;
-    let code = Disassembly::of(&elf)?;
+    let code = Disassembly::of(M4F, &elf)?;
     let mut selection = Selection { cells: vec![cells], functions: vec![called], inputs: ON_ROWS };
     for (row, (name, data)) in ROWS.iter().enumerate() {
         let inputs = Inputs::Row(row);
