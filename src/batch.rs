@@ -58,7 +58,10 @@ pub(crate) fn inverse_cdf_slice<const CELLS: usize>(plan: &Plan<CELLS>, u: &[f32
     }
     const CHUNK: usize = 128;
     let line = Line::new(plan);
-    for (u, t) in u.chunks(CHUNK).zip(t.chunks_mut(CHUNK)) {
+    // Zipped they would divide by a chunk's length, which built for size is no constant: a panic for all the compiler knows.
+    let mut chunks = t.chunks_mut(CHUNK);
+    for u in u.chunks(CHUNK) {
+        let Some(t) = chunks.next() else { return };
         let mut right = [0u32; CHUNK];
         for ((u, t), right) in u.iter().zip(&mut *t).zip(&mut right) {
             let (time, is_right) = line.at(*u);

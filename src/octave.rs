@@ -283,8 +283,7 @@ impl Span {
         exposure.elapsed(self.side, (center + x as f64) / WORD * self.width)
     }
 
-    /// The octave with a polynomial, where one keeps the promise. Out of line: the same for any number of cells.
-    #[inline(never)]
+    /// The octave with a polynomial, where one keeps the promise.
     pub(crate) const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
         let c = self.interpolate(exposure);
 

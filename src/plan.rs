@@ -323,15 +323,17 @@ impl<const CELLS: usize> Plan<CELLS> {
 }
 
 /// The octaves of a side below the bits of its `top`. Has each of them that needs a polynomial got one?
-const fn fit_all<const CELLS: usize>(
+/// Out of line, and a slice, so that it is the same for any number of them.
+#[inline(never)]
+const fn fit_all(
     exposure: &Exposure,
     unit: &Unit,
     side: usize,
     top: u32,
-    octaves: &mut [Octave; CELLS],
+    octaves: &mut [Octave],
 ) -> bool {
     let (mut top, mut is_whole, mut index) = (top, true, 0);
-    while index < CELLS {
+    while index < octaves.len() {
         octaves[index] = Octave::NONE;
         if top >= LEAST
             && let Some(span) = Span::new(exposure, side, top)

@@ -124,6 +124,12 @@ fn schedules<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
             Ok(ticks) => ticks.for_each(|tick| hash.add(tick)),
             Err(error) => hash.add_message(error),
         }
+        for duty in [0.5, 1.0, 1e-6, 0.0, f32::NAN] {
+            match curve.pulse_ticks(n, duty, hz) {
+                Ok(pulses) => pulses.flat_map(<[u32; 2]>::from).for_each(|tick| hash.add(tick)),
+                Err(error) => hash.add_message(error),
+            }
+        }
         for gap in [0, 7, u32::MAX] {
             let mut ticks = [0; 20];
             match curve.schedule_into(&mut ticks, hz, gap) {

@@ -97,6 +97,25 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
         curve.schedule_into(places, black_box(1_000), black_box(3)).map_err(schedule_error).is_ok(),
     );
     black_box(ticks);
+    match curve.pulse_ticks(n, black_box(0.5), black_box(1_000)) {
+        Ok(mut pulses) => {
+            black_box(pulses.len());
+            black_box([
+                pulses.nth(black_box(2)),
+                pulses.next_back(),
+                pulses.nth_back(black_box(2)),
+            ]);
+            for pulse in pulses {
+                black_box(pulse);
+            }
+        }
+        Err(error) => schedule_error(error),
+    }
+    let mut pulses = [(0, 0); 16];
+    let places = pulses.get_mut(..black_box(9)).unwrap_or(&mut []);
+    let filled = curve.pulses_into(places, x, black_box(1_000), black_box(3), black_box(2));
+    black_box(filled.map_err(schedule_error).is_ok());
+    black_box(pulses);
     match curve.schedule::<64>(n, black_box(1_000), black_box(3)) {
         Ok(ticks) => drop(black_box(ticks)),
         Err(error) => schedule_error(error),
