@@ -114,7 +114,7 @@ impl Exposure {
         [fraction(near), fraction(near + self.plateau.to_f64())]
     }
 
-    /// The same of side 0 in units of 2⁻⁶⁴; at most all ones.
+    /// The same of side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; at most all ones.
     pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
         const fn words(x: Pair) -> u64 {
             if x.hi >= WHOLE {
@@ -128,8 +128,7 @@ impl Exposure {
             let words = ((upper as u64) << 32).wrapping_add(rest as u64);
             if words.abs_diff(1 << 63) < 1 << 20 { 1 << 63 } else { words }
         }
-        let near = self.ramps[0].share;
-        [words(near), words(near.plus(self.plateau))]
+        [words(self.ramps[0].share), !words(self.ramps[1].share)]
     }
 
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].

@@ -82,10 +82,19 @@ const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
 /// From here on a `u` loses no bit when counted in 2⁻³², as the plateau's line counts it.
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
-/// How far beyond the end of its ramp a top may be. A ramp's last octave is often too much for one polynomial; so cut, its
-/// last part has one of its own, and the next octave ends before time runs too differently. The first factor is taken that leaves
-/// no octave without a polynomial.
-const STRETCHES: [f64; 3] = [1.0, 1.625, 1.25];
+/// Tops are so many bits apart: four to a power of two. So each fits a byte.
+const STEP: u32 = 1 << 21;
+
+/// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one polynomial; so cut,
+/// its last part has one of its own, and the next octave ends before time runs too differently. The first number is taken that
+/// leaves no octave without a polynomial.
+const STRETCHES: [u32; 3] = [0, 2, 1];
+
+/// The bits of a top.
+#[inline(always)]
+pub(crate) const fn top(steps: u8) -> u32 {
+    (steps as u32 + LEAST / STEP) * STEP
+}
 
 /// The fractions at which the octaves of a ramp begin and end, seen from a side. No side counts beyond 1/2.
 pub(crate) const fn part(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
@@ -99,8 +108,8 @@ pub(crate) const fn part(exposure: &Exposure, side: usize, ramp: usize) -> [f64;
     [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// Fits the octaves of a side. Returns the tops by ramp, as the upper halves of the bits of an `f32`. The far ramp's octaves
-/// come first; the near ramp's top stands so many octaves higher.
+/// Fits the octaves of a side. Returns the tops by ramp, in [`STEP`]s. The far ramp's octaves come first; the near ramp's top
+/// stands so many octaves higher.
 ///
 /// Out of line, and with a slice, so that it is the same for any number of octaves.
 #[inline(never)]
@@ -109,7 +118,7 @@ pub(crate) const fn fit(
     unit: &Unit,
     side: usize,
     octaves: &mut [Octave],
-) -> [u16; 2] {
+) -> [u8; 2] {
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
         let ramp = side ^ 1 ^ i;
@@ -117,7 +126,7 @@ pub(crate) const fn fit(
         // Where there is no part, no polynomial fills the octaves that what is hidden falls into.
         let (mut highest, mut end, mut stretch) = (FINE.to_bits(), first, 0);
         while stretch < STRETCHES.len() && part[0] < part[1] {
-            highest = top(part, STRETCHES[stretch]);
+            highest = stretched(part, STRETCHES[stretch]);
             let (mut is_whole, mut index) = (true, first);
             while index < octaves.len() {
                 octaves[index] = Octave::NONE;
@@ -130,20 +139,20 @@ pub(crate) const fn fit(
             }
             stretch = if is_whole { STRETCHES.len() } else { stretch + 1 };
         }
-        tops[ramp & 1] = ((highest >> 16) + ((first as u32) << 7)) as u16;
+        tops[ramp & 1] = ((highest - LEAST + ((first as u32) << 23)) / STEP) as u8;
         first = end;
         i += 1;
     }
     tops
 }
 
-/// The bits of a top so far beyond the end of a part, rounded up to their upper half.
-const fn top([from, to]: [f64; 2], stretch: f64) -> u32 {
-    const HALF: u32 = 1 << 16;
-    let top = (floor_bits(to * stretch) + (HALF - 1)) & !(HALF - 1);
+/// The bits of the top that is so many steps beyond the end of a part.
+const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
+    let end = floor_bits(to);
+    let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
     // The first fraction of the part is not to be the last one of an octave below it.
     let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + HALF } else { top }
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }
 }
 
 /// The bits of the top so many octaves below another one.

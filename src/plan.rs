@@ -40,7 +40,7 @@ pub(crate) struct Plan<const CELLS: usize> {
     base: i64,
     slope: i64,
     /// For each side, the tops of its octaves by ramp ([`octave::fit`]).
-    tops: [[u16; 2]; 2],
+    tops: [[u8; 2]; 2],
     /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
@@ -153,7 +153,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The octave of an `a` with these bits on a ramp, and its place in it. What is no fraction above 0 has none.
     #[inline(always)]
     fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
-        let top = (self.tops[side & 1][(ramp & 1) as usize] as u32) << 16;
+        let top = octave::top(self.tops[side & 1][(ramp & 1) as usize]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
         // The significand in 32 bits, and for its sign what the difference of the significands borrowed from the exponents'.
@@ -200,9 +200,10 @@ impl<const CELLS: usize> Plan<CELLS> {
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
+        // As many bits up as fill the upper word, so that what is left in the lower one is next to nothing; scaled in two steps,
+        // for one may not be a normal number.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
-        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+        let filled = high << up | (low >> 1 >> (31 - up)) as i32;
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
@@ -249,7 +250,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The same of one ramp's octaves, if it holds above `least`.
     const fn served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
         let part = octave::part(&self.exposure, side, ramp);
-        let top = (self.tops[side & 1][ramp & 1] as u32) << 16;
+        let top = octave::top(self.tops[side & 1][ramp & 1]);
         let mut index = 0;
         while index < CELLS {
             if let Some(span) = Span::new(side, part, octave::below(top, index)) {
@@ -296,7 +297,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31);
         // As in `octave`, but that the exponents stand apart.
-        let top = (self.tops[side & 1][is_beyond as usize] as u32) << 16;
+        let top = octave::top(self.tops[side & 1][is_beyond as usize]);
         let below = (top << 9 >> 1) as i32 - significand as i32;
         let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
         let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
