@@ -128,7 +128,7 @@ impl Exposure {
             let words = ((upper as u64) << 32).wrapping_add(rest as u64);
             if words.abs_diff(1 << 63) < 1 << 20 { 1 << 63 } else { words }
         }
-        [words(self.ramps[0].share), !words(self.ramps[1].share)]
+        [words(self.ramps[0].share), (!words(self.ramps[1].share)).saturating_add(1)]
     }
 
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].

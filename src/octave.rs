@@ -76,19 +76,19 @@ pub(crate) struct Unit {
     pub(crate) starts: [i64; 2],
 }
 
-/// The bits of the least top: below 2⁻³⁰ there are no octaves, so that the bits of 0 are not among theirs.
-const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
+/// The bits of the least top: below 2⁻²⁸ there are no octaves, so that the bits of 0 are not among theirs.
+const LEAST: u32 = (1.0 / (1 << 28) as f32).to_bits();
 
 /// From here on a `u` loses no bit when counted in 2⁻³², as the plateau's line counts it.
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
-/// Tops are so many bits apart: four to a power of two. So each fits a byte.
-const STEP: u32 = 1 << 21;
+/// Tops are so many bits apart: eight to a power of two. So each fits a byte.
+const STEP: u32 = 1 << 20;
 
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one polynomial; so cut,
 /// its last part has one of its own, and the next octave ends before time runs too differently. The first number is taken that
 /// leaves no octave without a polynomial.
-const STRETCHES: [u32; 3] = [0, 2, 1];
+const STRETCHES: [u32; 4] = [0, 5, 6, 4];
 
 /// The bits of a top.
 #[inline(always)]

@@ -200,10 +200,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // As many bits up as fill the upper word, so that what is left in the lower one is next to nothing; scaled in two steps,
-        // for one may not be a normal number.
+        // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
-        let filled = high << up | (low >> 1 >> (31 - up)) as i32;
+        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 

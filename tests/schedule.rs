@@ -296,15 +296,14 @@ fn direct_frames_are_not_understated() {
 
 #[test]
 fn direct_frames_of_random_curves() {
-    let (mut least, mut few) = (u32::MAX, 0);
-    for i in 0..1000 {
+    let mut least = u32::MAX;
+    for i in 0..2000 {
         let curve = random_typical(2024, i);
         let most = judge_direct(&shutter::<8>(&curve), &curve);
+        assert!(most >= 64, "{most}: {curve:?}");
         least = least.min(most);
-        few += u32::from(most < 64);
     }
-    println!("typical: at least {least}, {few} of 1000 below 64");
-    assert!(few <= 5, "{few}");
+    println!("typical: at least {least}");
     let none = (0..1000).filter(|i| {
         let curve = random_hard(2024, *i);
         judge_direct(&shutter::<8>(&curve), &curve) == 0
