@@ -216,7 +216,10 @@ fn table() {
         );
         println!("|---|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|--:|");
         for shutter in SHUTTERS {
-            print(&format!("{shutter:?}"), &of(&rows, shutter));
+            let rows = of(&rows, shutter);
+            print(&format!("{shutter:?}"), &rows);
+            let covered = share(&rows, |row| row.covered);
+            assert!(covered >= 0.9, "{shutter:?}: triggers covered: {covered}");
         }
         print("all", &rows.iter().collect::<Vec<_>>());
         judge_errors(&rows, failed, limits);

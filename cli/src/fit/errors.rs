@@ -5,8 +5,8 @@ use super::frame::{FrameFit, Missed, fractions};
 use super::signal::Kind;
 use super::solve::Cholesky;
 
-/// Below this openness nobody knows a soft ramp's shape, a cubic or not: the time that it spends there is the standard error of
-/// its end beside the noise's.
+/// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
+/// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
 
 /// A value and its standard error.
@@ -115,12 +115,16 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
         |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
     let ratio = std::array::from_fn(|k| (whole[k] - area / length * Curve::LENGTH[k]) / length);
     let mut efficiency = measured(area / length, &ratio);
-    if kind > Kind::Trapezoid {
+    let mut light = measured(area, &whole);
+    let is_straight = kind <= Kind::Trapezoid;
+    let feet = if is_straight { [0.0; 2] } else { exposure.feet(FOOT) };
+    let unseen = feet.map(|time| FOOT * time);
+    light.error = unseen.into_iter().fold(light.error, f64::hypot);
+    if !is_straight {
         let linear = covariance.error(&Curve::LENGTH);
         let noise = length_error(fit, kind, linear, covariance.variance);
-        let lengths = exposure.feet(FOOT).into_iter().fold(noise, f64::hypot);
-        let areas = covariance.error(&whole);
-        efficiency.error = (areas / length).hypot(efficiency.value * lengths / length);
+        let lengths = feet.into_iter().fold(noise, f64::hypot);
+        efficiency.error = (light.error / length).hypot(efficiency.value * lengths / length);
     }
     let mut triggers: Vec<Measured> = fractions(n)
         .map(|u| {
@@ -129,8 +133,13 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
         })
         .collect();
     let beside = misfit(fit, kind, &triggers);
-    triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
-    Results { exposure: measured(area, &whole), efficiency, triggers }
+    for (u, trigger) in fractions(n).zip(&mut triggers) {
+        // More light in the first foot makes a trigger earlier, more in the last one makes it later.
+        let [before, after] = [(1.0 - u) * unseen[0], u * unseen[1]];
+        let foot = before.hypot(after) / exposure.openness(trigger.value).max(1e-3);
+        trigger.error = trigger.error.hypot(beside).hypot(foot);
+    }
+    Results { exposure: light, efficiency, triggers }
 }
 
 /// The standard error of a curve's length, by how far the sum of squares lets it go either way.
