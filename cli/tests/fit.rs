@@ -406,6 +406,29 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
     assert!(stated / all < 1e-3, "stated: {}", stated / all);
 }
 
+/// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has it.
+#[test]
+fn the_exposure_is_known_without_a_plateau_too() {
+    let (mut covered, mut all) = (0.0, 0.0);
+    for seed in 0..48 {
+        let mut random = Random::new(700 + seed);
+        let [start, peak, end] = [0.2, random.within(0.3, 0.6), random.within(0.65, 0.8)];
+        let straight: fn(f64) -> f64 = |z| z;
+        let ramp = if seed % 2 == 0 { straight } else { leaf };
+        let truth = Truth::new(Box::new(ramp), Box::new(ramp), [start, peak, peak, end]);
+        let (n, noise) = (random.scale(400.0, 1000.0) as usize, random.scale(0.003, 0.02));
+        let case = traced(truth, Disturbance::White, n, noise, &mut random);
+        let trace = Trace { times: case.times, values: case.values };
+        let fit = fitted(&trace, &Options::default()).unwrap();
+        let (exposure, truth) = (fit.exposure, case.truth.exposure() * case.scale);
+        assert!(exposure.error < 0.03 * truth, "{seed}: {exposure:?}");
+        assert!(fit.efficiency.error < 0.1, "{seed}: {:?}", fit.efficiency);
+        covered += f64::from((exposure.value - truth).abs() <= 1.96 * exposure.error);
+        all += 1.0;
+    }
+    assert!(covered / all > 0.85, "covered: {}", covered / all);
+}
+
 /// A photodiode with a time constant of 60 µs in front of a 10-bit converter, 50 kHz: solved in steps of a microsecond.
 fn photodiode(openness: impl Fn(f64) -> f64) -> String {
     let (mut level, mut text) = (0.0, String::from("time_ms,counts\n"));
