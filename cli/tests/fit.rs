@@ -668,21 +668,35 @@ fn what_the_program_refuses_leaves_nothing_behind() {
 }
 
 /// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an RC of 30 µs,
-/// 10 bits) becomes a scene, and that the module by which the firmware's example fires.
+/// 10 bits) becomes a scene, and that the module by which the firmware's example fires. The README shows what is printed.
 #[test]
 fn from_a_trace_to_the_firmwares_module() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
     let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
-    let fitted = Plan::parse(&fit.scene("leaf.csv", Zero::Trace).unwrap().text).unwrap();
+    let scene = fit.scene("leaf.csv", Zero::Trace).unwrap().text;
+    let fitted = Plan::parse(&scene).unwrap();
     // The same with the timer of the board and what the lamp needs, which a user fills in.
-    let kept = Plan::parse(&read("scenes/measured.toml")).unwrap();
+    let text = read("scenes/measured.toml");
+    assert!(text.lines().take(2).eq(scene.lines().take(2)), "{text}");
+    let kept = Plan::parse(&text).unwrap();
     for (fitted, kept) in fitted.triggers.iter().zip(&kept.triggers) {
         assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value as f32);
     }
     let module = shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept);
     assert_eq!(module, read("../examples/trigger/measured.rs"));
+
+    let report = shutter::fit::text("leaf.csv", &fit);
+    let module = shutter::emit::emit(shutter::emit::Form::Rust, "leaf", &fitted);
+    let readme = read("../README.md");
+    let shown: Vec<&str> = readme.split("```text\n").skip(1).collect();
+    assert_eq!(shown.len(), 2);
+    for (shown, printed) in shown.iter().zip([report, module]) {
+        for line in shown.lines().take_while(|line| *line != "```") {
+            assert!(printed.lines().any(|printed| printed == line), "{line}\n{printed}");
+        }
+    }
 }
 
 /// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's share.
