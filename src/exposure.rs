@@ -104,19 +104,24 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends, and at which the plateau ends.
+    /// The fractions at which the near ramp ends, and at which the plateau ends; 1/2 if that is all but for rounding.
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
+        const fn fraction(x: f64) -> f64 {
+            let x = x / WHOLE as f64;
+            if (x - 0.5).abs() < 1.0 / (1u64 << 44) as f64 { 0.5 } else { x }
+        }
         let near = self.ramp(side).share.to_f64();
-        [near / WHOLE as f64, (near + self.plateau.to_f64()) / WHOLE as f64]
+        [fraction(near), fraction(near + self.plateau.to_f64())]
     }
 
-    /// The same of side 0 in units of 2⁻⁶⁴, rounded; at most all ones.
+    /// The same of side 0 in units of 2⁻⁶⁴; at most all ones.
     pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
         const fn words(x: Pair) -> u64 {
             // In 2⁻⁶³ at first, for 1 is one too many of the others.
             let units =
                 fixed(x.hi, WHOLE_EXPONENT - 63).wrapping_add(fixed(x.lo, WHOLE_EXPONENT - 63));
-            if units < 0 { u64::MAX } else { (units as u64) << 1 }
+            let words = if units < 0 { u64::MAX } else { (units as u64) << 1 };
+            if words.abs_diff(1 << 63) < 1 << 20 { 1 << 63 } else { words }
         }
         let near = self.ramps[0].share;
         [words(near), words(near.plus(self.plateau))]

@@ -1,10 +1,9 @@
 //! The direct way: an octave of `u` as a polynomial that gives the time outright.
 //!
 //! Take `a`, the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of it shrink towards the
-//! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all. Their boundaries
-//! are a power of two apart from the *top* of their side, which is chosen so that where the near ramp ends is a boundary. So no
-//! octave holds parts of two ramps. (One may hold the end of the plateau and the start of the far ramp; the plateau is
-//! answered before by its line.)
+//! end as fast as the density may, and a polynomial of one degree is as good, relatively, in all. Each ramp has octaves of
+//! its own, powers of two apart from its *top*, which is where the ramp ends, or somewhat more. So no octave holds parts of
+//! two ramps. The plateau between them is answered by its line.
 //!
 //! The difference of the bits of the top's and of `a`'s `f32` counts the octaves between them, since the exponent is their
 //! upper part. The offset within the octave is exact: the significand of `a`, less the octave's middle.
@@ -78,49 +77,78 @@ pub(crate) struct Unit {
 }
 
 /// The bits of the least top: below 2⁻³⁰ there are no octaves, so that the bits of 0 are not among theirs.
-pub(crate) const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
+const LEAST: u32 = (1.0 / (1 << 30) as f32).to_bits();
 
-/// How far beyond the end of the near ramp a top may be. A ramp's last octave is often too much for one polynomial; so
-/// cut, its last fifth has one of its own, and the next one ends before time runs too differently.
-const STRETCH: f64 = 1.625;
+/// From here on a `u` loses no bit when counted in 2⁻³², as the plateau's line counts it.
+pub(crate) const FINE: f32 = 1.0 / 512.0;
 
-/// The bits of the greatest `f32` that a side's octaves serve, or 0 where there are none: the one to try first, and another
-/// where that leaves an octave without a polynomial.
-///
-/// It is 1/2 if the near ramp goes beyond that, or else where the near ramp ends. If the far ramp begins below 1/2, too, it is that
-/// times a power of two, so that the octaves reach 1/2. The other one is greater by [`STRETCH`], or by as much as leaves the far
-/// ramp in another octave.
-pub(crate) const fn tops(exposure: &Exposure, side: usize) -> [u32; 2] {
-    const HALF: u32 = 0.5f32.to_bits();
+/// How far beyond the end of its ramp a top may be. A ramp's last octave is often too much for one polynomial; so cut, its
+/// last part has one of its own, and the next octave ends before time runs too differently. The first factor is taken that leaves
+/// no octave without a polynomial.
+const STRETCHES: [f64; 3] = [1.0, 1.625, 1.25];
+
+/// The fractions at which the octaves of a ramp begin and end, seen from a side. No side counts beyond 1/2.
+pub(crate) const fn part(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
     let [near, far] = exposure.joins(side);
-    let join = if near > 0.0 { near } else { far };
-    let floor = floor_bits(join);
-    // Next to 1/2 is 1/2 for a polynomial.
-    if floor + 4 >= HALF {
-        return if near > 0.0 { [HALF, floor_bits(STRETCH * 0.5)] } else { [0, 0] };
+    if ramp != side {
+        return [far, 0.5];
     }
-    // Up to the join, and where the plateau's line follows, which is asked before, to the next `f32`.
-    let is_plateau = near > 1.0 / 512.0 && near < far;
-    let bits = if is_plateau && (f32::from_bits(floor) as f64) < join { floor + 1 } else { floor };
-    // Below 2⁻⁹ the line does not serve, and what is beyond the join has to be searched for.
-    let stretched = if near <= 1.0 / 512.0 {
-        0
-    } else if far < STRETCH * near {
-        floor_bits(far)
-    } else {
-        floor_bits(STRETCH * near)
-    };
-    if far >= 0.5 {
-        [bits, stretched]
-    } else {
-        [up_to_half(bits), if stretched > bits { up_to_half(stretched) } else { 0 }]
-    }
+    // Behind so little, some of the plateau is not on its line, and nothing tells it from the ramp.
+    let is_hidden = near < far && near < FINE as f64;
+    let to = if near < 0.5 { near } else { 0.5 };
+    [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// The top that is so many octaves above one below 1/2 that it reaches 1/2; 1/2 where none would be left.
-const fn up_to_half(top: u32) -> u32 {
-    const HALF: u32 = 0.5f32.to_bits();
-    if top < LEAST { HALF } else { top + ((HALF - top + (1 << 23) - 1) >> 23 << 23) }
+/// Fits the octaves of a side. Returns the tops by ramp, as the upper halves of the bits of an `f32`. The far ramp's octaves
+/// come first; the near ramp's top stands so many octaves higher.
+///
+/// Out of line, and with a slice, so that it is the same for any number of octaves.
+#[inline(never)]
+pub(crate) const fn fit(
+    exposure: &Exposure,
+    unit: &Unit,
+    side: usize,
+    octaves: &mut [Octave],
+) -> [u16; 2] {
+    let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
+    while i < 2 {
+        let ramp = side ^ 1 ^ i;
+        let part = part(exposure, side, ramp);
+        // Where there is no part, no polynomial fills the octaves that what is hidden falls into.
+        let (mut highest, mut end, mut stretch) = (FINE.to_bits(), first, 0);
+        while stretch < STRETCHES.len() && part[0] < part[1] {
+            highest = top(part, STRETCHES[stretch]);
+            let (mut is_whole, mut index) = (true, first);
+            while index < octaves.len() {
+                octaves[index] = Octave::NONE;
+                if let Some(span) = Span::new(side, part, below(highest, index - first)) {
+                    octaves[index] = span.fitted(exposure, unit);
+                    is_whole = is_whole && octaves[index].exists();
+                    end = index + 1;
+                }
+                index += 1;
+            }
+            stretch = if is_whole { STRETCHES.len() } else { stretch + 1 };
+        }
+        tops[ramp & 1] = ((highest >> 16) + ((first as u32) << 7)) as u16;
+        first = end;
+        i += 1;
+    }
+    tops
+}
+
+/// The bits of a top so far beyond the end of a part, rounded up to their upper half.
+const fn top([from, to]: [f64; 2], stretch: f64) -> u32 {
+    const HALF: u32 = 1 << 16;
+    let top = (floor_bits(to * stretch) + (HALF - 1)) & !(HALF - 1);
+    // The first fraction of the part is not to be the last one of an octave below it.
+    let beyond = top.wrapping_sub(floor_bits(from));
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + HALF } else { top }
+}
+
+/// The bits of the top so many octaves below another one.
+pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
+    top.saturating_sub((octaves as u32) << 23)
 }
 
 impl Octave {
@@ -218,6 +246,8 @@ impl Octave {
 /// The part of an octave that its polynomial serves, in `a`.
 pub(crate) struct Span {
     side: usize,
+    /// Where it begins.
+    pub(crate) from: f64,
     middle: f64,
     half: f64,
     /// What an offset of 1, that is 2³² units, is in `a`.
@@ -227,22 +257,12 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// Of a side's octave below the bits of its `top`; none where all of it is on the plateau, or where the search has to serve
-    /// what the plateau's line does not.
-    pub(crate) const fn new(exposure: &Exposure, side: usize, top: u32) -> Option<Self> {
+    /// Of the octave below the bits of its `top`; none where it holds nothing of the part.
+    pub(crate) const fn new(side: usize, part: [f64; 2], top: u32) -> Option<Self> {
         let high = f32::from_bits(top) as f64;
-        let [near, far] = exposure.joins(side);
-        // The part that lies on a ramp: on the near one, or behind what is not.
-        let (half, high_or_half) = (0.5 * high, if high > 0.5 { 0.5 } else { high });
-        let (from, to) = if near > half {
-            // Where the far ramp follows within a trace, the polynomial has to serve its start, too.
-            (half, if near < far && near < high { near } else { high_or_half })
-        } else {
-            (if far > half { far } else { half }, high_or_half)
-        };
-        // Below 2⁻⁹ the plateau's line has not all of it.
-        let is_beside_plateau = near < far && (from > half || near > half && near < high);
-        if from >= to || is_beside_plateau && high < 1.0 / 128.0 {
+        let from = if part[0] > 0.5 * high { part[0] } else { 0.5 * high };
+        let to = if part[1] < high { part[1] } else { high };
+        if top < LEAST || from >= to {
             return None;
         }
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -254,7 +274,7 @@ impl Span {
             width *= 0.5;
             finer += 1;
         }
-        Some(Self { side, middle, half, width, finer })
+        Some(Self { side, from, middle, half, width, finer })
     }
 
     /// Twice the significand of the middle, nearly: where offsets count from.
@@ -284,7 +304,7 @@ impl Span {
     }
 
     /// The octave with a polynomial, where one keeps the promise.
-    pub(crate) const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
+    const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
         let c = self.interpolate(exposure);
 
         // The largest value that Horner's rule meets fills 31 bits.

@@ -17,18 +17,15 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{LEAST, NO_TIME, Octave, Span, Unit, floor_bits, tops};
+use crate::octave::{self, FINE, NO_TIME, Octave, Span, Unit, floor_bits};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::{Shape, WHOLE};
 
-/// The plateau in `u` that counts 2⁻⁶⁴: by upper words, so many from the first; how many of these it fills, all but the first and
-/// the last; and by its bounds.
+/// The plateau in `u` that counts 2⁻⁶⁴: its last one, and how many it has.
 #[derive(Clone)]
 pub(crate) struct Words {
-    first: u32,
-    count: u32,
-    filled: u32,
-    bounds: [u64; 2],
+    last: u64,
+    count: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,22 +33,20 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// 2³² units, in which the curve's times count at most 2⁶², as a power of two.
     scale: f32,
-    /// The `u` on the plateau's line, by the bits of their `f32`: so many from the first.
+    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. What is beyond the last
+    /// one is on the closing ramp.
     plateau: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
-    /// For each side, the bits of the greatest `f32` that its octaves serve.
-    tops: [u32; 2],
-    /// For each side, the octaves of `a`, the widest first.
+    /// For each side, the tops of its octaves by ramp ([`octave::fit`]).
+    tops: [[u16; 2]; 2],
+    /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
 
 /// Does the processor have doubles? Those of 64 bits do.
 pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
-
-/// From here on a `u` loses no bit when counted in 2⁻³².
-const FINE: u32 = (1.0f32 / 512.0).to_bits();
 
 impl<const CELLS: usize> Plan<CELLS> {
     /// The plan of two ramps with an openness of at most `most`; errors name the first one `part`.
@@ -70,7 +65,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
         let unit = unit_for(exposure.start(0), exposure.start(1));
         let starts = [fixed(exposure.start(0), unit), fixed(exposure.start(1), unit)];
-        let (mut base, mut slope, mut plateau) = (0, 0, [0; 2]);
+        let [from, to] = exposure.joins(0);
+        let (from, to) = (floor_bits(from), floor_bits(to));
+        let (mut base, mut slope, mut plateau) = (0, 0, [to, 0]);
         let mut serves = true;
         if open < close {
             let masses = [Shape::new(opening).mass(), Shape::new(closing).mass()];
@@ -79,37 +76,22 @@ impl<const CELLS: usize> Plan<CELLS> {
             // Where the curve lies too far from time 0 for its unit, all is searched for.
             serves = slope >> 40 != 0;
             if serves {
-                let [from, to] = exposure.joins(0);
-                let (from, to) = (floor_bits(from), floor_bits(to));
                 // At 1 the end is exact.
-                let last = 1.0f32.to_bits() - 1;
-                let before = if from < FINE { FINE } else { from };
-                plateau = [before + 1, (if to < last { to } else { last }).saturating_sub(before)];
+                let before_end = 1.0f32.to_bits() - 1;
+                let last = if to < before_end { to } else { before_end };
+                let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
+                plateau = [last, last.saturating_sub(before)];
             }
         }
         let unit = Unit { exponent: unit, starts };
-        let (mut octaves, mut greatest) = ([[Octave::NONE; CELLS]; 2], [0; 2]);
+        let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
         while serves && side < 2 {
-            let tops = tops(&exposure, side);
-            let is_whole = fit_all(&exposure, &unit, side, tops[0], &mut octaves[side]);
-            greatest[side] = tops[0];
-            if !is_whole && tops[1] > 0 {
-                fit_all(&exposure, &unit, side, tops[1], &mut octaves[side]);
-                greatest[side] = tops[1];
-            }
+            tops[side] = octave::fit(&exposure, &unit, side, &mut octaves[side]);
             side += 1;
         }
-        let unit = unit.exponent;
-        Ok(Self {
-            exposure,
-            scale: power_of_two(unit + 32),
-            plateau,
-            base,
-            slope,
-            tops: greatest,
-            octaves,
-        })
+        let scale = power_of_two(unit.exponent + 32);
+        Ok(Self { exposure, scale, plateau, base, slope, tops, octaves })
     }
 
     /// The exponent of the unit of time.
@@ -130,9 +112,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
         let unit = self.unit_of_time() as f64;
-        let [first, count] = self.plateau;
-        let before = first.wrapping_sub(1);
-        let bounds = [before, before.wrapping_add(count)].map(f32::from_bits);
+        let [last, count] = self.plateau;
+        let bounds = [last.wrapping_sub(count), last].map(f32::from_bits);
         (self.base as f64 * unit, self.slope as f64 * unit, bounds)
     }
 
@@ -142,7 +123,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     fn nearer(u: f32) -> (usize, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
-        let is_late = bits > 0.5f32.to_bits();
+        // Signed, so that a negative number remains one.
+        let is_late = bits as i32 > 0.5f32.to_bits() as i32;
         (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
     }
 
@@ -161,36 +143,41 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// The octave of an `a` with these bits, and its place in it. What is no fraction above 0 has none.
+    /// How far the bits of a `u` on the plateau's line are before those of the last one; at least the plateau's count for all
+    /// others, and with the sign bit for those beyond.
     #[inline(always)]
-    fn octave(&self, side: usize, bits: u32) -> Option<(&Octave, i32)> {
-        let top = self.tops[side & 1];
+    fn before_last(&self, bits: u32) -> u32 {
+        self.plateau[0].wrapping_sub(bits)
+    }
+
+    /// The octave of an `a` with these bits on a ramp, and its place in it. What is no fraction above 0 has none.
+    #[inline(always)]
+    fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
+        let top = (self.tops[side & 1][(ramp & 1) as usize] as u32) << 16;
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
         // The significand in 32 bits, and for its sign what the difference of the significands borrowed from the exponents'.
         Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
     }
 
-    /// The time on the plateau's line, in units, if `u` is on it.
+    /// The time on the plateau's line, in units, of a `u` with these bits.
     #[inline(always)]
-    fn by_line(&self, u: f32) -> Option<i64> {
-        let bits = u.to_bits();
-        let is_on_line = bits.wrapping_sub(self.plateau[0]) < self.plateau[1];
+    fn by_line(&self, bits: u32) -> i64 {
         let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-        is_on_line.then(|| self.on_line((bits << 8 | 1 << 31) >> (shift & 31)))
+        self.on_line((bits << 8 | 1 << 31) >> (shift & 31))
     }
 
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let time = match self.by_line(u) {
-            Some(time) => time,
-            None => {
-                let (side, bits) = Self::nearer(u);
-                match self.octave(side, bits) {
-                    Some((octave, place)) => octave.time(octave.offset(place)),
-                    None => return self.searched(u),
-                }
+        let before_last = self.before_last(u.to_bits());
+        let time = if before_last < self.plateau[1] {
+            self.by_line(u.to_bits())
+        } else {
+            let (side, bits) = Self::nearer(u);
+            match self.octave(side, before_last >> 31, bits) {
+                Some((octave, place)) => octave.time(octave.offset(place)),
+                None => return self.searched(u),
             }
         };
         // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
@@ -236,37 +223,44 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The time, in units, if no search is needed.
     #[inline(always)]
     pub(crate) fn direct(&self, u: f32) -> Option<i64> {
+        let before_last = self.before_last(u.to_bits());
+        if before_last < self.plateau[1] {
+            return Some(self.by_line(u.to_bits()));
+        }
         let (side, bits) = Self::nearer(u);
-        self.by_line(u).or_else(|| {
-            let (octave, place) = self.octave(side, bits)?;
-            octave.exists().then(|| octave.time(octave.offset(place)))
-        })
+        let (octave, place) = self.octave(side, before_last >> 31, bits)?;
+        octave.exists().then(|| octave.time(octave.offset(place)))
     }
 
     /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
     pub(crate) const fn least_direct(&self, side: usize) -> f64 {
         let [near, far] = self.exposure.joins(side);
-        // The plateau's line begins there.
-        let line = f32::from_bits(FINE) as f64;
-        let least = if near < far && near < line { line } else { 0.0 };
-        let top = self.tops[side & 1];
-        if top == 0 {
-            // The plateau alone, or nothing at all.
-            return if self.plateau[1] > 0 { least } else { 0.5 };
-        }
-        let (mut high, mut index) = (f32::from_bits(top) as f64, 0);
-        while index < CELLS && high > least {
-            let half = 0.5 * high;
-            let is_open_above = far >= 0.5 || far >= high;
-            let is_served = self.octaves[side & 1][index].exists() || near <= half && is_open_above;
-            if !is_served {
-                high = if is_open_above && near < high { near } else { high };
-                break;
+        let mut least = self.served(side, side ^ 1, 0.5);
+        if least <= far && near < far && near < least {
+            // The plateau, by its line.
+            if self.plateau[1] == 0 {
+                return least;
             }
-            high = half;
+            least = if near < FINE as f64 { FINE as f64 } else { near };
+        }
+        if least <= far { self.served(side, side, least) } else { least }
+    }
+
+    /// The same of one ramp's octaves, if it holds above `least`.
+    const fn served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
+        let part = octave::part(&self.exposure, side, ramp);
+        let top = (self.tops[side & 1][ramp & 1] as u32) << 16;
+        let mut index = 0;
+        while index < CELLS {
+            if let Some(span) = Span::new(side, part, octave::below(top, index)) {
+                if !self.octaves[side & 1][index].exists() {
+                    break;
+                }
+                least = span.from;
+            }
             index += 1;
         }
-        if high > least { high } else { least }
+        least
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -281,27 +275,18 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau in `u` that counts 2⁻⁶⁴.
     pub(crate) fn plateau_in_words(&self) -> Words {
-        if self.plateau[1] == 0 {
-            return Words { first: 0, count: 0, filled: 0, bounds: [u64::MAX, 0] };
-        }
         let [near, far] = self.exposure.joins_in_words();
-        let bounds = [near.max(1 << 55), far];
-        let [first, last] = bounds.map(|bound| (bound >> 32) as u32);
-        let between = last.saturating_sub(first);
-        Words { first, count: between + 1, filled: between.saturating_sub(1), bounds }
+        let last = far.saturating_sub(1);
+        let before = near.max(1 << 55);
+        Words { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) } }
     }
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
     #[inline(always)]
     pub(crate) fn direct_in_words(&self, u: u64, plateau: &Words) -> Option<i64> {
-        let word = (u >> 32) as u32;
-        let place = word.wrapping_sub(plateau.first);
-        if place < plateau.count {
-            // In the words that hold the plateau's ends all bits count.
-            let is_filled = place.wrapping_sub(1) < plateau.filled;
-            if is_filled || u > plateau.bounds[0] && u < plateau.bounds[1] {
-                return Some(self.on_line(word));
-            }
+        let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
+        if before_last < plateau.count {
+            return Some(self.on_line((u >> 32) as u32));
         }
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
@@ -313,38 +298,13 @@ impl<const CELLS: usize> Plan<CELLS> {
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31) | (rest != 0) as u32;
         // As in `octave`, but that the exponents stand apart.
-        let top = self.tops[side & 1];
+        let top = (self.tops[side & 1][is_beyond as usize] as u32) << 16;
         let below = (top << 9 >> 1) as i32 - significand as i32;
         let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
         let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
         let place = significand as i32 | below & i32::MIN;
         octave.exists().then(|| octave.time(octave.offset(place)))
     }
-}
-
-/// The octaves of a side below the bits of its `top`. Has each of them that needs a polynomial got one?
-/// Out of line, and a slice, so that it is the same for any number of them.
-#[inline(never)]
-const fn fit_all(
-    exposure: &Exposure,
-    unit: &Unit,
-    side: usize,
-    top: u32,
-    octaves: &mut [Octave],
-) -> bool {
-    let (mut top, mut is_whole, mut index) = (top, true, 0);
-    while index < octaves.len() {
-        octaves[index] = Octave::NONE;
-        if top >= LEAST
-            && let Some(span) = Span::new(exposure, side, top)
-        {
-            octaves[index] = span.fitted(exposure, unit);
-            is_whole = is_whole && octaves[index].exists();
-        }
-        top = top.saturating_sub(1 << 23);
-        index += 1;
-    }
-    is_whole
 }
 
 /// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².
