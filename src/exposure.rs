@@ -7,7 +7,7 @@
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
-use crate::pair::{Pair, fixed, rounded_sum};
+use crate::pair::{Pair, power_of_two, rounded_sum};
 use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, WHOLE_EXPONENT, scaled};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
@@ -117,10 +117,15 @@ impl Exposure {
     /// The same of side 0 in units of 2⁻⁶⁴; at most all ones.
     pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
         const fn words(x: Pair) -> u64 {
-            // In 2⁻⁶³ at first, for 1 is one too many of the others.
-            let units =
-                fixed(x.hi, WHOLE_EXPONENT - 63).wrapping_add(fixed(x.lo, WHOLE_EXPONENT - 63));
-            let words = if units < 0 { u64::MAX } else { (units as u64) << 1 };
+            if x.hi >= WHOLE {
+                return u64::MAX;
+            }
+            // The upper word, and the rest in its unit, which the pair's second half may make some 2⁷.
+            let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));
+            let upper = x.hi as u32;
+            let rest = (x.hi - upper as f32) + x.lo;
+            let rest = ((rest * power_of_two(23)) as i32 as i64) << 9;
+            let words = ((upper as u64) << 32).wrapping_add(rest as u64);
             if words.abs_diff(1 << 63) < 1 << 20 { 1 << 63 } else { words }
         }
         let near = self.ramps[0].share;

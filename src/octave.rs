@@ -20,7 +20,7 @@ pub(crate) struct Octave {
     /// From where `x` counts: a place of the octave, as [`Octave::offset`] has it; the lowest bits tell by which power of two
     /// `x` counts finer than that.
     center: u32,
-    /// `P(x) = c[0] x + c[1] x² + ...`
+    /// `P(x) = c[7] x + c[6] x² + ...`: the first to be needed comes first.
     c: [i32; DEGREE],
 }
 
@@ -182,7 +182,7 @@ impl Octave {
     /// `P(x)`, written out, because firmware is often built for size, which would keep it a loop.
     #[inline(always)]
     const fn rest(&self, x: i32) -> i32 {
-        let [c1, c2, c3, c4, c5, c6, c7, c8] = self.c;
+        let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
         let value = times_high(c8, x).wrapping_add(c7);
         let value = times_high(value, x).wrapping_add(c6);
         let value = times_high(value, x).wrapping_add(c5);
@@ -236,7 +236,7 @@ impl Octave {
         let mut slope = 0.0;
         let mut k = DEGREE;
         while k > 0 {
-            slope = slope * x + k as f64 * self.c[k - 1] as f64;
+            slope = slope * x + k as f64 * self.c[DEGREE - k] as f64;
             k -= 1;
         }
         slope
@@ -327,7 +327,7 @@ impl Span {
         let mut octave = Octave { center: self.center() as u32, ..Octave::NONE };
         let mut k = 0;
         while k < DEGREE {
-            octave.c[k] = round(c[k + 1] / scale);
+            octave.c[DEGREE - 1 - k] = round(c[k + 1] / scale);
             k += 1;
         }
         // Each product is rounded down, by half a unit on average, and only the last one's counts in full.

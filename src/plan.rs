@@ -293,10 +293,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let (high, low) = ((a >> 32) as u32, a as u32);
         // Where all of the upper word are zeros, there are no octaves any more.
         let zeros = high.leading_zeros();
-        // Its last bit tells whether there is anything behind it.
-        let rest = low << (zeros & 31);
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-        let significand = significand & !(1 << 31) | (rest != 0) as u32;
+        let significand = significand & !(1 << 31);
         // As in `octave`, but that the exponents stand apart.
         let top = (self.tops[side & 1][is_beyond as usize] as u32) << 16;
         let below = (top << 9 >> 1) as i32 - significand as i32;

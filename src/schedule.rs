@@ -152,34 +152,16 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(ticks.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
-        let mut places = ticks.iter_mut();
-        self.checked(n, tick_hz, min_gap, |tick| {
-            if let Some(place) = places.next() {
-                *place = tick;
-            }
-        })
-    }
-
-    /// Hands out the ticks of `n` triggers that keep the gap.
-    #[inline(always)]
-    fn checked(
-        &self,
-        n: u32,
-        tick_hz: u32,
-        min_gap: u32,
-        mut place: impl FnMut(u32),
-    ) -> Result<(), ScheduleError> {
         let frame = Ticks::new(&self.plan, n, tick_hz)?;
-        let mut last = None;
-        for i in 0..n {
+        let mut earliest = 0;
+        for (i, place) in (0..n).zip(ticks) {
             let tick = frame.at(i);
-            if let Some(last) = last
-                && tick - last < min_gap
-            {
-                return Err(ScheduleError::GapTooSmall { trigger: i, gap: tick - last, min_gap });
+            if tick < earliest {
+                return Err(frame.too_close(i, min_gap));
             }
-            place(tick);
-            last = Some(tick);
+            *place = tick;
+            // What is beyond 32 bits is beyond all ticks.
+            earliest = tick.saturating_add(min_gap);
         }
         Ok(())
     }
@@ -204,12 +186,10 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
-        if n as usize > N {
+        if schedule.resize(n as usize, 0).is_err() {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        self.checked(n, tick_hz, min_gap, |tick| {
-            let _ = schedule.push(tick);
-        })?;
+        self.schedule_into(&mut schedule, tick_hz, min_gap)?;
         Ok(schedule)
     }
 
@@ -520,10 +500,11 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         }
         let start = plan.start_in_units(0);
         let length = (plan.start_in_units(1) - start) as u64;
-        if exceeds(length, tick_hz, plan.unit(), MOST_TICKS) {
+        let exponent = exponent_of_ticks(length, tick_hz, plan.unit());
+        if exponent > MOST_TICKS {
             return Err(too_high(length, tick_hz, plan.unit()));
         }
-        let searched = n > DIRECT_TRIGGERS || exceeds(length, tick_hz, plan.unit(), DIRECT_TICKS);
+        let searched = n > DIRECT_TRIGGERS || exponent > DIRECT_TICKS;
         let direct = (!searched).then(|| Direct::new(start, length, tick_hz, plan.unit()));
         let (fractions, plateau) = (Fractions::new(n), plan.plateau_in_words());
         Ok(Self { plan, fractions, tick_hz, plateau, direct })
@@ -578,6 +559,14 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         Some(direct.tick(time))
     }
 
+    /// The error of trigger `i`, which comes too soon after the one before.
+    #[cold]
+    #[inline(never)]
+    fn too_close(&self, i: u32, min_gap: u32) -> ScheduleError {
+        let gap = self.at(i) - self.at(i.saturating_sub(1));
+        ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
+    }
+
     /// The same by a search; out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
@@ -617,12 +606,11 @@ fn place<const CELLS: usize>(
     plan.exposure.at_fraction(side, a, FOR_TICK)
 }
 
-/// Is `length`, in units of `2^unit` of the curve's time, more than `2^most` ticks?
-fn exceeds(length: u64, tick_hz: u32, unit: i32, most: i32) -> bool {
+/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in ticks.
+fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
     // Below 2⁹⁶.
     let ticks = length as u128 * tick_hz as u128;
-    let shift = most - unit;
-    shift < 96 && ticks > if shift < 0 { 0 } else { 1 << shift }
+    u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
 }
 
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
@@ -632,7 +620,7 @@ fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
     let (mut most, mut fail) = (0, tick_hz);
     while fail - most > 1 {
         let middle = most + (fail - most) / 2;
-        let fits = !exceeds(length, middle, unit, MOST_TICKS);
+        let fits = exponent_of_ticks(length, middle, unit) <= MOST_TICKS;
         *(if fits { &mut most } else { &mut fail }) = middle;
     }
     ScheduleError::TickRateTooHigh { most }
@@ -642,24 +630,25 @@ fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
 #[derive(Clone)]
 struct Direct {
     start: i64,
-    /// What brings a time after the start down to 31 bits, and the ticks in a unit of these, which count 2⁻⁶⁴.
-    down: u32,
+    /// What brings a time after the start to 31 bits above 2³², and the ticks in a unit of these, which count 2⁻⁶⁴.
+    up: u32,
     factor: u64,
 }
 
 impl Direct {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
     fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
-        let down = 33u32.saturating_sub(length.leading_zeros());
-        let up = unit + 64 + down as i32;
+        // An `f32` interval has from 2³⁷ units to 2⁶².
+        let up = length.leading_zeros().wrapping_sub(1) & 31;
+        let down = unit + 96 - up as i32;
         let rate = tick_hz as u64;
-        let factor = if up < 0 {
-            rate.checked_shr(up.unsigned_abs())
+        let factor = if down < 0 {
+            rate.checked_shr(down.unsigned_abs())
         } else {
-            rate.checked_shl(up.unsigned_abs())
+            rate.checked_shl(down.unsigned_abs())
         };
         // Where a tick is next to all of the interval, nothing is left of it, and all is tick 0, to which it rounds.
-        Self { start, down, factor: factor.unwrap_or(0) }
+        Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
     }
 
     #[inline(always)]
@@ -668,10 +657,9 @@ impl Direct {
         if delay < 0 {
             return 0;
         }
-        // `down` is below 32; where it is 0, so is the upper word.
-        let delay = delay as u64;
-        let high = ((delay >> 32) as u32) << (self.down.wrapping_neg() & 31);
-        let delay = (high | delay as u32 >> (self.down & 31)) as u64;
+        let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
+        let low = ((low * self.up as u64) >> 32) as u32;
+        let delay = high.wrapping_mul(self.up).wrapping_add(low) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }

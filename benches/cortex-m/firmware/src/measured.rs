@@ -2,7 +2,6 @@
 
 use firmware::baseline::{InverseTable, TextbookNewton};
 use firmware::{TICK_HZ, TRIGGERS};
-use heapless::Vec;
 use shutter_curve::{CubicBezier, CurveError, ScheduleError, ShutterCurve};
 
 #[inline(never)]
@@ -25,14 +24,13 @@ pub fn measured_tick_step(ticks: &mut impl Iterator<Item = u32>) -> Option<u32> 
     ticks.next()
 }
 
-pub type Schedule = Vec<u32, { TRIGGERS as usize }>;
-
 #[inline(never)]
 pub fn measured_schedule<const C: usize>(
     curve: &ShutterCurve<C>,
+    ticks: &mut [u32; TRIGGERS as usize],
     gap: u32,
-) -> Result<Schedule, ScheduleError> {
-    curve.schedule(TRIGGERS, TICK_HZ, gap)
+) -> Result<(), ScheduleError> {
+    curve.schedule_into(ticks, TICK_HZ, gap)
 }
 
 #[inline(never)]

@@ -5,7 +5,7 @@
 use core::hint::black_box;
 
 use firmware::baseline::{InverseTable, TextbookNewton};
-use firmware::{CELLS, CURVES, Function, TICK_HZ, baselines, selected, series};
+use firmware::{CELLS, CURVES, Function, TICK_HZ, TRIGGERS, baselines, selected, series};
 
 #[path = "../machine.rs"]
 mod machine;
@@ -64,7 +64,9 @@ fn run_with<const C: usize>() {
                 Function::Schedule => {
                     // On hard curves triggers may share a tick.
                     let gap = u32::from(!inputs.are_hard());
-                    let _ = black_box(measured_schedule(curve, black_box(gap)));
+                    let mut ticks = [0; TRIGGERS as usize];
+                    let _ = black_box(measured_schedule(curve, &mut ticks, black_box(gap)));
+                    black_box(&ticks);
                 }
                 Function::Construct => {
                     let (opening, closing) = black_box(&CURVES[index]).ramps();

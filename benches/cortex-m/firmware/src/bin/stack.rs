@@ -6,7 +6,7 @@ use core::arch::asm;
 use core::fmt::Write;
 use core::hint::black_box;
 
-use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, UNIFORM, uniform};
+use firmware::{CELLS, CURVES, Function, Inputs, SCALES, TICK_HZ, TRIGGERS, UNIFORM, uniform};
 use shutter_curve::ShutterCurve;
 
 #[allow(dead_code, reason = "the baselines are not measured here")]
@@ -94,7 +94,8 @@ fn run_with<const C: usize>() {
                 note(Function::TickStep, depth(0..steps, step));
             }
             // A gap that all frames keep, and one that some do not.
-            let plan = |gap| drop(black_box(measured_schedule(&curve, gap)));
+            let mut ticks = [0; TRIGGERS as usize];
+            let plan = |gap| drop(black_box(measured_schedule(&curve, &mut ticks, gap)));
             note(Function::Schedule, depth([0, 1].into_iter(), plan));
         }
     }
