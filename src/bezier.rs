@@ -14,11 +14,26 @@ pub struct CubicBezier {
 impl CubicBezier {
     /// The curve with control points `P0..P3`, each as (t, f): a time in any unit, and the openness
     /// there. Nothing is checked here; the curves built from it check.
+    ///
+    /// ```
+    /// use shutter_curve::{CubicBezier, ShutterCurve};
+    /// // In ms: smooth ramps, and 3 ms fully open.
+    /// let opening = CubicBezier::new([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
+    /// let closing = CubicBezier::new([(5.0, 1.0), (6.0, 1.0), (6.0, 0.0), (7.0, 0.0)]);
+    /// assert_eq!(ShutterCurve::new(opening, closing)?.exposure(), 5.0);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn new(points: [(f32, f32); 4]) -> Self {
         Self { points }
     }
 
-    /// The straight line from `from` to `to`, its control points a third of the way apart.
+    /// The straight line from `from` to `to`, each as (t, f), its control points a third of the way apart.
+    ///
+    /// ```
+    /// use shutter_curve::CubicBezier;
+    /// let line = CubicBezier::line((0.0, 0.0), (3.0, 1.5));
+    /// assert_eq!(line.points(), [(0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (3.0, 1.5)]);
+    /// ```
     pub const fn line(from: (f32, f32), to: (f32, f32)) -> Self {
         const fn third(a: f32, b: f32, n: f64) -> f32 {
             (a as f64 + (b as f64 - a as f64) * (n / 3.0)) as f32
@@ -32,7 +47,16 @@ impl CubicBezier {
     }
 
     /// The opening and the closing ramp of RenderMan's `shutteropening`; see
-    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening).
+    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). Nothing is checked here, either.
+    ///
+    /// ```
+    /// use shutter_curve::CubicBezier;
+    /// // Times in ms; those of the inner control points are fractions of all 8 ms.
+    /// let inner = [0.125, 0.0, 0.125, 1.0, 0.875, 1.0, 0.875, 0.0];
+    /// let (opening, closing) = CubicBezier::shutteropening([0.0, 2.0, 6.0, 8.0], inner);
+    /// assert_eq!(opening.points(), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
+    /// assert_eq!(closing.points(), [(6.0, 1.0), (7.0, 1.0), (7.0, 0.0), (8.0, 0.0)]);
+    /// ```
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
@@ -49,7 +73,7 @@ impl CubicBezier {
         )
     }
 
-    /// The control points `P0..P3`, each as (t, f).
+    /// The control points `P0..P3`, each as (t, f); see [`line`](Self::line).
     pub const fn points(&self) -> [(f32, f32); 4] {
         self.points
     }

@@ -24,6 +24,8 @@
 //! The README has the promised accuracy, the cost on a microcontroller, the features and the limits.
 
 #![no_std]
+// docs.rs says of each item which feature it needs.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
 mod batch;

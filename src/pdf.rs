@@ -34,6 +34,14 @@ pub struct BezierPdf<const CELLS: usize = 8> {
 impl BezierPdf {
     /// The density of `curve`, with 8 octaves a side.
     ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier};
+    /// // A flash of 3 ms that dies away, in any unit of light.
+    /// let flash = BezierPdf::new(CubicBezier::line((0.0, 80.0), (3.0, 0.0)))?;
+    /// assert_eq!(flash.area(), 120.0);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`with_cells`](Self::with_cells).
     pub const fn new(curve: CubicBezier) -> Result<Self, CurveError> {
@@ -43,6 +51,13 @@ impl BezierPdf {
 
 impl<const CELLS: usize> BezierPdf<CELLS> {
     /// The density of `curve`, with `CELLS` octaves a side.
+    ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier, valid};
+    /// static SMALL: BezierPdf<4> =
+    ///     valid(BezierPdf::with_cells(CubicBezier::line((0.0, 0.0), (1.0, 1.0))));
+    /// assert_eq!(SMALL.inverse_cdf(0.25), 0.5);
+    /// ```
     ///
     /// # Errors
     /// A coordinate that is not finite; time that runs back; a negative density; an interval without length, or outside
@@ -58,26 +73,54 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
     }
 
     /// The normalised density at the time `t`, in fractions per unit of time; 0 outside the curve and for NaN.
+    ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier};
+    /// let ramp = BezierPdf::new(CubicBezier::line((0.0, 0.0), (2.0, 3.0)))?;
+    /// assert_eq!([1.0, 2.0, 2.5].map(|t| ramp.pdf(t)), [0.5, 1.0, 0.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub fn pdf(&self, t: f32) -> f32 {
         self.plan.exposure.density(self.plan.exposure.openness(t))
     }
 
     /// The fraction of the area before `t`: 0 before the curve and for NaN, 1 after.
+    ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier};
+    /// let ramp = BezierPdf::new(CubicBezier::line((0.0, 0.0), (2.0, 3.0)))?;
+    /// assert_eq!([1.0, 2.0, 2.5].map(|t| ramp.cdf(t)), [0.25, 1.0, 1.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub fn cdf(&self, t: f32) -> f32 {
         self.plan.exposure.cdf(t)
     }
 
     /// The time `t` with `cdf(t) = u`, in the curve's unit; `u` is clamped to [0, 1], and NaN counts as 0.
+    ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier};
+    /// let ramp = BezierPdf::new(CubicBezier::line((0.0, 0.0), (2.0, 3.0)))?;
+    /// assert_eq!([0.0, 0.25, 1.0].map(|u| ramp.inverse_cdf(u)), [0.0, 1.0, 2.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         batch::inverse_cdf(&self.plan, u)
     }
 
     /// `∫ f dt`, before normalisation: `f` times the curve's unit of time.
+    ///
+    /// ```
+    /// use shutter_curve::{BezierPdf, CubicBezier};
+    /// let ramp = BezierPdf::new(CubicBezier::line((0.0, 0.0), (2.0, 4.0)))?;
+    /// assert_eq!((ramp.area(), ramp.normalization()), (4.0, 0.25));
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn area(&self) -> f32 {
         self.plan.exposure.area as f32
     }
 
-    /// `K`, the reciprocal of the area, in its unit.
+    /// `K`, the reciprocal of the [`area`](Self::area), in its unit.
     pub const fn normalization(&self) -> f32 {
         (1.0 / self.plan.exposure.area) as f32
     }

@@ -168,6 +168,14 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers, with feature `heapless-v0_9`.
     ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// let ticks: heapless::Vec<u32, 16> = curve.schedule(5, 1_000_000, 1_000)?;
+    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
     /// # Errors
     /// More triggers than `N`, and those of [`schedule_into`](Self::schedule_into).
     #[cfg(feature = "heapless-v0_9")]
@@ -191,6 +199,13 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// It tries frames, each up to where the gap is too small: those around the exposure over the gap, which is next to the
     /// answer for a shutter that opens fully, and from there on by doubled steps and bisection. So it costs a few frames
     /// at best, and `2 log2(wanted)` at worst.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// // A lamp that needs 1 ms between two flashes, on a timer of 1 MHz.
+    /// assert_eq!(curve.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// ```
     ///
     /// # Errors
     /// Those of [`trigger_ticks`](Self::trigger_ticks).

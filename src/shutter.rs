@@ -170,26 +170,42 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 
     /// When the shutter starts to open, in the unit of the curve's times.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// // In ms.
+    /// let curve = ShutterCurve::linear(1.0, 3.0, 7.0, 10.0)?;
+    /// assert_eq!((curve.open_start(), curve.open_end()), (1.0, 3.0));
+    /// assert_eq!((curve.close_start(), curve.close_end()), (7.0, 10.0));
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn open_start(&self) -> f32 {
         self.plan.exposure.start(0)
     }
 
-    /// When it is fully open, in the same unit.
+    /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
     pub const fn open_end(&self) -> f32 {
         self.plan.exposure.plateau_start(0)
     }
 
-    /// When it starts to close, in the same unit.
+    /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
     pub const fn close_start(&self) -> f32 {
         self.plan.exposure.plateau_start(1)
     }
 
-    /// When it is closed, in the same unit.
+    /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
     pub const fn close_end(&self) -> f32 {
         self.plan.exposure.start(1)
     }
 
     /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// let curve = ShutterCurve::linear(0.0, 3.0, 6.0, 9.0)?;
+    /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.opening(t)), [0.5, 1.0, 0.25, 0.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     ///
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
@@ -207,12 +223,27 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 
     /// The normalised density at `t`, `K · opening(t)`, in fractions of the exposure per unit of time.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// // An exposure of 4 ms: fully open, a quarter of it is collected in each ms.
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// assert_eq!([1.0, 3.0].map(|t| curve.pdf(t)), [0.125, 0.25]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub fn pdf(&self, t: f32) -> f32 {
         self.plan.exposure.density(self.openness(t))
     }
 
     /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1 after
     /// it has closed.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// assert_eq!([-1.0, 2.0, 3.0, 7.0].map(|t| curve.cdf(t)), [0.0, 0.25, 0.5, 1.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub fn cdf(&self, t: f32) -> f32 {
         self.plan.exposure.cdf(t)
     }
@@ -243,6 +274,15 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
 
     /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits, and the same unit.
     ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// let mut t = [0.0; 4];
+    /// curve.inverse_cdf_slice(&[0.0, 0.25, 0.5, 1.0], &mut t);
+    /// assert_eq!(t, [0.0, 2.0, 3.0, 6.0]);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
+    ///
     /// # Panics
     /// If the lengths differ.
     // Where the caller's lengths are known, so is the check.
@@ -253,16 +293,38 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 
     /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// // In ms: half of each ramp, and the plateau.
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// assert_eq!(curve.exposure(), 4.0);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn exposure(&self) -> f32 {
         self.plan.exposure.area as f32
     }
 
     /// `K = 1/A`, which makes the openness a probability density; per unit of the curve's time.
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
+    /// assert_eq!(curve.normalization(), 0.25);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn normalization(&self) -> f32 {
         (1.0 / self.plan.exposure.area) as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
+    ///
+    /// ```
+    /// use shutter_curve::ShutterCurve;
+    /// let curve = ShutterCurve::linear(0.0, 2.0, 6.0, 8.0)?;
+    /// assert_eq!(curve.efficiency(), 0.75);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
     pub const fn efficiency(&self) -> f32 {
         (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }

@@ -97,6 +97,28 @@ impl Curve {
     }
 }
 
+/// A quantity of a whole curve.
+#[derive(Clone, Copy, Debug)]
+pub enum Whole {
+    /// From the start of opening to the end of closing.
+    Length,
+    /// The exposure.
+    Area,
+}
+
+impl Whole {
+    /// It, and how it moves with each parameter.
+    pub fn of(self, curve: &Curve) -> (f64, [f64; PARAMETERS]) {
+        match self {
+            Self::Length => (curve.length(), Curve::LENGTH),
+            Self::Area => {
+                let Collected { amount, moves } = Exposure::new(curve).whole();
+                (amount, moves)
+            }
+        }
+    }
+}
+
 /// A curve with its ramps' integrals worked out.
 #[derive(Clone, Copy, Debug)]
 pub struct Exposure {

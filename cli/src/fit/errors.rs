@@ -1,13 +1,15 @@
 //! What the noise makes of the results: standard errors from the normal equations.
 
-use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS};
+use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS, Whole};
 use super::frame::{FrameFit, Missed, fractions};
 use super::signal::Kind;
 use super::solve::Cholesky;
 
-/// Below this openness nobody knows a soft ramp's shape, a cubic or not: the time that it spends there is the standard error of
-/// its end beside the noise's.
+/// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
+/// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
+/// A plateau that is shorter than this share of the whole is a peak, or may be.
+const PEAK: f64 = 0.1;
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,44 +113,60 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
     let exposure = Exposure::new(&curve);
     let whole = exposure.whole().moves;
     let (area, length) = (exposure.area(), curve.length());
-    let measured =
-        |value: f64, moves: &[f64; PARAMETERS]| Measured { value, error: covariance.error(moves) };
+    let linear = |moves: &[f64; PARAMETERS]| covariance.error(moves);
+    let searched = |of: Whole, linear| searched_error(fit, kind, of, linear, covariance.variance);
+    // Noise hides how high a peak is, and so what full light is: without much of a plateau, that is not linear.
+    let is_peak = curve.plateau < PEAK * length;
+    let noise = if is_peak { searched(Whole::Area, linear(&whole)) } else { linear(&whole) };
+    let is_straight = kind <= Kind::Trapezoid;
+    let feet = if is_straight { [0.0; 2] } else { exposure.feet(FOOT) };
+    let unseen = feet.map(|time| FOOT * time);
+    let light = unseen.into_iter().fold(noise, f64::hypot);
     let ratio = std::array::from_fn(|k| (whole[k] - area / length * Curve::LENGTH[k]) / length);
-    let mut efficiency = measured(area / length, &ratio);
-    if kind > Kind::Trapezoid {
-        let linear = covariance.error(&Curve::LENGTH);
-        let noise = length_error(fit, kind, linear, covariance.variance);
-        let lengths = exposure.feet(FOOT).into_iter().fold(noise, f64::hypot);
-        let areas = covariance.error(&whole);
-        efficiency.error = (areas / length).hypot(efficiency.value * lengths / length);
-    }
+    let share = if is_straight && !is_peak {
+        linear(&ratio)
+    } else {
+        let noise = linear(&Curve::LENGTH);
+        let noise = if is_straight { noise } else { searched(Whole::Length, noise) };
+        let ends = feet.into_iter().fold(noise, f64::hypot);
+        (light / length).hypot(area / length * ends / length)
+    };
     let mut triggers: Vec<Measured> = fractions(n)
         .map(|u| {
-            let (t, moves) = exposure.trigger(u);
-            measured(t, &moves)
+            let (value, moves) = exposure.trigger(u);
+            Measured { value, error: linear(&moves) }
         })
         .collect();
     let beside = misfit(fit, kind, &triggers);
-    triggers.iter_mut().for_each(|trigger| trigger.error = trigger.error.hypot(beside));
-    Results { exposure: measured(area, &whole), efficiency, triggers }
+    for (u, trigger) in fractions(n).zip(&mut triggers) {
+        // More light in the first foot makes a trigger earlier, more in the last one makes it later.
+        let [before, after] = [(1.0 - u) * unseen[0], u * unseen[1]];
+        let foot = before.hypot(after) / exposure.openness(trigger.value).max(1e-3);
+        trigger.error = trigger.error.hypot(beside).hypot(foot);
+    }
+    Results {
+        exposure: Measured { value: area, error: light },
+        efficiency: Measured { value: area / length, error: share },
+        triggers,
+    }
 }
 
-/// The standard error of a curve's length, by how far the sum of squares lets it go either way.
+/// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
 ///
-/// Where a soft ramp starts is not linear in the samples: a control number makes up for most of a shift, and only the square of
-/// the shift shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
-fn length_error(fit: &FrameFit, kind: Kind, linear: f64, variance: f64) -> f64 {
+/// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
+/// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
+fn searched_error(fit: &FrameFit, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
     const SIDE: f64 = 1.96;
-    let length = fit.kinds[kind as usize].solution.signal.curve.length();
-    let (least, most) = (1e-4 * length, 0.5 * length);
+    let value = whole.of(&fit.kinds[kind as usize].solution.signal.curve).0;
+    let (least, most) = (1e-4 * value, 0.5 * value);
     let side = |way: f64| {
         let mut by = if linear.is_finite() {
-            (SIDE * linear).clamp(least, 0.1 * length)
+            (SIDE * linear).clamp(least, 0.1 * value)
         } else {
-            0.1 * length
+            0.1 * value
         };
         for _ in 0..8 {
-            let cost = fit.cost_of_length(kind, way * by) / (SIDE * SIDE * variance);
+            let cost = fit.cost_of(kind, whole, way * by) / (SIDE * SIDE * variance);
             if (0.8..1.25).contains(&cost) {
                 break;
             }

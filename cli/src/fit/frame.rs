@@ -1,7 +1,7 @@
 //! One frame fitted: every kind of curve, with the columns that the frame asks for, in units of the frame's own.
 
 use super::bins::{self, Bin};
-use super::curve::{Curve, Exposure};
+use super::curve::{Curve, Exposure, Whole};
 use super::hum;
 use super::signal::{Hum, Kind, Signal};
 use super::solve::{Problem, Solution};
@@ -105,7 +105,7 @@ impl FrameFit {
         let noise = (pulses.noise / pulses.light()).max(LEAST);
         // A control number is 0.5 of the way around a straight ramp's, give or take.
         let prior = 4.0 * noise * noise;
-        let problem = Problem { bins: &bins, prior, length: None };
+        let problem = Problem { bins: &bins, prior, held: None };
 
         let plain = Signal {
             kind: Kind::Box,
@@ -143,14 +143,14 @@ impl FrameFit {
         Self { units, samples, bins, prior, step, kinds, correlation }
     }
 
-    /// By how much a kind's sum of squares grows if its curve is to be longer by so much.
-    pub fn cost_of_length(&self, kind: Kind, longer: f64) -> f64 {
+    /// By how much a kind's sum of squares grows if its curve is to have so much more of something.
+    pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64) -> f64 {
         let solution = &self.kinds[kind as usize].solution;
         // Stiff enough to be kept to a hundredth.
-        let stiff = 1e4 * solution.cost / (longer * longer);
-        let target = solution.signal.curve.length() + longer;
-        let problem = |length| Problem { bins: &self.bins, prior: self.prior, length };
-        let held = problem(Some((target, stiff))).minimise(&solution.signal);
+        let stiff = 1e4 * solution.cost / (more * more);
+        let target = whole.of(&solution.signal.curve).0 + more;
+        let problem = |held| Problem { bins: &self.bins, prior: self.prior, held };
+        let held = problem(Some((whole, target, stiff))).minimise(&solution.signal);
         problem(None).at(&held.signal).cost - solution.cost
     }
 

@@ -89,6 +89,9 @@ fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     let (time, error) = (format!("time ({name})"), format!("error ({name})"));
     writeln!(out, "\n    #        u  {time:>15}  {error:>12}")?;
     let n = fit.triggers.len();
+    let least = fit.triggers.iter().map(|trigger| unit.of(trigger.error));
+    // Two digits of the least error, and as many decimals for all: a column that the eye can run down.
+    let places = decimals(least.fold(f64::INFINITY, f64::min), 2).min(12);
     let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };
     for (i, trigger) in fit.triggers.iter().enumerate() {
         if i == hidden.start {
@@ -98,8 +101,8 @@ fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
             continue;
         }
         let u = (i as f64 + 0.5) / n as f64;
-        let (time, error) = (at(fit, trigger.value), short(unit.of(trigger.error), 2));
-        writeln!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12}")?;
+        let (time, error) = (at(fit, trigger.value), unit.of(trigger.error));
+        writeln!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12.places$}")?;
     }
     Ok(())
 }

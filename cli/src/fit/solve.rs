@@ -4,7 +4,7 @@
 //! step, and a step that leaves a bound ends on it.
 
 use super::bins::Bin;
-use super::curve::Curve;
+use super::curve::Whole;
 use super::signal::Signal;
 
 /// The most steps.
@@ -18,8 +18,8 @@ pub struct Problem<'a> {
     pub bins: &'a [Bin],
     /// By how much a control number counts that is 1 away.
     pub prior: f64,
-    /// A length of the whole curve to be kept, and by how much a miss of 1 counts.
-    pub length: Option<(f64, f64)>,
+    /// A value to be kept, and by how much a miss of 1 counts.
+    pub held: Option<(Whole, f64, f64)>,
 }
 
 /// A signal with its sum of squares and the normal equations there.
@@ -60,10 +60,11 @@ impl Problem<'_> {
             gradient[k] += self.prior * miss;
             normal[k][k] += self.prior;
         }
-        if let Some((target, weight)) = self.length {
-            let miss = signal.curve.length() - target;
+        if let Some((whole, target, weight)) = self.held {
+            let (value, each) = whole.of(&signal.curve);
+            let miss = value - target;
             let mut moves = vec![0.0; signal.kind.parameters()];
-            signal.kind.gather(&Curve::LENGTH, &mut moves);
+            signal.kind.gather(&each, &mut moves);
             cost += weight * miss * miss;
             for (i, a) in moves.iter().enumerate() {
                 gradient[i] += weight * a * miss;

@@ -248,7 +248,8 @@ impl fmt::Display for Warning {
                 "the file does not say in which unit its times are; they are taken as seconds (see --unit)",
             ),
             Self::Spikes { count, first } => {
-                write!(out, "{} left out, the first at {first:.6e} s", counted(*count, "spike"))
+                let first = unit::short(*first, 9);
+                write!(out, "{} left out, the first at {first} s", counted(*count, "spike"))
             }
             Self::Glitches { count } => write!(
                 out,
@@ -270,8 +271,9 @@ impl fmt::Display for Warning {
             ),
             Self::Hum { hertz, amplitude } => write!(
                 out,
-                "hum of {hertz:.4} Hz, {:.2} % of the light, fitted and taken out; if it is the lamp's own flicker (mains, \
-                 or an LED's PWM), use a steady one",
+                "hum of {} Hz, {:.2} % of the light, fitted and taken out; if it is the lamp's own flicker (mains, or an \
+                 LED's PWM), use a steady one",
+                unit::short(*hertz, 4),
                 100.0 * amplitude
             ),
             Self::Drift { amount } => write!(
@@ -286,9 +288,9 @@ impl fmt::Display for Warning {
             ),
             Self::SharpEdges { step } => write!(
                 out,
-                "edges as short as a sample: each is known to {:.2e} s at best (the sampling interval by the root of 12); \
+                "edges as short as a sample: each is known to {} at best (the sampling interval by the root of 12); \
                  sample faster if that matters",
-                step / 12f64.sqrt()
+                time(step / 12f64.sqrt())
             ),
             Self::NoPlateau => out.write_str(
                 "there is no plateau: the shutter may never open fully; the peak counts as full light unless --full \
@@ -305,6 +307,12 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+/// A time in the unit that suits it, to two digits.
+fn time(seconds: f64) -> String {
+    let unit = unit::Unit::fit(seconds);
+    format!("{} {}", unit::short(unit.of(seconds), 2), unit.name())
 }
 
 fn counted(n: usize, thing: &str) -> String {
