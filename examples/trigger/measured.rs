@@ -10,7 +10,7 @@
 // gap          at least 0.1 ms; the closest two come 9772 ticks apart
 // set-up       emulated: equal flashes while the camera's own shutter stays open
 // triggers     16; up to 62 keep the gap
-// direct       frames of up to 648 triggers are placed without a search
+// direct       frames of up to 630 triggers are placed without a search
 
 use shutter_curve::{ShutterCurve, valid};
 
