@@ -124,7 +124,9 @@ pub(crate) const fn fit(
         let ramp = side ^ 1 ^ i;
         let part = part(exposure, side, ramp);
         // Where there is no part, no polynomial fills the octaves that what is hidden falls into.
-        let (mut highest, mut end, mut stretch) = (FINE.to_bits(), first, 0);
+        let far = exposure.joins(side)[1];
+        let hidden = if far < FINE as f64 { far } else { FINE as f64 };
+        let (mut highest, mut end, mut stretch) = (stretched([0.0, hidden], 0), first, 0);
         while stretch < STRETCHES.len() && part[0] < part[1] {
             highest = stretched(part, STRETCHES[stretch]);
             let (mut is_whole, mut index) = (true, first);
