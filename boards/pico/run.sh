@@ -21,7 +21,7 @@ command -v cargo >/dev/null || fail "missing cargo: https://rustup.rs"
 # The emulator, if it is not there as the lock file has it.
 if ! [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ]; then
     command -v npm >/dev/null || fail "missing npm, to fetch the emulator rp2040js: your system's package npm"
-    (cd emulator && npm ci --silent --no-audit --no-fund) || fail "npm cannot fetch the emulator rp2040js"
+    (cd emulator && npm ci --no-audit --no-fund --loglevel error >&2) || fail "npm cannot fetch the emulator rp2040js"
 fi
 
 cargo build --quiet --locked --release --target $target --package firmware

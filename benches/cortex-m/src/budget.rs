@@ -9,7 +9,7 @@ use crate::trace::{Key, Selection};
 
 /// For CELLS = 8 unless it says otherwise, with the default seed.
 pub fn run() -> Result<(), String> {
-    use Function::{Cdf, InverseCdf, Newton, Opening, Schedule, TickStep};
+    use Function::{Cdf, Construct, InverseCdf, Newton, Opening, Schedule, TickStep};
     println!("{}", made_with()?);
     let some = |cells: usize, functions: &[Function], inputs| Selection {
         cells: vec![cells],
@@ -20,6 +20,7 @@ pub fn run() -> Result<(), String> {
         some(8, &[InverseCdf, TickStep, Schedule], ON_ROWS | ON_TYPICAL | ON_HARD),
         some(8, &[Cdf, Opening], ON_ROWS),
         some(0, &[InverseCdf, TickStep], ON_ROWS),
+        some(8, &[Construct], ON_ROWS),
     ];
     let m4f = Measured::new(M4F, SEEDS[0], &m4f)?;
     let m0 = [some(8, &[InverseCdf, Newton], ON_ROWS), some(0, &[InverseCdf], ON_ROWS)];
@@ -84,6 +85,8 @@ pub fn run() -> Result<(), String> {
     check("bytes of a curve, CELLS = 0", m4f.curve_bytes[&0].into(), 480.0, 488.0);
     let code = m4f.code_bytes(InverseCdf, 8).ok_or(none)?;
     check("bytes of inverse_cdf's code", code.into(), 3584.0, 3584.0);
+    let code = m4f.code_bytes(Construct, 8).ok_or(none)?;
+    check("bytes of the code that builds a curve", code.into(), 20480.0, 28500.0);
     let (painted, said) = m4f.stack(InverseCdf, 8).ok_or(none)?;
     check("bytes of stack of inverse_cdf, painted", painted.into(), 160.0, 160.0);
     check("bytes of stack of inverse_cdf, by the compiler", said.into(), 160.0, 160.0);

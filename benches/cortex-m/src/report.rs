@@ -9,7 +9,8 @@ use ::firmware::{
 };
 use shutter_curve::ShutterCurve;
 
-use crate::firmware::{Core, IMAFC, IMC, M0, M4F, M33, SEEDS, folder, made_with};
+use crate::disassembly::Disassembly;
+use crate::firmware::{Core, Flavour, IMAFC, IMC, M0, M4F, M33, SEEDS, build, folder, made_with};
 use crate::measure::{Measured, Spread};
 use crate::trace::{Key, Selection};
 
@@ -64,7 +65,7 @@ pub fn run() -> Result<(), String> {
     baselines(&mut out, default);
     others(&mut out, default);
     bytes(&mut out, default);
-    construction(&mut out, default);
+    construction(&mut out, default, building_for_size()?);
     with_seeds(&mut out, seeds);
     print!("{out}");
     let path = folder().join("../../docs/cost.md");
@@ -121,24 +122,45 @@ fn worst(build: &Measured, function: Function, inputs: Inputs, cells: usize) -> 
     text(worst.map(|(cycles, curve)| format!("{cycles} ({curve})")))
 }
 
+/// A table's header: the Cortex-M4F's cycles and a figure of each core.
+fn cores_header(out: &mut String) {
+    let names = OTHER_CORES.map(|core| core.name.replace("Cortex-", ""));
+    let ruled = "--:|".repeat(2 + names.len());
+    let _ = writeln!(out, "\n| | M4F cycles | M4F | {} |\n|---|{ruled}", names.join(" | "));
+}
+
+/// One of its rows.
+fn cores_row(
+    out: &mut String,
+    Build { m4f, others, .. }: &Build,
+    what: &str,
+    cycles: Option<Spread>,
+    of: impl Fn(&Measured) -> Option<f64>,
+) {
+    let cycles = cycles.map_or_else(String::new, |s| format!("**{}**", grouped(s.mean)));
+    let cores = [m4f].into_iter().chain(others);
+    let figures: Vec<String> = cores.map(|core| text(of(core).map(grouped))).collect();
+    let _ = writeln!(out, "| {what} | {cycles} | {} |", figures.join(" | "));
+}
+
+/// A number's digits, in threes if there are five or more, with a narrow space that does not break.
+fn grouped(number: f64) -> String {
+    let digits = format!("{number:.0}");
+    let grouped = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    if digits.len() < 5 { digits } else { grouped.collect::<Vec<_>>().join("\u{202f}") }
+}
+
 /// The first screen: what an answer, a tick, a schedule and a curve cost, on each core.
-fn on_each_core(out: &mut String, Build { m4f, others, .. }: &Build) {
+fn on_each_core(out: &mut String, build: &Build) {
     use Function::{Construct, InverseCdf, Newton, Schedule, TickStep};
-    let names: Vec<&str> = OTHER_CORES.iter().map(|core| core.name).collect();
-    let _ = write!(
+    let m4f = &build.m4f;
+    let _ = writeln!(
         out,
         "\nMean instructions, and on the Cortex-M4F modelled cycles, too; *soft* has a third of its mass in ramps, *all ramp* \
-         all of it. With `CELLS = 8`, a curve of {} bytes in flash, unless it says otherwise.\n\n\
-         | | M4F cycles | M4F | {} |\n|---|--:|{}\n",
+         all of it. With `CELLS = 8`, a curve of {} bytes in flash, unless it says otherwise.",
         m4f.curve_bytes[&8],
-        names.join(" | ").replace("Cortex-", ""),
-        "--:|".repeat(1 + others.len()),
     );
-    let all = || [m4f].into_iter().chain(others);
-    let mut line = |what: &str, cycles: String, of: &dyn Fn(&Measured) -> String| {
-        let figures: Vec<String> = all().map(of).collect();
-        let _ = writeln!(out, "| {what} | {cycles} | {} |", figures.join(" | "));
-    };
+    cores_header(out);
     let schedule = format!("a checked schedule of {TRIGGERS} triggers");
     for (what, function, cells) in [
         ("`inverse_cdf`", InverseCdf, 8),
@@ -148,32 +170,37 @@ fn on_each_core(out: &mut String, Build { m4f, others, .. }: &Build) {
         ("textbook Newton in `f32`", Newton, 0),
     ] {
         for (row, (name, _)) in ROWS.iter().enumerate().take(2) {
-            let key = key(function, row, cells);
-            let cycles = format!("**{}**", mean(m4f.cycles(&key)));
-            line(&format!("{what}, {name}"), cycles, &|core| mean(core.instructions(&key)));
+            calls_row(out, build, &format!("{what}, {name}"), &key(function, row, cells));
         }
     }
-    let build = key(Construct, 0, 8);
-    line("a curve built at run time, soft", mean(m4f.cycles(&build)), &|core| {
-        mean(core.instructions(&build))
-    });
+    calls_row(out, build, "a curve built at run time, soft", &key(Construct, 0, 8));
     for (what, function) in [
         ("`inverse_cdf`", InverseCdf),
         ("a tick", TickStep),
         ("a schedule", Schedule),
         ("building", Construct),
     ] {
-        line(&format!("bytes of code: {what}"), String::new(), &|core| {
-            text(core.code_bytes(function, 8))
-        });
+        code_row(out, build, &format!("bytes of code: {what}"), function, 8);
     }
     for (what, function) in
         [("`inverse_cdf`", InverseCdf), ("a schedule", Schedule), ("building", Construct)]
     {
-        line(&format!("bytes of stack: {what}"), String::new(), &|core| {
-            text(core.stack_said(function, 8))
-        });
+        stack_row(out, build, &format!("bytes of stack: {what}"), function, 8);
     }
+}
+
+fn calls_row(out: &mut String, build: &Build, what: &str, key: &Key) {
+    cores_row(out, build, what, build.m4f.cycles(key), |core| {
+        core.instructions(key).map(|spread| spread.mean)
+    });
+}
+
+fn code_row(out: &mut String, build: &Build, what: &str, function: Function, cells: usize) {
+    cores_row(out, build, what, None, |core| core.code_bytes(function, cells).map(f64::from));
+}
+
+fn stack_row(out: &mut String, build: &Build, what: &str, function: Function, cells: usize) {
+    cores_row(out, build, what, None, |core| core.stack_said(function, cells).map(f64::from));
 }
 
 /// The inverse beside its baselines, and the calls.
@@ -261,8 +288,8 @@ fn row(out: &mut String, head: &str, Build { m4f, others, .. }: &Build, key: &Ke
     let _ = writeln!(out, "| {head} | {instructions} | {cycles} |{others}");
 }
 
-fn worst_header(out: &mut String) {
-    out.push_str("\n| worst case, cycles | CELLS = 0 | 4 | 8 | 16 |\n|---|---|---|---|---|\n");
+fn cells_header(out: &mut String, head: &str) {
+    let _ = writeln!(out, "\n| {head} | CELLS = 0 | 4 | 8 | 16 |\n|---|---|---|---|---|");
 }
 
 fn worst_row(out: &mut String, name: &str, build: &Measured, function: Function, inputs: Inputs) {
@@ -279,7 +306,7 @@ fn inverse(out: &mut String, build: &Build) {
             row(out, &format!("{curve} | {cells}"), build, &key);
         }
     }
-    worst_header(out);
+    cells_header(out, "worst case, cycles");
     worst_row(out, "`inverse_cdf`", &build.m4f, Function::InverseCdf, Inputs::Hard);
 }
 
@@ -396,7 +423,7 @@ fn others(out: &mut String, build: &Build) {
         worst(m4f, Cdf, Inputs::Hard, 8),
         worst(m4f, Opening, Inputs::Hard, 8)
     );
-    worst_header(out);
+    cells_header(out, "worst case, cycles");
     for (name, function, inputs) in [
         ("tick", TickStep, Inputs::Hard),
         ("tick, solved", TickStep, Inputs::Solved),
@@ -407,78 +434,71 @@ fn others(out: &mut String, build: &Build) {
     }
 }
 
-fn bytes(out: &mut String, build: &Build) {
+fn bytes(out: &mut String, Build { m4f, .. }: &Build) {
+    use Function::{Cdf, Construct, InverseCdf, Opening, Schedule, TickStep};
     let _ = write!(
         out,
         "\n## Flash and stack, bytes on a Cortex-M4F\n\n\
          Code is a call's own and all that it reaches, so calls share some. Stack is the high-water mark of a \
          painted stack over all curves, the hard inputs and the uniform ones, with triggers as above and frames \
          that are refused, and in brackets the deepest path by the compiler's figures. The library has no statics: \
-         `.data` and `.bss` hold {} bytes.\n\n",
-        build.m4f.code.statics
+         `.data` and `.bss` hold {} bytes.\n\n\
+         | CELLS | one curve | code: `inverse_cdf` | `cdf` | `opening` | tick | schedule | building \
+         | stack: `inverse_cdf` | `cdf` | `opening` | tick | schedule | building |\n|---|{}\n",
+        m4f.code.statics,
+        "--:|".repeat(13),
     );
-    bytes_header(out, "CELLS");
+    let calls = [InverseCdf, Cdf, Opening, TickStep, Schedule, Construct];
     for cells in CELLS {
-        bytes_row(out, &cells.to_string(), &build.m4f, cells);
+        let code = calls.map(|function| text(m4f.code_bytes(function, cells)));
+        let stack = calls.map(|function| {
+            text(m4f.stack(function, cells).map(|(painted, said)| format!("{painted} ({said})")))
+        });
+        let (curve, code, stack) = (m4f.curve_bytes[&cells], code.join(" | "), stack.join(" | "));
+        let _ = writeln!(out, "| {cells} | {curve} | {code} | {stack} |");
     }
 }
 
-fn bytes_header(out: &mut String, head: &str) {
-    let _ = write!(
-        out,
-        "| {head} | one curve | code: `inverse_cdf` | `cdf` | `opening` | tick | schedule "
-    );
-    out.push_str("| stack: `inverse_cdf` | `cdf` | `opening` | tick | schedule |\n");
-    let texts = head.split(" | ").count();
-    let _ = writeln!(out, "|{}{}", "---|".repeat(texts), "--:|".repeat(11));
-}
-
-fn bytes_row(out: &mut String, head: &str, m4f: &Measured, cells: usize) {
-    use Function::{Cdf, InverseCdf, Opening, Schedule, TickStep};
-    let calls = [InverseCdf, Cdf, Opening, TickStep, Schedule];
-    let code = calls.map(|function| text(m4f.code_bytes(function, cells)));
-    let stack = calls.map(|function| {
-        text(m4f.stack(function, cells).map(|(painted, said)| format!("{painted} ({said})")))
-    });
-    let (code, stack) = (code.join(" | "), stack.join(" | "));
-    let _ = writeln!(out, "| {head} | {} | {code} | {stack} |", m4f.curve_bytes[&cells]);
-}
-
-fn construction(out: &mut String, Build { m4f, others, .. }: &Build) {
-    let names: Vec<String> =
-        OTHER_CORES.iter().map(|core| core.name.replace("Cortex-", "")).collect();
-    let _ = write!(
+fn construction(out: &mut String, build: &Build, for_size: u32) {
+    let _ = writeln!(
         out,
         "\n## Building a curve at run time\n\n\
-         A `const` curve costs nothing: it is built by the compiler. Built on the microcontroller, *soft* takes, with doubles \
-         in software, so many instructions, code and stack. Where that is too much, as on a core without an FPU it soon is, build \
-         as a `const` what is known beforehand, and the rest with `CELLS = 0`, which fits no polynomials and searches.\n\n\
-         | CELLS | M4F cycles | M4F | {} | stack of M4F as painted |\n|---|--:|{}\n",
-        names.join(" | "),
-        "--:|".repeat(2 + others.len()),
+         A `const` curve costs nothing: the compiler builds it. Built on the microcontroller, *soft* takes so many instructions, \
+         most of them in doubles, which all of these compute in software. Where that is too much, make the curve a `const`; if it \
+         is not known beforehand, build it with `CELLS = 0`, which fits no polynomials, and each answer is a search. Optimised for \
+         size (`opt-level = \"z\"`), building takes {} bytes of code on a Cortex-M4F.",
+        grouped(for_size.into()),
     );
-    let all = || [m4f].into_iter().chain(others);
+    cores_header(out);
     for cells in CELLS {
-        let key = key(Function::Construct, 0, cells);
-        let painted = m4f.stack(Function::Construct, cells).map(|(painted, _)| painted);
-        let figures: Vec<String> = all()
-            .map(|core| {
-                format!(
-                    "{}; {} B code, {} B stack",
-                    mean(core.instructions(&key)),
-                    text(core.code_bytes(Function::Construct, cells)),
-                    text(core.stack_said(Function::Construct, cells)),
-                )
-            })
-            .collect();
-        let _ = writeln!(
+        calls_row(out, build, &format!("`CELLS = {cells}`"), &key(Function::Construct, 0, cells));
+    }
+    for cells in CELLS {
+        code_row(
             out,
-            "| {cells} | {} | {} | {} |",
-            mean(m4f.cycles(&key)),
-            figures.join(" | "),
-            text(painted),
+            build,
+            &format!("bytes of code, `CELLS = {cells}`"),
+            Function::Construct,
+            cells,
         );
     }
+    for cells in CELLS {
+        stack_row(
+            out,
+            build,
+            &format!("bytes of stack, `CELLS = {cells}`"),
+            Function::Construct,
+            cells,
+        );
+    }
+}
+
+/// The code that builds a curve on a Cortex-M4F, with the most cells, optimised for size.
+fn building_for_size() -> Result<u32, String> {
+    let flavour = Flavour { level: "z", ..Flavour::fast(SEEDS[0]) };
+    let code = Disassembly::of(M4F, &build(M4F, "cost", flavour)?)?;
+    let instances = code.named(Function::Construct.symbol()).into_iter();
+    instances.map(|instance| code.code_bytes(instance)).max().ok_or_else(|| "no code".into())
 }
 
 /// The inverse once more, with each seed feature.
@@ -497,12 +517,13 @@ fn with_seeds(out: &mut String, builds: &[Build]) {
             }
         }
     }
-    worst_header(out);
-    for build in builds {
-        worst_row(out, build.seed, &build.m4f, Function::InverseCdf, Inputs::Hard);
+    cells_header(out, "");
+    for Build { seed, m4f, .. } in builds {
+        let name = format!("{seed}: worst case, cycles");
+        worst_row(out, &name, m4f, Function::InverseCdf, Inputs::Hard);
     }
     for build in builds {
         let code = CELLS.map(|cells| text(build.m4f.code_bytes(Function::InverseCdf, cells)));
-        let _ = writeln!(out, "| bytes of code, {} | {} |", build.seed, code.join(" | "));
+        let _ = writeln!(out, "| {}: bytes of code | {} |", build.seed, code.join(" | "));
     }
 }

@@ -55,7 +55,7 @@ const ODD: [f32; 13] = [
 ];
 
 /// The hash of the answers with so many cells: every curve of the data, built where this runs; every hard input, as many
-/// uniform ones and odd ones, in `u` and in time; schedules; and what is said to curves that are none.
+/// uniform ones and odd ones, in `u` and in time; schedules and pulses; and what is said to curves that are none.
 ///
 /// # Panics
 /// If a curve of the data does not build.
@@ -72,6 +72,7 @@ pub fn hash<const CELLS: usize>() -> u64 {
         }
         schedules(&mut hash, &curve);
         single::<CELLS>(&mut hash, opening);
+        forms::<CELLS>(&mut hash, data.opening, data.closing);
     }
     for ramps in HOSTILE {
         let [opening, closing] = ramps.map(CubicBezier::new);
@@ -79,12 +80,14 @@ pub fn hash<const CELLS: usize>() -> u64 {
             Ok(curve) => {
                 let us = (0..64).map(uniform).chain(ODD);
                 answers(&mut hash, &curve, us);
+                slice(&mut hash, &curve);
                 schedules(&mut hash, &curve);
             }
             Err(error) => hash.add_message(error),
         }
         single::<CELLS>(&mut hash, opening);
         single::<CELLS>(&mut hash, closing);
+        forms::<CELLS>(&mut hash, ramps[0], ramps[1]);
     }
     hash.0
 }
@@ -105,6 +108,21 @@ fn answers<const CELLS: usize>(
     }
 }
 
+/// The other forms of a curve, with the times and the inner control points of this one.
+fn forms<const CELLS: usize>(hash: &mut Hash, opening: Ramp, closing: Ramp) {
+    let [a, b, c, d] = [opening[0].0, opening[3].0, closing[0].0, closing[3].0];
+    let fraction = |t: f32| (t - a) / (d - a);
+    let [[t1, t2], [t5, t6]] = [opening, closing].map(|p| [fraction(p[1].0), fraction(p[2].0)]);
+    let inner = [t1, opening[1].1, t2, opening[2].1, t5, closing[1].1, t6, closing[2].1];
+    let full = ShutterCurve::<CELLS>::shutteropening_with_cells([a, b, c, d], inner);
+    for curve in [full, ShutterCurve::linear_with_cells(a, b, c, d)] {
+        match curve {
+            Ok(curve) => answers(hash, &curve, (0..16).map(uniform)),
+            Err(error) => hash.add_message(error),
+        }
+    }
+}
+
 /// More than one chunk of what a slice is worked off in.
 fn slice<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
     let (mut us, mut ts) = ([0.0; 150], [0.0; 150]);
@@ -115,6 +133,7 @@ fn slice<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
 
 fn schedules<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
     hash.add_all(curve.trigger_times(9));
+    hash.add_all(curve.trigger_times(u32::MAX).nth(1 << 30));
     hash.add(curve.direct_triggers());
     ODD.iter().for_each(|gap| hash.add(curve.max_triggers(*gap)));
     for (n, hz) in
@@ -130,7 +149,17 @@ fn schedules<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
                 Err(error) => hash.add_message(error),
             }
         }
-        for gap in [0, 7, u32::MAX] {
+        let mut pulses = [(0, 0); 9];
+        match curve.pulses_into(&mut pulses, 0.3, hz, 3, 7) {
+            Ok(()) => pulses
+                .map(|(on, off)| [on, off])
+                .as_flattened()
+                .iter()
+                .for_each(|tick| hash.add(*tick)),
+            Err(error) => hash.add_message(error),
+        }
+        // The third is a gap that a part of the triggers would keep.
+        for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
             let mut ticks = [0; 20];
             match curve.schedule_into(&mut ticks, hz, gap) {
                 Ok(()) => ticks.iter().for_each(|tick| hash.add(*tick)),

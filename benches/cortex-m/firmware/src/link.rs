@@ -63,10 +63,13 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
     black_box([curve.exposure(), curve.normalization(), curve.efficiency()]);
     let x: f32 = black_box(0.5);
     black_box([curve.opening(x), curve.pdf(x), curve.cdf(x), curve.inverse_cdf(x)]);
-    let (u, mut t) = (black_box([0.5; 5]), [0.0; 5]);
-    curve.inverse_cdf_slice(&u, &mut t);
+    // Their length is one and the same, which is all that the compiler knows of it.
+    let (u, mut t, length) = (black_box([0.5; 300]), [0.0; 300], black_box(150));
+    if let (Some(u), Some(t)) = (u.get(..length), t.get_mut(..length)) {
+        curve.inverse_cdf_slice(u, t);
+    }
     black_box(t);
-    black_box(curve.evaluations(x));
+    black_box((curve.is_direct(x), curve.evaluations(x)));
     let n: u32 = black_box(64);
     black_box(curve.max_triggers(x));
     black_box(curve.direct_triggers());
@@ -79,7 +82,7 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
     }
     match curve.trigger_ticks(n, black_box(1_000)) {
         Ok(mut ticks) => {
-            black_box(ticks.len());
+            black_box((ticks.len(), ticks.is_direct(black_box(2))));
             black_box([ticks.nth(black_box(2)), ticks.next_back(), ticks.nth_back(black_box(2))]);
             black_box(ticks.clone().last());
             for tick in ticks {
@@ -105,6 +108,7 @@ fn shutter<const CELLS: usize>(opening: CubicBezier, closing: CubicBezier) {
                 pulses.next_back(),
                 pulses.nth_back(black_box(2)),
             ]);
+            black_box(pulses.clone().last());
             for pulse in pulses {
                 black_box(pulse);
             }
