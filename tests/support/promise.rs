@@ -237,6 +237,10 @@ impl fmt::Display for Figures {
 }
 
 /// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁶ of `min(u, 1 - u)` is forgiven.
+///
+/// Where next to no light falls, the mass is the small sum of great terms: of 570 times its size where the families of `aimed` come
+/// nearest to the 1083 that the text of `solve` bounds it by. Pairs have 2⁻⁴¹ of the terms for their bound, 2⁻³² of such a mass, and
+/// miss a thirtieth of that here.
 pub fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
     tick_error_at(
         exact,
