@@ -104,19 +104,20 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends, and at which the plateau ends; 1/2 if that is all but for rounding.
+    /// The fractions at which the near ramp ends, and at which the plateau ends; 1/2 if that is all but for a [`trace`](Self::trace).
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
-        const fn fraction(x: f64) -> f64 {
+        const fn fraction(x: f64, trace: u64) -> f64 {
             let x = x / WHOLE as f64;
-            if (x - 0.5).abs() < 1.0 / (1u64 << 44) as f64 { 0.5 } else { x }
+            let is_half = (x - 0.5).abs() < trace as f64 / 18446744073709551616.0;
+            if is_half { 0.5 } else { x }
         }
         let near = self.ramp(side).share.to_f64();
-        [fraction(near), fraction(near + self.plateau.to_f64())]
+        [fraction(near, self.trace()), fraction(near + self.plateau.to_f64(), self.trace())]
     }
 
     /// The same of side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; at most all ones.
     pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
-        const fn words(x: Pair) -> u64 {
+        const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {
                 return u64::MAX;
             }
@@ -126,9 +127,17 @@ impl Exposure {
             let rest = (x.hi - upper as f32) + x.lo;
             let rest = ((rest * power_of_two(23)) as i32 as i64) << 9;
             let words = ((upper as u64) << 32).wrapping_add(rest as u64);
-            if words.abs_diff(1 << 63) < 1 << 20 { 1 << 63 } else { words }
+            if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }
         }
-        [words(self.ramps[0].share), (!words(self.ramps[1].share)).saturating_add(1)]
+        let [near, far] = [&self.ramps[0], &self.ramps[1]];
+        let beyond = words(far.share, self.trace());
+        [words(near.share, self.trace()), (!beyond).saturating_add(1)]
+    }
+
+    /// How near to 1/2 a join is at 1/2, in units of 2⁻⁶⁴: but for the rounding of the fractions, and without a plateau but for
+    /// some ulp, where a polynomial of one ramp is good enough for the other.
+    const fn trace(&self) -> u64 {
+        if self.plateau.hi > 0.0 { 1 << 20 } else { 1 << 41 }
     }
 
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
