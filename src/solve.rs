@@ -252,3 +252,42 @@ pub(crate) const fn solve<const N: usize>(
         (x, moved) = (anchor.distance(p), 0.0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `c[0] x + c[1] x² + ...` in doubles.
+    fn value(c: &[f32; 6], x: f64) -> f64 {
+        c.iter().rev().fold(0.0, |value, c| (value + f64::from(*c)) * x)
+    }
+
+    /// What is missing after a step never exceeds its bound.
+    #[test]
+    fn the_bound_holds() {
+        let mut bits = 1u32;
+        let mut next = || {
+            bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (bits >> 8) as f32 / (1 << 24) as f32
+        };
+        for _ in 0..100_000 {
+            // Coefficients of either sign that differ by powers of ten, and some that are 0.
+            let c: [f32; 6] = core::array::from_fn(|_| {
+                let size = [0.0, 1e-6, 1e-3, 1.0, 1e3][(5.0 * next()) as usize];
+                size * (next() - 0.5)
+            });
+            let x = 2.0 * next();
+            let step = (next() - 0.5) * [1.0, 1e-2, 1e-4][(3.0 * next()) as usize];
+            let local = Taylor::new(&c, x);
+            let exact = value(&c, f64::from(x) + f64::from(step)) - value(&c, f64::from(x));
+            // All but the third term and those beyond.
+            let missing = step * (local.d1 + local.d2 * step);
+            let after = (f64::from(missing) - exact).abs();
+            let bound = f64::from(left(&c, [x, 0.0], &local, missing, step));
+            assert!(
+                after <= bound,
+                "{after:e} after a step of {step}, bound {bound:e}: {c:?} at {x}"
+            );
+        }
+    }
+}
