@@ -77,7 +77,7 @@ pub fn run() -> Result<(), String> {
             &format!("cycles of planning {TRIGGERS} triggers on {name}"),
             mean(Schedule, row, 8)?,
             target,
-            1.28 * target,
+            1.14 * target,
         );
     }
 
