@@ -125,14 +125,15 @@ impl Taylor {
         Self { value, d1: c[0], d2: c[1] }
     }
 
-    /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`, with the quotient's series up to
-    /// `b²`. A division is dear, and where `b` is too great for the series the step is not taken.
+    /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`. A division is dear, so it is the
+    /// quotient's series up to `b²`; but not beyond `b = 1/2`, from where that grows again and may lead to and fro.
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
-        let inverse = 1.0 / self.d1;
+        // Where rounding makes the slope negative, the step still goes to where the target is.
+        let inverse = 1.0 / self.d1.abs();
         let newton = missing * inverse;
         let bend = self.d2 * newton * inverse;
-        newton * (1.0 - bend * (1.0 - bend))
+        if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
     }
 
     /// The same for a step that is next to nothing.

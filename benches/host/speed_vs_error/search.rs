@@ -3,7 +3,7 @@
 
 use crate::support::cases::{judge_on, shutter};
 use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical};
-use crate::support::oracle::{Curve, Exact, Points, ulp_f32};
+use crate::support::oracle::{Curve, Dd, Exact, Points, ulp_f32};
 
 const SEED: u64 = 20_240_611;
 /// How many of the worst are climbed from, for each aim.
@@ -78,14 +78,15 @@ fn score(curve: &Curve) -> [f64; 5] {
     for &u in us.iter().step_by(7) {
         evaluations = evaluations.max(ours.evaluations(u));
         let t = ours.inverse_cdf(u);
-        let density = exact.pdf(t).hi;
+        // Of the two sides of a join, the darker one.
+        let density = exact.pdf(t).min(exact.pdf_dd(exact.inverse_cdf(u))).hi;
         let conditioned = ulp_f32(u.into()) <= density * ulp_f32(t.into());
         if conditioned && u > 0.0 && u < 1.0 {
             forward = forward.max(exact.judge(u, t).forward);
         }
-        // What the fraction gains from t's lower neighbour to its upper one, and three ulp of the cdf, which
-        // count from 2⁻²⁴ on.
-        let [low, high] = [t.next_down(), t.next_up()].map(|t| exact.cdf(t).hi);
+        // What the fraction gains from an ulp before t to one after it, and three ulp of the cdf, which count from 2⁻²⁴ on.
+        let ulp = Dd::from(exact.ulp_of_time(Dd::from(t)));
+        let [low, high] = [Dd::from(t) - ulp, Dd::from(t) + ulp].map(|t| exact.cdf_dd(t).hi);
         let explained = (high - low) + 3.0 * ulp_f32(f64::from(u).max(6e-8));
         let miss = (f64::from(ours.cdf(t)) - f64::from(u)).abs();
         round_trip = round_trip.max(miss / explained);
