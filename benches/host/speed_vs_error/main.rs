@@ -17,7 +17,6 @@ mod others;
 mod pictures;
 mod report;
 mod search;
-mod seeds;
 mod style;
 #[path = "../../../tests/support/mod.rs"]
 mod support;
@@ -46,9 +45,6 @@ struct Args {
     /// Try every f32 on a dozen curves, and write docs/every-f32.csv.
     #[arg(long)]
     every_f32: bool,
-    /// Print only the rows of this crate, for a run with other features.
-    #[arg(long, hide = true)]
-    seed_rows: bool,
     /// What cargo adds.
     #[arg(long, hide = true)]
     bench: bool,
@@ -70,20 +66,7 @@ fn main() -> Result {
         let bar = progress("every f32", 1);
         return every_f32::every_f32(&bar, |rows| save("docs/every-f32.csv", rows));
     }
-    let mut measured = measure(args.quick)?;
-    if args.seed_rows {
-        let mut out = csv::Writer::from_writer(std::io::stdout());
-        for row in seeds::rows(&measured.figures, &measured.times) {
-            out.serialize(row)?;
-        }
-        return Ok(out.flush()?);
-    }
-    if !args.quick {
-        measured.seeds = seeds::rows(&measured.figures, &measured.times);
-        for features in ["libm", "micromath"] {
-            measured.seeds.extend(seeds::others(features)?);
-        }
-    }
+    let measured = measure(args.quick)?;
     // Rough figures are to be looked at, not to be kept.
     let (folder, curves) = if args.quick { ("target/speed-vs-error", 200) } else { ("docs", 3000) };
     std::fs::create_dir_all(folder)?;
@@ -126,7 +109,6 @@ fn measure(quick: bool) -> Result<Measured> {
         times,
         forwards,
         costs: cost::read("docs/cost.md"),
-        seeds: Vec::new(),
         rendering: rendering.into(),
         finds: table("docs/search.csv")?,
         every_f32: table("docs/every-f32.csv")?,

@@ -10,7 +10,6 @@ use crate::methods::{METHODS, Method, TEXTBOOK};
 use crate::number::number;
 use crate::pictures::name;
 use crate::search::Find;
-use crate::seeds::{SEED, SeedRow};
 use crate::support::baseline::InverseTable;
 use crate::support::cases::{CASES, Case, Verdict, judge, shutter};
 use crate::support::curves::hard_us;
@@ -28,7 +27,6 @@ pub struct Measured {
     /// By curve: nanoseconds and error of [`FORWARDS`].
     pub forwards: Vec<[(f64, f64); 4]>,
     pub costs: Vec<Cost>,
-    pub seeds: Vec<SeedRow>,
     pub rendering: Vec<(Pulses, Vec<(u32, f64)>)>,
     pub finds: Vec<Find>,
     pub every_f32: Vec<Row>,
@@ -38,7 +36,6 @@ pub fn write(measured: &Measured) -> String {
     let mut out = String::new();
     introduction(&mut out, measured).expect("a string takes text");
     methods(&mut out, measured).expect("a string takes text");
-    seeds(&mut out, measured).expect("a string takes text");
     forwards(&mut out, measured).expect("a string takes text");
     errors(&mut out).expect("a string takes text");
     hard_cases(&mut out).expect("a string takes text");
@@ -187,43 +184,19 @@ Evaluations are of the mass, a polynomial of degree 6; this crate's direct polyn
     )
 }
 
+/// The seed of this build.
+const SEED: &str = if cfg!(feature = "libm") {
+    "libm"
+} else if cfg!(feature = "micromath") {
+    "micromath"
+} else {
+    "none"
+};
+
 /// A method's cycles, this crate's with the seed of this build.
 pub fn cost<'a>(measured: &'a Measured, method: &Method) -> Option<&'a Cost> {
     let seed = if method.is_ours { SEED } else { "" };
     measured.costs.iter().find(|cost| cost.method == method.cost && cost.seed == seed)
-}
-
-fn seeds(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    if measured.seeds.is_empty() {
-        return Ok(());
-    }
-    writeln!(
-        out,
-        "## The seed
-
-What the features `libm` and `micromath` change: the first guess of the solver, and so its steps, not its promise.
-Times are ratios to the textbook Newton in the same run.
-
-| seed | cells | soft: single | slice | all ramp: single | slice | forward, max | backward, ulp(u) | evaluations: mean | worst |
-|---|---|---:|---:|---:|---:|---:|---:|---:|---:|"
-    )?;
-    for row in &measured.seeds {
-        writeln!(
-            out,
-            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} | {} |",
-            row.seed,
-            row.cells,
-            row.soft_single,
-            row.soft_slice,
-            row.all_ramp_single,
-            row.all_ramp_slice,
-            number(row.forward),
-            number(row.backward),
-            number(row.mean),
-            row.worst
-        )?;
-    }
-    writeln!(out)
 }
 
 fn forwards(out: &mut String, measured: &Measured) -> std::fmt::Result {
