@@ -74,8 +74,9 @@ impl Flavour {
 /// Gives WebAssembly what it asks for: a way to print.
 const NODE: &str = "node";
 const HOST: &str = "
+import { readFileSync } from 'node:fs';
 const host = { write: (at, length) => process.stdout.write(new Uint8Array(program.exports.memory.buffer, at, length)) };
-const { instance: program } = await WebAssembly.instantiate(process.getBuiltinModule('fs').readFileSync(process.argv[1]), { host });
+const { instance: program } = await WebAssembly.instantiate(readFileSync(process.argv[1]), { host });
 program.exports._start();
 ";
 
@@ -152,7 +153,8 @@ pub fn missing(program: &OsStr, error: &std::io::Error) -> String {
     }
     let install = match program.to_str() {
         Some(QEMU) => "install QEMU (Debian: qemu-system-arm)",
-        Some(NODE) => "install Node.js (Debian: nodejs)",
+        // The one that the script does not set up.
+        Some(NODE) => return format!("{name} not found: install Node.js (Debian: nodejs)"),
         Some(name) if name.starts_with("qemu-") => "install QEMU's user mode (Debian: qemu-user)",
         Some(OBJDUMP) => "install LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
         _ => "install Rust",
@@ -178,7 +180,7 @@ pub fn start(core: Core, program: &Path, options: &[String]) -> Result<Child, St
             ],
         ),
         Linux(qemu) => (qemu, &[]),
-        Node => (NODE, &["-e", HOST]),
+        Node => (NODE, &["--input-type=module", "-e", HOST]),
     };
     let mut command = Command::new(runner);
     command.args(first).args(options);

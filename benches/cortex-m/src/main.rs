@@ -8,8 +8,8 @@
 //! cargo run --release -- --quick [SEED [CELLS [FUNCTION]]] # the tuner's loop: one function, with a listing
 //! ```
 //!
-//! It needs the targets of `.ci/matrix.sh`, which sets up all of this, qemu-system-arm, QEMU's user mode, Node.js and
-//! llvm-objdump.
+//! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
+//! sets up, and Node.js.
 
 mod answers;
 mod budget;

@@ -27,7 +27,7 @@ curves of the tests and those found by search, and over hard inputs, some 700 a 
 sections, powers of two, and those of 20 000 and their neighbours that take most evaluations.
 
 The other columns are mean instructions: on a Cortex-M33 and a riscv32imafc, which compute in `f32` as well, and in soft float
-on a Cortex-M0+ and a riscv32imc.
+on a Cortex-M0+ and a riscv32imc. Where all cores have a column, the stack is the deepest path by the compiler's figures.
 ";
 
 /// The cores whose instructions are counted beside the Cortex-M4F's, in the order of their columns.

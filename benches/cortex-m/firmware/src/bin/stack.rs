@@ -95,7 +95,9 @@ fn run_with<const C: usize>() {
             }
             // A gap that all frames keep, and one that some do not.
             let mut ticks = [0; TRIGGERS as usize];
-            let plan = |gap| drop(black_box(measured_schedule(&curve, &mut ticks, gap)));
+            let plan = |gap| {
+                let _ = black_box(measured_schedule(&curve, &mut ticks, gap));
+            };
             note(Function::Schedule, depth([0, 1].into_iter(), plan));
         }
     }
