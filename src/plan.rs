@@ -86,7 +86,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let unit = Unit { exponent: unit, starts };
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        while serves && side < 2 {
+        // That there are none to fit, the compiler sees, and leaves the code for it out.
+        while CELLS > 0 && serves && side < 2 {
             tops[side] = octave::fit(&exposure, &unit, side, &mut octaves[side]);
             side += 1;
         }
