@@ -42,7 +42,7 @@ struct Args {
     /// Look for the worst of so many curves that are bred and as many that are aimed, and write docs/search.csv.
     #[arg(long, value_name = "N")]
     search: Option<u64>,
-    /// Try every f32 on a dozen curves, and write docs/every-f32.csv.
+    /// Try every f32 on ten curves, and write docs/every-f32.csv.
     #[arg(long)]
     every_f32: bool,
     /// What cargo adds.
