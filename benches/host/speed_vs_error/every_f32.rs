@@ -58,8 +58,8 @@ impl Row {
 type Named = (&'static str, &'static str, Curve);
 
 /// For the inverse.
-const TYPICAL: [&str; 4] = ["rman_soft", "triangle", "fast_open_slow_close", "pedestal_.2"];
-const HARD: [&str; 6] = [
+const TYPICAL: &[&str] = &["rman_soft", "triangle", "fast_open_slow_close", "pedestal_.2"];
+const HARD: &[&str] = &[
     "ends of order p^6",
     "time stands still inside",
     "openness touches 0 inside",
