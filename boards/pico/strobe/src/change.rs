@@ -4,10 +4,10 @@ use core::fmt;
 
 use shutter_curve::{CurveError, ScheduleError};
 
+use crate::curves::CURVES;
 use crate::duration;
-use crate::frame::MIN_PULSE;
+use crate::limits::MIN_PULSE;
 use crate::lines::Broken;
-use crate::settings::CURVES;
 
 /// What a line changes.
 #[derive(Clone, Copy, Debug, PartialEq)]

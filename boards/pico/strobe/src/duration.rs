@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::TICK_HZ;
+use crate::limits::TICK_HZ;
 
 /// The ticks of a duration such as `100us`, rounded up; none where it is not one, or has 2³² ticks or more.
 pub fn parse(text: &str) -> Option<u32> {

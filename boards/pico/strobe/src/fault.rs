@@ -1,7 +1,7 @@
 //! Errors to make on purpose, to see that the check sees them: `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`,
 //! `close`) when this is built.
 
-use crate::frame::MIN_LOW;
+use crate::limits::MIN_LOW;
 
 const FAULT: Option<&str> = option_env!("TRIGGER_FAULT");
 

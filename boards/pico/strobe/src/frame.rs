@@ -2,19 +2,10 @@
 
 use shutter_curve::ScheduleError;
 
-use crate::TICK_HZ;
 use crate::change::Refused;
 use crate::fault::spoil;
+use crate::limits::{LONGEST_FRAME, MIN_LOW, MIN_PULSE, TICK_HZ};
 use crate::settings::Settings;
-
-/// The most pulses in a frame.
-pub const LONGEST_FRAME: usize = 64;
-/// The shortest pulse, in ticks: a `mov` and one `jmp`.
-pub const MIN_PULSE: u32 = 2;
-/// The least time between two pulses, in ticks: what the state machine takes from one to the next.
-pub const MIN_LOW: u32 = 6;
-/// From the edge that starts a frame to a pulse at tick 0: what the state machine takes once it has seen the edge.
-pub const OVERHEAD: u32 = 5;
 
 /// With room for one pulse too many, which only a planted fault asks for.
 const CAPACITY: usize = 1 + 2 * (LONGEST_FRAME + 1);

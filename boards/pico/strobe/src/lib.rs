@@ -4,19 +4,20 @@
 #![forbid(unsafe_code)]
 
 mod change;
+mod curves;
 mod duration;
 mod fault;
 mod frame;
+mod limits;
 mod lines;
 mod settings;
 
 pub use change::{Change, Refused};
-pub use frame::{Frame, LONGEST_FRAME, MIN_LOW, MIN_PULSE, OVERHEAD};
+pub use curves::CURVES;
+pub use frame::Frame;
+pub use limits::{LONGEST_FRAME, MIN_LOW, MIN_PULSE, OVERHEAD, TICK_HZ};
 pub use lines::{Broken, Lines};
-pub use settings::{CURVES, Settings};
-
-/// The rate at which the state machine runs, and so the unit of every duration: 8 ns.
-pub const TICK_HZ: u32 = 125_000_000;
+pub use settings::Settings;
 
 /// docs/firmware.md's code, compiled and run.
 #[cfg(doctest)]
