@@ -1,28 +1,26 @@
 //! The plan as an SVG: openness over time in shares of equal exposure, and below it their sum.
 
+mod drawing;
 mod set_ups;
 pub mod style;
 mod trace;
 
 use std::error::Error;
-use std::iter::once;
-use std::ops::Range;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
-use crate::unit::{Unit, decimals, short, trimmed};
+use crate::unit::short;
+use drawing::{
+    Drawn, POINTS, SCALE, below, centred, dot, draw_curve, graph, lit, pen, picture, time_range,
+};
 pub use set_ups::set_ups;
-use style::{Area, BLUE, FAINT, GREY, Graph, INK, LIGHT, SHARES, VERMILION, dressed};
+use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
 pub use trace::trace;
 
-type Drawn = Result<(), Box<dyn Error>>;
-
 const SIZE: (i32, i32) = (900, 704);
-/// Drawn so much larger than it is shown, since the pen moves by whole units.
-const SCALE: i32 = 8;
 const HEADING: i32 = 88;
 const OPENNESS: i32 = 330;
 
@@ -30,8 +28,6 @@ const OPENNESS: i32 = 330;
 const MOST_MARKS: usize = 50;
 /// The height of the ticks that stand for so many.
 const TICK: f64 = 0.04;
-/// The points along a curve, or along all shares of it.
-const POINTS: usize = 800;
 
 /// The plan of the scene `name`, as an SVG.
 ///
@@ -46,24 +42,6 @@ pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
         draw_openness(&upper, plan)?;
         draw_cdf(&lower, plan)
     })
-}
-
-/// An SVG of this size with what `draw` draws on it.
-fn picture(
-    size: (i32, i32),
-    title: &str,
-    draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<String, Box<dyn Error>> {
-    let mut svg = String::new();
-    let shown = (size.0 as u32, size.1 as u32);
-    let drawn = (shown.0 * SCALE as u32, shown.1 * SCALE as u32);
-    {
-        let page = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
-        page.fill(&WHITE)?;
-        draw(&page)?;
-        page.present()?;
-    }
-    Ok(dressed(&svg, drawn, shown, title))
 }
 
 fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
@@ -181,27 +159,6 @@ fn pulses(plan: &Plan) -> impl Iterator<Item = (f32, f32)> {
     pulses.map(move |(on, off)| (time(on), time(off)))
 }
 
-/// What lies below the function `at` of time between two times.
-fn below(
-    from: f32,
-    to: f32,
-    points: usize,
-    unit: Unit,
-    at: impl Fn(f32) -> (f64, f64),
-) -> Vec<(f64, f64)> {
-    let top = steps(from, to, points).map(at);
-    once((unit.of(from), 0.0)).chain(top).chain(once((unit.of(to), 0.0))).collect()
-}
-
-/// From just before to just after the curve, so that a jump at an end is drawn.
-fn draw_curve(graph: &mut Graph, plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> Drawn {
-    let (start, end) = (plan.curve.open_start(), plan.curve.close_end());
-    let times = once(start.next_down()).chain(steps(start, end, POINTS)).chain(once(end.next_up()));
-    let line = times.map(|t| (unit.of(t), f64::from(f(t))));
-    graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
-    Ok(())
-}
-
 /// A line to each mark and a dot on it; ticks at the bottom where there are too many.
 fn draw_marks(
     graph: &mut Graph,
@@ -219,73 +176,7 @@ fn draw_marks(
     Ok(())
 }
 
-/// An empty graph over the time of the plan. The upper shares the lower's name of the axis.
-fn graph<'a, 'b>(
-    area: &'a Area<'b>,
-    plan: &Plan,
-    unit: Unit,
-    y: &str,
-    x: Option<&str>,
-    range: Range<f64>,
-) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let mut graph = ChartBuilder::on(area)
-        .margin_left(16 * SCALE)
-        .margin_right(24 * SCALE)
-        .margin_top(8 * SCALE)
-        .margin_bottom(8 * SCALE)
-        .x_label_area_size(if x.is_some() { 50 } else { 28 } * SCALE)
-        .y_label_area_size(60 * SCALE)
-        .build_cartesian_2d(time_range(plan, unit), range)?;
-    let places = decimals(unit.of(plan.length()), 3);
-    graph
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(pen(FAINT, 1.0))
-        .axis_style(pen(GREY, 1.0))
-        .set_all_tick_mark_size(5 * SCALE)
-        .label_style(style::font(14 * SCALE))
-        .axis_desc_style(style::font(15 * SCALE))
-        .x_desc(x.unwrap_or_default())
-        .y_desc(y)
-        .x_labels(11)
-        .y_labels(6)
-        .x_label_formatter(&|t| trimmed(*t, places))
-        .y_label_formatter(&|y| format!("{y:.1}"))
-        .draw()?;
-    Ok(graph)
-}
-
-/// The axis of time: the interval, and a little room on either side.
-fn time_range(plan: &Plan, unit: Unit) -> Range<f64> {
-    let (start, end) = (unit.of(plan.curve.open_start()), unit.of(plan.curve.close_end()));
-    let room = 0.03 * (end - start);
-    start - room..end + room
-}
-
-/// So many steps from `from` to `to`, both ends included.
-fn steps(from: f32, to: f32, n: usize) -> impl Iterator<Item = f32> + Clone {
-    (0..=n).map(move |i| from + (to - from) * (i as f32 / n as f32))
-}
-
-fn pen(color: RGBColor, width: f64) -> ShapeStyle {
-    color.stroke_width((width * f64::from(SCALE)) as u32)
-}
-
-/// While the lamp is on.
-fn lit() -> ShapeStyle {
-    LIGHT.filled()
-}
-
-/// A trigger.
-fn dot<C>(at: C) -> Circle<C, i32> {
-    Circle::new(at, 4 * SCALE, VERMILION.filled())
-}
-
 /// A control point.
 fn knob<C>(at: C) -> Circle<C, i32> {
     Circle::new(at, 5 * SCALE, pen(INK, 1.5))
-}
-
-fn centred(size: i32) -> TextStyle<'static> {
-    style::text(size * SCALE, HPos::Center, VPos::Center)
 }

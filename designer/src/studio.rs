@@ -8,7 +8,7 @@ use shutter::scene;
 use shutter::trace;
 use shutter::unit::Unit;
 
-use crate::{Wrong, json};
+use crate::answer::{Wrong, json};
 
 /// More samples are drawn as the least and the greatest of neighbours.
 const MOST: usize = 2000;

@@ -9,9 +9,9 @@ use shutter::shape::Shape;
 use shutter::unit::Unit;
 use shutter_curve::{CubicBezier, CurveError, Ramp};
 
+use crate::answer::{Wrong, json};
 use crate::bar::Bar;
 use crate::cost::{BYTES, COSTS, Cost};
-use crate::{Wrong, json};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-use super::print;
+use super::output::print;
 
 /// The same each time, so that links to curves stay good; another if it is taken.
 const PORT: u16 = 8417;

@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{print, svg_path, write_whole};
+use super::output::{print, svg_path, write_whole};
 use crate::fit::{self, Fit, Kind, Options, Tolerance, Zero};
 use crate::picture;
 use crate::trace::{self, Column, Light, Warning};

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::{print, svg_path, write_whole};
+use super::output::{print, svg_path, write_whole};
 use crate::emit::Form;
 use crate::plan::Plan;
 use crate::{emit, picture, report};

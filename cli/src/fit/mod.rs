@@ -9,6 +9,7 @@ mod curve;
 mod errors;
 mod frame;
 mod hum;
+mod outcome;
 mod ramp;
 mod report;
 mod scene;
@@ -19,11 +20,11 @@ mod starts;
 
 use std::iter::once;
 
-use crate::trace::{Frame, Light, Pulses, Refusal, Trace, Warning, pulses};
-use crate::unit::Unit;
+use crate::trace::{Frame, Pulses, Refusal, Trace, Warning, pulses};
 pub use curve::Curve;
 pub use errors::Measured;
 use frame::FrameFit;
+pub use outcome::{Candidate, Fit, Frames, Options, Reason, Tolerance};
 pub use report::{because, plus_minus, text};
 pub use scene::{Scene, Zero};
 use shots::Shots;
@@ -31,143 +32,6 @@ pub use signal::{Hum, Kind, Signal};
 
 /// As many as `shutter plan` plans.
 const MOST_TRIGGERS: u32 = 10_000;
-
-/// A difference in trigger times that is small enough.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tolerance {
-    /// As a share of the exposure.
-    Share(f64),
-    /// In seconds.
-    Seconds(f64),
-}
-
-/// What a fit is asked for.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The curve's kind; chosen without.
-    pub model: Option<Kind>,
-    /// The simplest kind whose triggers are as near to those of the freest one.
-    pub tolerance: Option<Tolerance>,
-    /// The signal of a shutter that is fully open, the dark level included, in the trace's unit.
-    pub full: Option<f64>,
-    /// Which pulse, from 1; the one of median exposure without.
-    pub frame: Option<usize>,
-    /// Which way light moves the signal.
-    pub light: Light,
-    /// How many triggers are judged and planned: 1 to 10 000, clamped to that.
-    pub triggers: u32,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            model: None,
-            tolerance: None,
-            full: None,
-            frame: None,
-            light: Light::Auto,
-            triggers: 16,
-        }
-    }
-}
-
-/// A kind's best curve.
-#[derive(Clone, Debug)]
-pub struct Candidate {
-    /// The signal, times in seconds, levels in the trace's unit; a drift and a hum count time from the pulse's middle.
-    pub signal: Signal,
-    /// The root of the mean square of what the samples are missed by, as a share of the light.
-    pub rms: f64,
-    /// Schwarz's criterion, above the least of all kinds.
-    pub delta_bic: f64,
-    /// The most that a trigger lies from that of the freest kind, in seconds.
-    pub shift: f64,
-    /// The error of its triggers on shots that it was not fitted to, as a share of the exposure.
-    pub left_out: Option<f64>,
-}
-
-/// Why a kind was chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reason {
-    /// It was asked for.
-    Asked,
-    /// It is the simplest within the tolerance.
-    Tolerance(Tolerance),
-    /// It is the simplest that meets shots left out as well as shots meet each other.
-    Shots {
-        /// So many.
-        shots: usize,
-        /// By how much shots differ, as a share of the exposure.
-        scatter: f64,
-    },
-    /// Schwarz's criterion is least.
-    Criterion {
-        /// So many samples count as independent.
-        effective: f64,
-    },
-}
-
-/// The pulses of the trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frames {
-    /// So many whole ones.
-    pub count: usize,
-    /// The one that was fitted, from 1.
-    pub fitted: usize,
-    /// The standard deviation of their exposures, as a share of their mean.
-    pub scatter: f64,
-}
-
-/// What came out.
-pub struct Fit {
-    /// Every kind, simplest first.
-    pub candidates: Vec<Candidate>,
-    /// The chosen one among them.
-    pub chosen: Kind,
-    /// Why that.
-    pub reason: Reason,
-    /// In seconds; of full light where that was given.
-    pub exposure: Measured,
-    /// The exposure by the time from the start of opening to the end of closing.
-    pub efficiency: Measured,
-    /// The times in seconds by which (i + 1/2)/n of the exposure is collected.
-    pub triggers: Vec<Measured>,
-    /// The peak as a share of full light, where that was given; else 1.
-    pub peak: f64,
-    /// The pulses.
-    pub frames: Frames,
-    /// What is doubtful.
-    pub warnings: Vec<Warning>,
-    /// The samples that were fitted: times in seconds, light upwards.
-    pub samples: Trace,
-    /// Does light lower the signal as it was measured?
-    pub inverted: bool,
-    /// When a drift is 0, and from when a hum's phase counts.
-    middle: f64,
-}
-
-impl Fit {
-    /// The chosen candidate.
-    pub fn best(&self) -> &Candidate {
-        &self.candidates[self.chosen as usize]
-    }
-
-    /// The fitted signal at a time in seconds, light upwards.
-    pub fn value(&self, t: f64) -> f64 {
-        let Signal { curve, dark, gain, drift, hum, .. } = self.best().signal;
-        let since = t - self.middle;
-        let hum = hum.map_or(0.0, |hum| {
-            let (sine, cosine) = (std::f64::consts::TAU * hum.frequency * since).sin_cos();
-            hum.cosine * cosine + hum.sine * sine
-        });
-        dark + gain * curve::Exposure::new(&curve).openness(t) + drift.unwrap_or(0.0) * since + hum
-    }
-
-    /// The unit that its times are told in.
-    pub fn unit(&self) -> Unit {
-        Unit::fit(self.best().signal.curve.length())
-    }
-}
 
 /// Fits a trace. `progress` is told the share that is done.
 ///

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Fit, Reason, Tolerance};
+use super::outcome::{Fit, Reason, Tolerance};
 use crate::unit::{count, decimals, short, trimmed};
 
 /// Longer tables lose their middle; half as many rows stay at each end.

@@ -1,11 +1,12 @@
 //! A fit as a scene for `shutter plan`.
 
 use super::curve::Curve;
+use super::outcome::Fit;
 use super::ramp::STRAIGHT;
 use super::report::{because, plus_minus};
 use super::signal::Kind;
-use super::{Fit, Refusal};
 use crate::plan::Plan;
+use crate::trace::Refusal;
 use crate::unit::{Unit, decimals, trimmed};
 
 /// Where a scene's time 0 is.

@@ -5,8 +5,8 @@ use std::error::Error;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::drawing::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture, steps};
 use super::style::{self, Area, BLUE, FAINT, GREY, VERMILION};
-use super::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture};
 use crate::plan::Plan;
 use crate::set_up::{Row, SetUps};
 use crate::unit::short;
@@ -75,8 +75,8 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();
-        let curve = super::steps(start, curve.close_end(), 100)
-            .map(|t| (unit.of(t), f64::from(curve.opening(t))));
+        let curve =
+            steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.opening(t))));
         let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
         graph.draw_series(dashes)?;
         Ok(())

@@ -6,8 +6,8 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::drawing::{Drawn, SCALE, centred, dot, pen, picture};
 use super::style::{self, Area, BLUE, FAINT, GREY, Graph, VERMILION};
-use super::{Drawn, SCALE, centred, dot, pen, picture};
 use crate::fit::Fit;
 use crate::unit::{Unit, decimals, short, trimmed};
 

@@ -2,20 +2,10 @@
 
 mod pulse;
 mod read;
+mod samples;
 mod told;
 
 pub use pulse::{Frame, Light, Pulses, pulses};
 pub use read::{Column, Options, decode, read};
+pub use samples::Trace;
 pub use told::{Refusal, Warning};
-
-/// No time and no signal is larger than this: squares and sums of them stay far from the end of `f64`.
-const LARGEST: f64 = 1e30;
-
-/// A signal over time: seconds, in order, no two the same; values in the file's own unit.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Trace {
-    /// In seconds.
-    pub times: Vec<f64>,
-    /// As measured.
-    pub values: Vec<f64>,
-}

@@ -1,6 +1,7 @@
 //! Where the pulses of a trace are: its levels in the dark and in the light, its noise, its frames.
 
-use super::{LARGEST, Refusal, Trace, Warning};
+use super::samples::{LARGEST, Trace};
+use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
 const SPIKE: f64 = 6.0;

@@ -5,7 +5,8 @@
 
 use std::iter::once;
 
-use super::{LARGEST, Refusal, Trace, Warning};
+use super::samples::{LARGEST, Trace};
+use super::told::{Refusal, Warning};
 use crate::unit::Unit;
 
 /// A longer line is no row of samples.

@@ -162,3 +162,9 @@ impl Div for Dd {
         two_sum(first, second) + Self::from(third)
     }
 }
+
+/// `2^n`
+pub fn exp2(n: i32) -> f64 {
+    assert!((-1022..1024).contains(&n));
+    f64::from_bits(((n + 1023) as u64) << 52)
+}

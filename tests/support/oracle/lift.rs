@@ -3,7 +3,10 @@
 //! A control value of -1/3 rounds, and with it an openness that touches 0 may dip below, or time may run back by a
 //! trace. The library accepts that up to 2⁻²² and lifts the curve onto its bound. How is part of its promise.
 
-use super::{Dd, Points, exp2};
+use super::dd::{Dd, exp2};
+
+/// A cubic Bezier's control points as (time, openness).
+pub type Points = [(f32, f32); 4];
 
 /// A ramp with `f >= 0` and `t' >= 0`.
 #[derive(Clone, Copy, Debug)]

@@ -9,11 +9,9 @@
 pub mod dd;
 pub mod lift;
 
-pub use dd::Dd;
+pub use dd::{Dd, exp2};
 use lift::Lifted;
-
-/// A cubic Bezier's control points as (time, openness).
-pub type Points = [(f32, f32); 4];
+pub use lift::Points;
 
 /// Opening ramp, plateau with openness 1, closing ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,12 +156,6 @@ impl<const N: usize> Poly<N> {
         }
         x
     }
-}
-
-/// `2^n`
-pub fn exp2(n: i32) -> f64 {
-    assert!((-1022..1024).contains(&n));
-    f64::from_bits(((n + 1023) as u64) << 52)
 }
 
 /// A ramp expanded at one of its ends; `x` runs from there to 1 at the other.

@@ -1,0 +1,124 @@
+//! What the pictures are drawn with: the page, a graph over the time of a plan, pens and marks.
+
+use std::error::Error;
+use std::iter::once;
+use std::ops::Range;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::style::{self, Area, BLUE, FAINT, GREY, Graph, LIGHT, VERMILION, dressed};
+use crate::plan::Plan;
+use crate::unit::{Unit, decimals, trimmed};
+
+pub type Drawn = Result<(), Box<dyn Error>>;
+
+/// Drawn so much larger than it is shown, since the pen moves by whole units.
+pub const SCALE: i32 = 8;
+/// The points along a curve, or along all shares of it.
+pub const POINTS: usize = 800;
+
+/// An SVG of this size with what `draw` draws on it.
+pub fn picture(
+    size: (i32, i32),
+    title: &str,
+    draw: impl FnOnce(&Area) -> Drawn,
+) -> Result<String, Box<dyn Error>> {
+    let mut svg = String::new();
+    let shown = (size.0 as u32, size.1 as u32);
+    let drawn = (shown.0 * SCALE as u32, shown.1 * SCALE as u32);
+    {
+        let page = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
+        page.fill(&WHITE)?;
+        draw(&page)?;
+        page.present()?;
+    }
+    Ok(dressed(&svg, drawn, shown, title))
+}
+
+/// What lies below the function `at` of time between two times.
+pub fn below(
+    from: f32,
+    to: f32,
+    points: usize,
+    unit: Unit,
+    at: impl Fn(f32) -> (f64, f64),
+) -> Vec<(f64, f64)> {
+    let top = steps(from, to, points).map(at);
+    once((unit.of(from), 0.0)).chain(top).chain(once((unit.of(to), 0.0))).collect()
+}
+
+/// From just before to just after the curve, so that a jump at an end is drawn.
+pub fn draw_curve(graph: &mut Graph, plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> Drawn {
+    let (start, end) = (plan.curve.open_start(), plan.curve.close_end());
+    let times = once(start.next_down()).chain(steps(start, end, POINTS)).chain(once(end.next_up()));
+    let line = times.map(|t| (unit.of(t), f64::from(f(t))));
+    graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
+    Ok(())
+}
+
+/// An empty graph over the time of the plan. The upper shares the lower's name of the axis.
+pub fn graph<'a, 'b>(
+    area: &'a Area<'b>,
+    plan: &Plan,
+    unit: Unit,
+    y: &str,
+    x: Option<&str>,
+    range: Range<f64>,
+) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
+    let mut graph = ChartBuilder::on(area)
+        .margin_left(16 * SCALE)
+        .margin_right(24 * SCALE)
+        .margin_top(8 * SCALE)
+        .margin_bottom(8 * SCALE)
+        .x_label_area_size(if x.is_some() { 50 } else { 28 } * SCALE)
+        .y_label_area_size(60 * SCALE)
+        .build_cartesian_2d(time_range(plan, unit), range)?;
+    let places = decimals(unit.of(plan.length()), 3);
+    graph
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(pen(FAINT, 1.0))
+        .axis_style(pen(GREY, 1.0))
+        .set_all_tick_mark_size(5 * SCALE)
+        .label_style(style::font(14 * SCALE))
+        .axis_desc_style(style::font(15 * SCALE))
+        .x_desc(x.unwrap_or_default())
+        .y_desc(y)
+        .x_labels(11)
+        .y_labels(6)
+        .x_label_formatter(&|t| trimmed(*t, places))
+        .y_label_formatter(&|y| format!("{y:.1}"))
+        .draw()?;
+    Ok(graph)
+}
+
+/// The axis of time: the interval, and a little room on either side.
+pub fn time_range(plan: &Plan, unit: Unit) -> Range<f64> {
+    let (start, end) = (unit.of(plan.curve.open_start()), unit.of(plan.curve.close_end()));
+    let room = 0.03 * (end - start);
+    start - room..end + room
+}
+
+/// So many steps from `from` to `to`, both ends included.
+pub fn steps(from: f32, to: f32, n: usize) -> impl Iterator<Item = f32> + Clone {
+    (0..=n).map(move |i| from + (to - from) * (i as f32 / n as f32))
+}
+
+pub fn pen(color: RGBColor, width: f64) -> ShapeStyle {
+    color.stroke_width((width * f64::from(SCALE)) as u32)
+}
+
+/// While the lamp is on.
+pub fn lit() -> ShapeStyle {
+    LIGHT.filled()
+}
+
+/// A trigger.
+pub fn dot<C>(at: C) -> Circle<C, i32> {
+    Circle::new(at, 4 * SCALE, VERMILION.filled())
+}
+
+pub fn centred(size: i32) -> TextStyle<'static> {
+    style::text(size * SCALE, HPos::Center, VPos::Center)
+}

@@ -1,0 +1,35 @@
+//! The form of every answer.
+
+use serde::Serialize;
+use shutter::scene::Fault;
+
+/// What is wrong, and where.
+#[derive(Serialize)]
+pub struct Wrong {
+    pub reason: String,
+    pub notes: Vec<String>,
+    /// The key in the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub key: Option<&'static str>,
+    /// The ramp of the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<&'static str>,
+}
+
+/// Of a scene made of values.
+impl From<Fault> for Wrong {
+    fn from(fault: Fault) -> Self {
+        Self { key: fault.key_of_values(), ramp: None, reason: fault.reason, notes: fault.notes }
+    }
+}
+
+impl From<String> for Wrong {
+    fn from(reason: String) -> Self {
+        Self { reason, notes: Vec::new(), key: None, ramp: None }
+    }
+}
+
+/// The answer, as JSON: what was asked for as `Ok`, or else what is wrong as `Err`.
+pub fn json(answer: &Result<impl Serialize, Wrong>) -> String {
+    serde_json::to_string(answer).expect("numbers and names are JSON")
+}
