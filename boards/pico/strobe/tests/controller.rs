@@ -34,6 +34,22 @@ fn after(lines: &[&str]) -> Settings {
     })
 }
 
+/// The settings with a curve of these numbers.
+fn built(numbers: &[f32]) -> Result<Settings, Refused> {
+    let line =
+        numbers.iter().fold(String::from("curve"), |line, number| format!("{line} {number}"));
+    Settings::default().with(Change::read(&line)?)
+}
+
+/// When each pulse has to start and end, in cycles.
+fn expected(settings: &Settings) -> Vec<(u64, u64)> {
+    let ticks = settings.curve.get().trigger_ticks(settings.pulses, TICK_HZ).unwrap();
+    ticks
+        .map(|tick| u64::from(tick) + u64::from(OVERHEAD))
+        .map(|start| (start, start + u64::from(settings.length)))
+        .collect()
+}
+
 #[test]
 fn a_frame_has_the_ticks_of_its_curve() {
     for settings in [
@@ -43,12 +59,7 @@ fn a_frame_has_the_ticks_of_its_curve() {
         after(&["curve 3", "n 40", "gap 20us", "pulse 10us"]),
         after(&["curve 0 0 1e-3 1e-3 0 0.5 0 1 1 1 1 0.5", "n 8", "pulse 124952ns"]),
     ] {
-        let ticks = settings.curve.get().trigger_ticks(settings.pulses, TICK_HZ).unwrap();
-        let expected: Vec<_> = ticks
-            .map(|tick| u64::from(tick) + u64::from(OVERHEAD))
-            .map(|start| (start, start + u64::from(settings.length)))
-            .collect();
-        assert_eq!(planned(&settings).unwrap(), expected);
+        assert_eq!(planned(&settings).unwrap(), expected(&settings));
     }
 }
 
@@ -92,7 +103,9 @@ proptest! {
                 let _ = Change::read(line).map(|change| Settings::default().with(change));
             }
         }
-        prop_assert!(lines.push(b'n').is_none());
+        // Whatever came before, the next line is read.
+        prop_assert!(b"n 7".iter().all(|byte| lines.push(*byte).is_none()));
+        prop_assert_eq!(lines.push(b'\n'), Some(Ok("n 7")));
     }
 
     /// Lines that are nearly right.
@@ -108,13 +121,27 @@ proptest! {
         }
     }
 
-    /// Twelve numbers of the right size.
+    /// Twelve numbers of any kind.
     #[test]
     fn curves_are_built_or_refused(numbers: [f32; 12]) {
-        let line = numbers.iter().fold(String::from("curve"), |line, number| format!("{line} {number}"));
-        let change = Change::read(&line).unwrap();
-        if let Ok(settings) = Settings::default().with(change) {
-            let _ = planned(&settings);
-        }
+        let _ = built(&numbers);
+    }
+
+    /// Twelve numbers that are a curve: every pulse comes at its tick.
+    #[test]
+    fn curves_are_planned(
+        start in 0.0f32..=0.01,
+        [opening, plateau, closing] in prop::array::uniform3(5e-4f32..=3e-3),
+        mut parts in prop::array::uniform4(0.01f32..=0.99),
+        [y1, y2, y5, y6] in prop::array::uniform4(0.0f32..=1.0),
+    ) {
+        parts.sort_by(f32::total_cmp);
+        let whole = opening + plateau + closing;
+        let [t1, t2] = [parts[0], parts[2]].map(|part| part * opening / whole);
+        let [t5, t6] = [parts[1], parts[3]].map(|part| (opening + plateau + part * closing) / whole);
+        let times = [0.0, opening, opening + plateau, whole].map(|time| start + time);
+        let settings = built(&[&times[..], &[t1, y1, t2, y2, t5, y5, t6, y6]].concat()).unwrap();
+        let settings = settings.with(Change::Gap(0)).unwrap();
+        prop_assert_eq!(planned(&settings).unwrap(), expected(&settings));
     }
 }
