@@ -17,8 +17,8 @@ use crate::ramp::scaled;
 /// box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
 ///
 /// `CELLS` is the number of octaves of `u` a side that are answered directly by a polynomial: a curve takes
-/// 480 bytes, and 96 more for each. Eight leave one `u` in 256 to the solver that `CELLS = 0` uses throughout; the
-/// accuracy is the same for all. More than 64 do not compile, and in a constant the compiler's limit on
+/// 480 bytes, and 96 more for each. Eight leave at most one `u` in 256 of a typical curve to the solver that `CELLS = 0`
+/// uses throughout; the accuracy is the same for all. More than 64 do not compile, and in a constant the compiler's limit on
 /// evaluation may come before, beyond 16. For another number than 8 each constructor has a form `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {

@@ -29,7 +29,7 @@
 //! **The end.** From `NEWTON` evaluations on each measured place halves a bracket of certain signs. When that is as narrow as
 //! neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r` are below
 //! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
-//! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 6 at most.
+//! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
 
 use crate::pair::{Pair, Series, flipped};
 
