@@ -3,7 +3,8 @@
 mod support;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
 use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
 use support::oracle::{Curve, Exact};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
@@ -34,6 +35,21 @@ fn ramps() -> impl Strategy<Value = (Points, Points)> {
             ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point))
         },
     )
+}
+
+/// What the tests below judge is curves, not refusals alone.
+#[test]
+fn enough_curves_are_accepted() {
+    let mut runner = TestRunner::deterministic();
+    let (mut shutters, mut densities) = (0, 0);
+    for _ in 0..10_000 {
+        let (opening, closing) = ramps().new_tree(&mut runner).expect("a value").current();
+        let [opening, closing] = [opening, closing].map(CubicBezier::new);
+        shutters += u32::from(ShutterCurve::<0>::with_cells(opening, closing).is_ok());
+        densities += u32::from(BezierPdf::<0>::with_cells(opening).is_ok());
+    }
+    println!("of 10 000: {shutters} shutters, {densities} densities");
+    assert!(shutters > 1000 && densities > 1000, "{shutters}, {densities}");
 }
 
 proptest! {

@@ -213,16 +213,13 @@ fn no_name_breaks_a_form() {
 /// Numbers at both ends of what a scene may hold come back as they were.
 #[test]
 fn great_and_small_numbers_round_trip() {
-    for (factor, timer_hz) in [(1e-18, u32::MAX), (1e-7, u32::MAX), (1e18, 1)] {
+    for (factor, timer_hz) in [(1e-18, u32::MAX), (1e-7, u32::MAX), (7e8, 1)] {
         let text = format!(
             "open_start = -{factor:e}\nopen_end = {factor:e}\nclose_start = {factor:e}\nclose_end = {:e}\n\
              triggers = 1\ntimer_hz = {timer_hz}\nmin_gap = 0\n",
             1.7 * factor
         );
-        let Ok(plan) = Plan::parse(&text) else {
-            assert_eq!(factor, 1e18, "longer than 2^31 ticks");
-            continue;
-        };
+        let plan = Plan::parse(&text).expect(&text);
         let csv = emit(Form::Csv, "x", &plan);
         let rows: Vec<Row> = csv::Reader::from_reader(csv.as_bytes())
             .into_deserialize()
