@@ -126,7 +126,7 @@ pub fn over_u(path: &str) {
                 });
                 line(&mut chart, name, color, 2, points);
             }
-            legend(&mut chart, SeriesLabelPosition::UpperRight);
+            legend(&mut chart, SeriesLabelPosition::UpperMiddle);
         }
     });
 }
