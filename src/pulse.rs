@@ -37,7 +37,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         }
         let ticks = Ticks::new(&self.plan, n, tick_hz)?;
         let edges = ticks.fractions.edges(duty);
-        Ok(PulseTicks { frame: Pulses { ticks: ticks.of_pulses(duty), edges }, left: 0..n })
+        let frame = Pulses { ticks: ticks.of_pulses(duty), edges, is_close: duty > 0.5 };
+        Ok(PulseTicks { frame, left: 0..n })
     }
 
     /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of [`pulse_ticks`](Self::pulse_ticks), none shorter
@@ -100,6 +101,8 @@ pub struct PulseTicks<'a, const CELLS: usize = 8> {
 struct Pulses<'a, const CELLS: usize> {
     ticks: Ticks<'a, CELLS>,
     edges: [Edge; 2],
+    /// Is a pulse closer to the next than half a share?
+    is_close: bool,
 }
 
 impl<const CELLS: usize> Pulses<'_, CELLS> {
@@ -107,9 +110,18 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
         self.ticks.n()
     }
 
+    /// The ticks of pulse `i`.
+    ///
+    /// Ends that are half a share apart or more are in order, as triggers are. Those that are closer, or at one fraction, may not
+    /// be: a search is exact to its error, and 1/2 is counted from either side. Then the later end takes the tick of the earlier
+    /// one, which is within the promise for both.
     fn at(&self, i: u32) -> (u32, u32) {
-        let [on, off] = self.edges.map(|edge| self.ticks.at_edge(i, edge));
-        (on, off)
+        let [on, off] = self.edges;
+        let mut start = self.ticks.at_edge(i, on);
+        if self.is_close && i > 0 {
+            start = start.max(self.ticks.at_edge(i - 1, off));
+        }
+        (start, self.ticks.at_edge(i, off).max(start))
     }
 }
 

@@ -33,10 +33,10 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         TriggerTimes { frame: Times { curve: self, fractions: Fractions::new(n) }, left: 0..n }
     }
 
-    /// So many triggers are sure to keep `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since
-    /// the openness is at most 1; a curve that never fully opens may take more. The gap is in the curve's unit;
-    /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required, that is a gap of 0,
-    /// below, or NaN.
+    /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the openness is
+    /// at most 1 (a curve whose control points pass 1 by their rounding may miss the gap by 2⁻²² of it). A curve that never
+    /// fully opens may take more. The gap is in the curve's unit; [`most_triggers`](Self::most_triggers) takes one in ticks.
+    /// `u32::MAX` where nothing is required: for a gap of 0, a negative one, or NaN.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -49,8 +49,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
         }
-        // The cast rounds down and saturates.
-        // The area is known to some 2⁻⁵¹, so what is so near to the next number is that.
+        // The area is known to about 2⁻⁵¹, so a quotient so near to the next integer counts as that. The cast rounds down, and
+        // saturates.
         let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
         let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
@@ -186,7 +186,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
-        if schedule.resize(n as usize, 0).is_err() {
+        let fits = usize::try_from(n).is_ok_and(|n| schedule.resize(n, 0).is_ok());
+        if !fits {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
         self.schedule_into(&mut schedule, tick_hz, min_gap)?;
@@ -425,11 +426,14 @@ impl Fractions {
             let (low, borrow) = (low as u32).overflowing_sub(edge.rest);
             (words.saturating_sub(edge.half).saturating_sub(borrow as u64), low)
         };
-        // The first 48 bits, halved.
+        // The 64 bits from the first that is set ...
+        let (words, low, down) =
+            if words >> 32 == 0 { (words << 32 | low as u64, 0, 32) } else { (words, low, 0) };
         let zeros = words.leading_zeros() & 63;
         let bits = words << zeros | (low as u64) << zeros >> 32;
+        // ... of which a pair takes 48.
         let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
-        let unit = power_of_two(WHOLE_EXPONENT - 24 - zeros as i32);
+        let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);
         (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
     }
 
@@ -554,7 +558,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     fn direct(&self, i: u32) -> Option<u32> {
         let direct = self.direct.as_ref()?;
         // A frame of which some are direct has so few that this fits.
-        let odd = (2 * i) | 1;
+        let odd = i.wrapping_mul(2) | 1;
         let time = self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)?;
         Some(direct.tick(time))
     }

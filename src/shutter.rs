@@ -317,7 +317,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`, in (0, 1].
+    /// The shutter efficiency `A / (close_end - open_start)`: above 0, and at most 1 + 2⁻²², by the rounding that control points are
+    /// forgiven.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{ScheduleError, ShutterCurve, valid};
+use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve, valid};
 use support::aimed::{FAMILIES, aimed};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
@@ -25,12 +25,14 @@ fn rate(curve: &Curve, ticks: f64) -> Option<u32> {
 }
 
 /// Pulses here and there in frames of any size: every end at its tick, and the next pulse never before the end of this one.
-fn judge(curve: &Curve, name: &dyn std::fmt::Debug) {
-    judge_with(&shutter::<8>(curve), curve, name);
-    judge_with(&shutter::<0>(curve), curve, name);
+/// Which duty goes with which frame, `turn` says.
+fn judge(turn: usize, curve: &Curve, name: &dyn std::fmt::Debug) {
+    judge_with(turn, &shutter::<8>(curve), curve, name);
+    judge_with(turn + 4, &shutter::<0>(curve), curve, name);
 }
 
 fn judge_with<const CELLS: usize>(
+    turn: usize,
     ours: &ShutterCurve<CELLS>,
     curve: &Curve,
     name: &dyn std::fmt::Debug,
@@ -39,7 +41,7 @@ fn judge_with<const CELLS: usize>(
     for (ticks, promised) in [(1000.0, 0), (DIRECT_TICKS, 0), (2147483648.0, 1)] {
         let Some(hz) = rate(curve, ticks) else { continue };
         for (k, n) in [1, 2, 3, 12, 1000, (1 << 22) + 1, u32::MAX].into_iter().enumerate() {
-            let duty = DUTIES[(k + promised * 4) % DUTIES.len()];
+            let duty = DUTIES[(turn + 4 * promised + k) % DUTIES.len()];
             let pulses = ours.pulse_ticks(n, duty, hz).unwrap();
             for i in [0, 1, n / 4, n / 2, n - 1].into_iter().filter(|i| *i < n) {
                 let (on, off) = pulses.clone().nth(i as usize).unwrap();
@@ -61,20 +63,20 @@ fn judge_with<const CELLS: usize>(
 
 #[test]
 fn on_named_curves() {
-    for one in named() {
-        judge(&one.curve, &one.name);
+    for (turn, one) in named().into_iter().enumerate() {
+        judge(turn, &one.curve, &one.name);
     }
 }
 
 #[test]
 fn on_random_and_aimed_curves() {
     for i in 0..60 {
-        judge(&random_typical(31, i), &i);
-        judge(&random_hard(31, i), &i);
+        judge(i as usize, &random_typical(31, i), &i);
+        judge(i as usize, &random_hard(31, i), &i);
     }
     for family in 0..FAMILIES.len() {
         for i in 0..4 {
-            judge(&aimed(family, 31, i), &(family, i));
+            judge(family + i as usize, &aimed(family, 31, i), &(family, i));
         }
     }
 }
@@ -110,6 +112,36 @@ fn pulses_of_the_whole_share_touch() {
         assert_eq!(pulses.clone().last().map(|(_, off)| off), Some(1 << 23));
         let few: Vec<(u32, u32)> = pulses.take(100).collect();
         assert!(few.windows(2).all(|pair| pair[0].1 == pair[1].0));
+    }
+}
+
+/// On this curve and at this rate, searches for 1/2 from either side find times that round to two ticks.
+#[test]
+fn ends_at_one_half_are_in_order() {
+    let opening = CubicBezier::new([(0.0, 0.0), (0.3, 0.1), (0.6, 0.8), (0.93, 1.0)]);
+    let closing = CubicBezier::line((0.93, 1.0), (1.0, 0.0));
+    let curve = ShutterCurve::<8>::with_cells(opening, closing).unwrap();
+    let hz = 1_930_098_667;
+    let touching: Vec<(u32, u32)> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
+    assert_eq!(touching[0].1, touching[1].0);
+    let (on, off) = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
+    assert_eq!(on, off);
+    assert_eq!(curve.pulses_into(&mut [(0, 0); 2], 1.0, hz, 0, 0), Ok(()));
+    assert_eq!(curve.pulses_into(&mut [(0, 0); 1], 1e-30, hz, 0, 0), Ok(()));
+}
+
+/// A first pulse that goes on next to the start, where most of its fraction's words are zeros.
+#[test]
+fn the_first_end_has_all_its_bits() {
+    // The openness is p³, the time p: u = t⁴.
+    let third = 1.0 / 3.0;
+    let opening = CubicBezier::new([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)]);
+    let curve = Curve::shutter(opening.points(), [(1.0, 1.0), (1.0, 0.5), (1.0, 0.5), (1.0, 0.0)]);
+    let (exact, hz) = (Exact::new(&curve), 2_147_483_448);
+    for (n, duty) in [(805_306_368, 1.0 - f32::EPSILON / 2.0), (100_000_007, 1.0 - f32::EPSILON)] {
+        let (on, _) = shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().next().unwrap();
+        let u = (Dd::from(1.0) - Dd::from(f64::from(duty))) / Dd::from(2.0 * f64::from(n));
+        assert!(tick_error_at(&exact, on, u, hz) <= TICKS[1], "{on}: the first of {n}");
     }
 }
 
