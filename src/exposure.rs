@@ -7,8 +7,10 @@
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
+use crate::moment::Moment;
 use crate::pair::{Pair, power_of_two, rounded_sum};
-use crate::ramp::{OnRamp, Place, Ramp, Shape, WHOLE, WHOLE_EXPONENT, scaled};
+use crate::ramp::{Ramp, RampPoint, WHOLE, WHOLE_EXPONENT};
+use crate::shape::Shape;
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
 /// these keep their order.
@@ -27,7 +29,7 @@ pub(crate) struct Exposure {
 
 /// Where a fraction is collected.
 enum Section {
-    Plateau(Place),
+    Plateau(Moment),
     /// On a ramp, with what is to be collected there, in [`WHOLE`].
     Ramp(usize, Pair),
 }
@@ -116,7 +118,7 @@ impl Exposure {
     }
 
     /// The same of side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; at most all ones.
-    pub(crate) const fn joins_in_words(&self) -> [u64; 2] {
+    pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {
                 return u64::MAX;
@@ -147,7 +149,7 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
-        let beyond = a.less(near);
+        let beyond = a.minus_loose(near);
         let behind = beyond.minus(self.plateau);
         if behind.rounded() > 0.0 {
             return Section::Ramp(side ^ 1, behind);
@@ -155,14 +157,14 @@ impl Exposure {
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
         let (area, exponent) = significand(self.area);
         let unit = exponent - WHOLE_EXPONENT;
-        Section::Plateau(Place::on_way(time, until, side == 1, beyond.times(area), unit))
+        Section::Plateau(Moment::on_way(time, until, side == 1, beyond.times(area), unit))
     }
 
-    /// The place at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
+    /// The moment at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
     #[inline(always)]
-    pub(crate) fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Place {
+    pub(crate) fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
-            Section::Plateau(place) => place,
+            Section::Plateau(moment) => moment,
             Section::Ramp(ramp, target) => {
                 // One address, instead of the curve's and an index, which the search would keep on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
@@ -175,13 +177,13 @@ impl Exposure {
     #[inline(never)]
     pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
         let a = Pair::from_f64(a * WHOLE as f64);
-        let place = match self.section(side, a) {
-            Section::Plateau(place) => place,
+        let moment = match self.section(side, a) {
+            Section::Plateau(moment) => moment,
             Section::Ramp(ramp, target) => {
                 self.ramp(ramp).at_mass_const(side, target, [FOR_TICK * a.hi, FOR_FRACTION * a.hi])
             }
         };
-        let elapsed = place.since_f64(self.start(side));
+        let elapsed = moment.since_f64(self.start(side));
         if side == 0 { elapsed } else { -elapsed }
     }
 
@@ -249,7 +251,7 @@ impl Exposure {
             At::Plateau => {
                 let (area, exponent) = significand(self.area);
                 let way = Pair::sum(t, -self.plateau_start(0)).over(area);
-                let way = scaled(way, WHOLE_EXPONENT - exponent);
+                let way = way.shifted(WHOLE_EXPONENT - exponent);
                 self.nearest(t, self.ramps[0].share.plus(way), None)
             }
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
@@ -273,7 +275,7 @@ impl Exposure {
 
     /// The `f32` nearest to the mass that `t` has, as a fraction.
     #[inline(always)]
-    fn nearest(&self, t: f32, mass: Pair, on: Option<OnRamp>) -> f32 {
+    fn nearest(&self, t: f32, mass: Pair, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();
         if nearest <= 0.0 {
             return 0.0;
@@ -298,7 +300,14 @@ impl Exposure {
     /// the same mass but for rounding. Wherever the mass is farther from the middle than `noise`, both ways agree.
     #[cold]
     #[inline(never)]
-    fn settled(&self, t: f32, nearest: f32, next: f32, distance: f32, on: Option<OnRamp>) -> f32 {
+    fn settled(
+        &self,
+        t: f32,
+        nearest: f32,
+        next: f32,
+        distance: f32,
+        on: Option<RampPoint>,
+    ) -> f32 {
         // The search for the middle is itself not exact.
         let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
         if distance > noise {

@@ -333,7 +333,7 @@ impl Span {
         if exponent - unit.exponent > 30 {
             return Octave::NONE;
         }
-        let scale = power_of_two(exponent);
+        let scale = power_of_two_f64(exponent);
         let factor = 1 << (exponent - unit.exponent);
         let mut octave = Octave { center: self.center() as u32, ..Octave::NONE };
         let mut k = 0;
@@ -342,7 +342,7 @@ impl Span {
             k += 1;
         }
         // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
-        let middle = (c[0] / power_of_two(unit.exponent)) as i64 + factor as i64 / 2;
+        let middle = (c[0] / power_of_two_f64(unit.exponent)) as i64 + factor as i64 / 2;
         let start = unit.starts[self.side & 1];
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
@@ -363,7 +363,7 @@ impl Span {
         }
         let (mut newton, mut order) = ([d[0]; DEGREE + 1], 1);
         while order <= DEGREE {
-            divide(&mut d, &x, order);
+            divided_differences(&mut d, &x, order);
             newton[order] = d[0];
             order += 1;
         }
@@ -380,7 +380,7 @@ impl Span {
 /// The divided differences of the next order, of neighbours. Out of line, as the next one, for loops that are written out
 /// over and over cost kilobytes.
 #[inline(never)]
-const fn divide(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
+const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
     let mut i = 0;
     // The first condition follows from the second; it spares checks where the compiler does not see that.
     while i < DEGREE && i + order <= DEGREE {
@@ -400,7 +400,7 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
     c[0] = constant - c[0] * root;
 }
 
-const fn power_of_two(exponent: i32) -> f64 {
+const fn power_of_two_f64(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 

@@ -57,7 +57,7 @@ impl Pair {
 
     /// `self - other`, as a sum whose second number may be the greater where the two are nearly the same.
     #[inline(always)]
-    pub(crate) const fn less(self, other: Self) -> Self {
+    pub(crate) const fn minus_loose(self, other: Self) -> Self {
         let Self { hi, lo } = Self::sum(self.hi, -other.hi);
         Self { hi, lo: lo + (self.lo - other.lo) }
     }
@@ -89,6 +89,13 @@ impl Pair {
     #[inline(always)]
     pub(crate) const fn scaled(self, x: f32) -> Self {
         Self { hi: self.hi * x, lo: self.lo * x }
+    }
+
+    /// `self · 2ⁿ`: by halves, because the power of two may not be a normal number itself.
+    #[inline(always)]
+    pub(crate) const fn shifted(self, n: i32) -> Self {
+        let half = n >> 1;
+        self.scaled(power_of_two(half)).scaled(power_of_two(n - half))
     }
 
     /// `self · x`, to 2⁻⁴⁶ (Dekker).
@@ -132,58 +139,8 @@ const fn lost(product: f32, a: f32, b: f32) -> f32 {
 
 /// The upper 12 of 24 bits. The product of two such halves is exact.
 #[inline(always)]
-const fn upper(x: f32) -> f32 {
+pub(crate) const fn upper(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0xFFFF_F000)
-}
-
-/// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients.
-///
-/// The last one stands apart because the series from both ends of a ramp share it.
-#[derive(Clone, Copy)]
-pub(crate) struct Series<'a> {
-    pub(crate) c: &'a [Pair],
-    pub(crate) last: Pair,
-}
-
-impl Series<'_> {
-    /// The value at `x`, by Horner's rule with what each sum and each product loses carried along.
-    ///
-    /// It is within 2⁻⁴¹ Σ |c_k| |x|^k: of N = 6 products and 5 sums each loses at most 2⁻²⁴ of that sum, so what is
-    /// carried along is at most 12 · 2⁻²⁴ of it, and is itself known to 12 roundings (Graillat, Langlois and Louvet 2005).
-    #[inline(always)]
-    pub(crate) const fn at(self, x: f32) -> Pair {
-        let x_high = upper(x);
-        let x_low = x - x_high;
-        let Pair { mut hi, mut lo } = self.last;
-        // Unknown to the compiler, which would unroll the loop to several times its bytes.
-        let mut k = core::hint::black_box(self.c.len());
-        loop {
-            let product = hi * x;
-            let high = upper(hi);
-            let low = hi - high;
-            let lost = ((high * x_high - product) + high * x_low + low * x_high) + low * x_low;
-            lo = lo * x + lost;
-            k = k.wrapping_sub(1);
-            if k >= self.c.len() {
-                return Pair { hi: product, lo };
-            }
-            let sum = Pair::sum(self.c[k].hi, product);
-            hi = sum.hi;
-            lo += self.c[k].lo + sum.lo;
-        }
-    }
-
-    /// The slope at `x`, in single precision.
-    #[inline(always)]
-    pub(crate) const fn slope(self, x: f32) -> f32 {
-        let mut c = self.c;
-        let mut slope = (c.len() + 1) as f32 * self.last.hi;
-        while let [lower @ .., highest] = c {
-            slope = slope * x + c.len() as f32 * highest.hi;
-            c = lower;
-        }
-        slope
-    }
 }
 
 /// `2^n`, a normal number.

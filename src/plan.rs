@@ -19,7 +19,8 @@ use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::octave::{self, FINE, NO_TIME, Octave, Span, Unit, floor_bits};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
-use crate::ramp::{Shape, WHOLE};
+use crate::ramp::WHOLE;
+use crate::shape::Shape;
 
 /// The plateau in `u` that counts 2⁻⁶⁴: its last one, and how many it has.
 #[derive(Clone)]
@@ -275,8 +276,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The plateau in `u` that counts 2⁻⁶⁴.
-    pub(crate) fn plateau_in_words(&self) -> Words {
-        let [near, far] = self.exposure.joins_in_words();
+    pub(crate) fn plateau_u64(&self) -> Words {
+        let [near, far] = self.exposure.joins_u64();
         let last = far.saturating_sub(1);
         let before = near.max(1 << 55);
         Words { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) } }
@@ -284,7 +285,7 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
     #[inline(always)]
-    pub(crate) fn direct_in_words(&self, u: u64, plateau: &Words) -> Option<i64> {
+    pub(crate) fn direct_u64(&self, u: u64, plateau: &Words) -> Option<i64> {
         let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
         if before_last < plateau.count {
             return Some(self.on_line((u >> 32) as u32));

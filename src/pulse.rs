@@ -3,8 +3,10 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::schedule::{Edge, Ticks, iterate};
+use crate::fraction::Edge;
+use crate::schedule::iterate;
 use crate::shutter::ShutterCurve;
+use crate::ticks::Ticks;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Through the shutter each
@@ -117,11 +119,11 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
     /// one, which is within the promise for both.
     fn at(&self, i: u32) -> (u32, u32) {
         let [on, off] = self.edges;
-        let mut start = self.ticks.at_edge(i, on);
+        let mut start = self.ticks.edge(i, on);
         if self.is_close && i > 0 {
-            start = start.max(self.ticks.at_edge(i - 1, off));
+            start = start.max(self.ticks.edge(i - 1, off));
         }
-        (start, self.ticks.at_edge(i, off).max(start))
+        (start, self.ticks.edge(i, off).max(start))
     }
 }
 

@@ -11,9 +11,12 @@
 //! anchors, the one whose mass is nearest: the two ends and the two minima.
 
 use crate::bezier::CubicBezier;
-use crate::cubic::{Cubic, differences, forward, integral, lifted, widened};
-use crate::pair::{Pair, Series, exponent, flipped, power_of_two, rounded_sum};
+use crate::cubic::integral;
+use crate::moment::Moment;
+use crate::pair::{Pair, exponent, flipped, power_of_two};
 use crate::seed::{seed, seed_by_bits};
+use crate::series::Series;
+use crate::shape::Shape;
 use crate::solve::{Anchor, ONE, Offset, solve};
 
 /// Fractions of the exposure count so many to the whole: the least `f32` and its rounding errors are then normal numbers.
@@ -22,59 +25,13 @@ pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
 /// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between neighbours, also
 /// of those of [`on_grid`], so that these keep their order.
-const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
+const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
 /// A slope from a quarter to half of a ramp's mean `t'`.
 const SLOW: f32 = 0.25 * LENGTH / ONE;
 
 /// A ramp's length in its own unit, but for a factor in [1, 2).
 const LENGTH: f32 = (1u128 << 64) as f32;
-
-/// A Bezier as it is integrated: lifted where it grazes a bound, and seen from one of its ends.
-#[derive(Clone, Copy)]
-pub(crate) struct Shape {
-    /// The openness of the control points.
-    f: [f32; 4],
-    /// The differences of their times, all counted away from the end.
-    d: [f64; 3],
-}
-
-impl Shape {
-    /// Seen from the earlier end.
-    pub(crate) const fn new(curve: &CubicBezier) -> Self {
-        let times = widened(curve.times());
-        let d = forward(differences(times), times[3] - times[0]);
-        Self { f: lifted(curve.opennesses()), d }
-    }
-
-    /// Seen from the other end.
-    const fn reversed(self) -> Self {
-        let Self { f, d } = self;
-        Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] }
-    }
-
-    const fn openness(&self) -> Cubic {
-        Cubic::new(self.f[0] as f64, differences(widened(self.f)))
-    }
-
-    /// The time passed since the end.
-    const fn elapsed(&self) -> Cubic {
-        Cubic::new(0.0, self.d)
-    }
-
-    /// The mass collected since the end: `∫ f t' dp`, of degree 6.
-    const fn collected(&self) -> [f64; 6] {
-        integral(self.openness(), self.elapsed())
-    }
-
-    /// `∫ f dt` over the ramp, the same seen from both ends.
-    pub(crate) const fn mass(&self) -> f64 {
-        let (m, n) = (self.collected(), self.reversed().collected());
-        let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
-        let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
-        0.5 * (first + last)
-    }
-}
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,62 +58,6 @@ struct Flat {
 impl Flat {
     /// No place: nothing is near to it.
     const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
-}
-
-/// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
-#[derive(Clone, Copy)]
-pub(crate) struct Place {
-    time: f32,
-    back: bool,
-    /// In units of `2^unit`, at least 0.
-    elapsed: Pair,
-    unit: i32,
-    /// No time on the way is beyond this.
-    until: f32,
-    /// Evaluations of the mass that it took to find.
-    pub(crate) evaluations: u32,
-}
-
-impl Place {
-    /// A place on the plateau, on the way from one end of it to the other.
-    pub(crate) const fn on_way(
-        time: f32,
-        until: f32,
-        back: bool,
-        elapsed: Pair,
-        unit: i32,
-    ) -> Self {
-        Self { time, until, back, elapsed, unit, evaluations: 0 }
-    }
-
-    /// The time, rounded once.
-    #[inline(always)]
-    pub(crate) const fn time(self) -> f32 {
-        let time = rounded_sum(self.time, self.elapsed, self.unit, self.back);
-        let is_beyond = if self.back { time < self.until } else { time > self.until };
-        if is_beyond { self.until } else { time }
-    }
-
-    /// The time since `start`, in units of `2^unit`, and that unit's exponent: at least 2⁻¹⁰⁰ of the longer of the ways.
-    pub(crate) const fn since(self, start: f32, unit: i32) -> Pair {
-        let base = scaled(Pair::sum(self.time, -start), -unit);
-        let way = scaled(self.elapsed, self.unit - unit);
-        if self.back { base.minus(way) } else { base.plus(way) }
-    }
-
-    /// The time since `start`, in `f64`.
-    pub(crate) const fn since_f64(self, start: f32) -> f64 {
-        let unit = f64::from_bits(((1023 + self.unit) as u64) << 52);
-        let (base, way) = (self.time as f64 - start as f64, self.elapsed.to_f64() * unit);
-        if self.back { base - way } else { base + way }
-    }
-}
-
-/// `x 2^n`, by halves, for the power of two may not be a normal number itself.
-#[inline(always)]
-pub(crate) const fn scaled(x: Pair, n: i32) -> Pair {
-    let half = n >> 1;
-    x.scaled(power_of_two(half)).scaled(power_of_two(n - half))
 }
 
 /// One Bezier as a part of a curve.
@@ -186,7 +87,7 @@ impl Ramp {
         let share = seen[0].mass() / area;
         let is_dark = share < 0.5 * f32::from_bits(1) as f64;
         let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
-        let unit = unit_of_time(times[0], times[3]);
+        let unit = unit_of_elapsed(times[0], times[3]);
         let per_unit = f64::from_bits(((1023 - unit) as u64) << 52);
         let per_mass = unit_of_mass(share) as f64 * WHOLE as f64 / area;
         let masses =
@@ -259,7 +160,7 @@ impl Ramp {
     #[inline(always)]
     const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
         // The other end, then the minima.
-        let from_other = target.less(self.share.scaled(unit_of_mass(self.share)));
+        let from_other = target.minus_loose(self.share.scaled(unit_of_mass(self.share)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
@@ -295,40 +196,40 @@ impl Ramp {
         Anchor { place, back, c, sought: sought.abs() }
     }
 
-    /// The place at which a fraction has been collected since the end that faces a side, but for an `error`; both in
+    /// The moment at which a fraction has been collected since the end that faces a side, but for an `error`; both in
     /// [`WHOLE`].
     #[inline(always)]
-    pub(crate) fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Place {
+    pub(crate) fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed(&anchor.c, anchor.sought);
-        self.place(
+        self.moment(
             side,
             solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
         )
     }
 
     /// The same, seeded as a constant can.
-    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: [f32; 2]) -> Place {
+    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed_by_bits(&anchor.c, anchor.sought);
-        self.place(
+        self.moment(
             side,
             solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
         )
     }
 
     #[inline(always)]
-    const fn place(&self, side: usize, offset: Offset) -> Place {
+    const fn moment(&self, side: usize, offset: Offset) -> Moment {
         let elapsed = offset.value(self.elapsed(side));
-        Place {
+        Moment {
             time: self.time(side),
             back: side == 1,
             elapsed: if elapsed.rounded() < 0.0 { Pair::ZERO } else { elapsed },
-            unit: unit_of_time(self.ends[0].time, self.ends[1].time),
+            unit: unit_of_elapsed(self.ends[0].time, self.ends[1].time),
             until: self.time(side ^ 1),
             evaluations: offset.evaluations,
         }
@@ -342,14 +243,14 @@ impl Ramp {
 
     /// Where the ramp is at `t`, which lies on it: from the nearer end, by the exact time since.
     #[inline(always)]
-    pub(crate) fn at_time(&self, t: f32) -> OnRamp<'_> {
+    pub(crate) fn at_time(&self, t: f32) -> RampPoint<'_> {
         let [start, end] = [self.ends[0].time, self.ends[1].time];
         let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
         let (before, after) = (Pair::sum(t, -start), Pair::sum(end, -t));
         let (side, way) = if before.difference(after) > 0.0 { (1, after) } else { (0, before) };
-        let target = scaled(way, -unit_of_time(start, end));
+        let target = way.shifted(-unit_of_elapsed(start, end));
         let offset = self.offset_at(side, target);
-        OnRamp { ramp: self, side, offset }
+        RampPoint { ramp: self, side, offset }
     }
 
     /// The place at which a time has passed since the end that faces a side, in the ramp's unit.
@@ -371,7 +272,7 @@ impl Ramp {
             }
         }
         let seed = seed(&anchor.c, anchor.sought);
-        solve(series, target, &anchor, seed, [TIME_ERROR * target.hi; 2])
+        solve(series, target, &anchor, seed, [FOR_TIME * target.hi; 2])
     }
 }
 
@@ -427,7 +328,7 @@ const fn up_of_mass(share: Pair) -> i32 {
 
 /// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that.
 #[inline(always)]
-const fn unit_of_time(start: f32, end: f32) -> i32 {
+const fn unit_of_elapsed(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
 
@@ -458,14 +359,14 @@ fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {
     [slope.rounded(), bend.plus(b).rounded(), c.hi]
 }
 
-/// A time on a ramp, as a place.
-pub(crate) struct OnRamp<'a> {
+/// A point of a ramp, found by its time.
+pub(crate) struct RampPoint<'a> {
     ramp: &'a Ramp,
     pub(crate) side: usize,
     offset: Offset,
 }
 
-impl OnRamp<'_> {
+impl RampPoint<'_> {
     /// The fraction collected between the end that faces the side and here, in [`WHOLE`].
     #[inline(always)]
     pub(crate) fn mass(&self) -> Pair {
@@ -486,12 +387,12 @@ impl OnRamp<'_> {
         let f = if self.side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
         // Scaled so that the second halves of all coefficients, and what they make of the least place, keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
-        let f = f.map(|f| scaled(Pair::new(f), -unit).hi);
+        let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
-        let bend = d[1].less(d[0]);
+        let bend = d[1].minus_loose(d[0]);
         let (one, two, three) = (1.0 / ONE, 1.0 / ONE / ONE, 1.0 / ONE / ONE / ONE);
         let c = [d[0].thrice().scaled(one), bend.thrice().scaled(two)];
-        let series = Series { c: &c, last: d[2].less(d[1]).less(bend).scaled(three) };
+        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend).scaled(three) };
         let value = Pair::new(f[0]).plus(self.offset.value(series));
         (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
     }

@@ -3,18 +3,12 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::exposure::FOR_TICK;
-use crate::pair::{Pair, fixed, power_of_two};
-use crate::plan::{Plan, Words};
-use crate::ramp::{Place, WHOLE_EXPONENT, scaled};
+use crate::fraction::{Edge, Fractions};
 use crate::shutter::ShutterCurve;
+use crate::ticks::{DIRECT_TRIGGERS, Ticks, moment};
 
-/// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
-const DIRECT_TICKS: i32 = 24;
 /// Up to here `i + 1/2` is an `f32`.
 const EXACT_HALVES: u32 = 1 << 23;
-/// An interval may have 2 to this ticks.
-const MOST_TICKS: i32 = 31;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
@@ -292,7 +286,31 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
     /// Is trigger `i` of the frame placed without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.direct(i).is_some()
+        self.frame.direct(i, Edge::TRIGGER).is_some()
+    }
+}
+
+/// What times the triggers of one frame.
+#[derive(Clone)]
+struct Times<'a, const CELLS: usize> {
+    curve: &'a ShutterCurve<CELLS>,
+    fractions: Fractions,
+}
+
+impl<const CELLS: usize> Times<'_, CELLS> {
+    fn n(&self) -> u32 {
+        self.fractions.n
+    }
+
+    /// The time of trigger `i`.
+    #[inline(always)]
+    fn at(&self, i: u32) -> f32 {
+        let n = self.fractions.n;
+        if n <= EXACT_HALVES {
+            self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
+        } else {
+            moment(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, Edge::TRIGGER).time()
+        }
     }
 }
 
@@ -379,292 +397,3 @@ pub(crate) use iterate;
 
 iterate!(TriggerTimes, f32);
 iterate!(TriggerTicks, u32);
-
-/// Frames of more triggers are searched for throughout: a polynomial might put neighbours in the wrong order.
-const DIRECT_TRIGGERS: u32 = 1 << 22;
-
-/// The fractions `(2i + 1) / 2n` of the exposure.
-#[derive(Clone)]
-pub(crate) struct Fractions {
-    pub(crate) n: u32,
-    /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
-    share: u64,
-    /// ... and what is missing of it, in units of 2⁻⁹⁶.
-    rest: u32,
-}
-
-impl Fractions {
-    /// A 64-bit division is dear on a small processor, so only this one is made.
-    fn new(n: u32) -> Self {
-        let divisor = n as u64 | (n == 0) as u64;
-        let share = (1 << 63) / divisor;
-        // The remainder over n is the remainder times 2/2n.
-        let remainder = (1 << 63) - share * divisor;
-        Self { n, share, rest: ((remainder * share) >> 31) as u32 }
-    }
-
-    /// The fraction `odd / 2n` from below, in units of 2⁻⁶⁴: by less than `odd` of these.
-    #[inline(always)]
-    fn in_words(&self, odd: u32) -> u64 {
-        self.share.wrapping_mul(odd as u64)
-    }
-
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
-    fn exactly(&self, odd: u64, edge: Edge) -> (usize, Pair) {
-        let n = self.n as u64;
-        let (side, near) =
-            if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
-        // By words: near times a number of 96 bits, at most 2⁹⁵.
-        let low = near * self.rest as u64;
-        let middle = near * (self.share as u32 as u64) + (low >> 32);
-        let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
-        // The pulse's half is at most as much.
-        let (words, low) = if edge.is_off == (side == 0) {
-            let (low, carry) = (low as u32).overflowing_add(edge.rest);
-            (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)
-        } else {
-            let (low, borrow) = (low as u32).overflowing_sub(edge.rest);
-            (words.saturating_sub(edge.half).saturating_sub(borrow as u64), low)
-        };
-        // The 64 bits from the first that is set ...
-        let (words, low, down) =
-            if words >> 32 == 0 { (words << 32 | low as u64, 0, 32) } else { (words, low, 0) };
-        let zeros = words.leading_zeros() & 63;
-        let bits = words << zeros | (low as u64) << zeros >> 32;
-        // ... of which a pair takes 48.
-        let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
-        let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);
-        (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
-    }
-
-    /// The ends of a pulse that takes the part `duty`, above 0 and at most 1, of each share: when it goes on, and off.
-    pub(crate) fn edges(&self, duty: f32) -> [Edge; 2] {
-        let bits = duty.to_bits();
-        let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));
-        // Below 2¹²⁰.
-        let share = (self.share as u128) << 32 | self.rest as u128;
-        let half = (share * significand as u128).checked_shr(down).unwrap_or(0);
-        let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
-        [edge(false), edge(true)]
-    }
-}
-
-/// One end of a pulse: so far from the middle of its share, in units of 2⁻⁶⁴ and 2⁻⁹⁶, and on which side. A trigger is a pulse without
-/// length.
-#[derive(Clone, Copy)]
-pub(crate) struct Edge {
-    half: u64,
-    rest: u32,
-    is_off: bool,
-}
-
-impl Edge {
-    const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
-}
-
-/// What times the triggers of one frame.
-#[derive(Clone)]
-struct Times<'a, const CELLS: usize> {
-    curve: &'a ShutterCurve<CELLS>,
-    fractions: Fractions,
-}
-
-impl<const CELLS: usize> Times<'_, CELLS> {
-    fn n(&self) -> u32 {
-        self.fractions.n
-    }
-
-    /// The time of trigger `i`.
-    #[inline(always)]
-    fn at(&self, i: u32) -> f32 {
-        let n = self.fractions.n;
-        if n <= EXACT_HALVES {
-            self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
-        } else {
-            place(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, Edge::TRIGGER).time()
-        }
-    }
-}
-
-/// What places the triggers of one frame.
-#[derive(Clone)]
-pub(crate) struct Ticks<'a, const CELLS: usize> {
-    plan: &'a Plan<CELLS>,
-    pub(crate) fractions: Fractions,
-    tick_hz: u32,
-    plateau: Words,
-    /// None for frames that are searched for throughout.
-    direct: Option<Direct>,
-}
-
-impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
-    pub(crate) fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
-        if tick_hz == 0 {
-            return Err(ScheduleError::TickRateZero);
-        }
-        let start = plan.start_in_units(0);
-        let length = (plan.start_in_units(1) - start) as u64;
-        let exponent = exponent_of_ticks(length, tick_hz, plan.unit());
-        if exponent > MOST_TICKS {
-            return Err(too_high(length, tick_hz, plan.unit()));
-        }
-        let searched = n > DIRECT_TRIGGERS || exponent > DIRECT_TICKS;
-        let direct = (!searched).then(|| Direct::new(start, length, tick_hz, plan.unit()));
-        let (fractions, plateau) = (Fractions::new(n), plan.plateau_in_words());
-        Ok(Self { plan, fractions, tick_hz, plateau, direct })
-    }
-
-    pub(crate) fn n(&self) -> u32 {
-        self.fractions.n
-    }
-
-    /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
-    #[inline(always)]
-    fn at(&self, i: u32) -> u32 {
-        match self.direct(i) {
-            Some(tick) => tick,
-            None => self.searched(2 * i as u64 + 1, Edge::TRIGGER),
-        }
-    }
-
-    /// The tick of one end of a pulse around trigger `i`.
-    pub(crate) fn at_edge(&self, i: u32, edge: Edge) -> u32 {
-        let odd = 2 * i as u64 + 1;
-        if let Some(direct) = &self.direct {
-            let middle = self.fractions.share.wrapping_mul(odd);
-            let u = if edge.is_off {
-                middle.wrapping_add(edge.half)
-            } else {
-                middle.wrapping_sub(edge.half)
-            };
-            if let Some(time) = self.plan.direct_in_words(u, &self.plateau) {
-                return direct.tick(time);
-            }
-        }
-        self.searched(odd, edge)
-    }
-
-    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the polynomials, all are
-    /// searched for.
-    pub(crate) fn of_pulses(self, duty: f32) -> Self {
-        let dark = if duty < 1.0 { 1.0 - duty } else { 1.0 };
-        let closest = if duty < dark { duty } else { dark };
-        let is_direct = self.fractions.n as f32 <= closest * DIRECT_TRIGGERS as f32;
-        Self { direct: if is_direct { self.direct } else { None }, ..self }
-    }
-
-    /// The tick of trigger `i`, if no search is needed.
-    #[inline(always)]
-    fn direct(&self, i: u32) -> Option<u32> {
-        let direct = self.direct.as_ref()?;
-        // A frame of which some are direct has so few that this fits.
-        let odd = i.wrapping_mul(2) | 1;
-        let time = self.plan.direct_in_words(self.fractions.in_words(odd), &self.plateau)?;
-        Some(direct.tick(time))
-    }
-
-    /// The error of trigger `i`, which comes too soon after the one before.
-    #[cold]
-    #[inline(never)]
-    fn too_close(&self, i: u32, min_gap: u32) -> ScheduleError {
-        let gap = self.at(i) - self.at(i.saturating_sub(1));
-        ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
-    }
-
-    /// The same by a search; out of line, so that the direct way saves no registers for it.
-    #[cold]
-    #[inline(never)]
-    fn searched(&self, odd: u64, edge: Edge) -> u32 {
-        let unit = self.plan.unit();
-        let place = place(self.plan, &self.fractions, odd, edge);
-        let delay = place.since(self.plan.exposure.start(0), unit);
-        if let Some(direct) = &self.direct {
-            // Rounded as the direct way rounds, so that neighbours keep their order.
-            return direct.tick(direct.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
-        }
-        let Pair { hi, lo } = scaled(delay.times(Pair::from_u32(self.tick_hz)), unit);
-        // A product's second half may be some ulp of the first.
-        let ticks = Pair::sum(hi, lo);
-        // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
-        let whole = ticks.hi as u32;
-        let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
-        // The cast rounds down what is above 0.
-        (whole + (rest + 256.0) as u32).saturating_sub(256)
-    }
-}
-
-/// The place of the fraction `odd / 2n`, or of one end of a pulse around it, by a search.
-#[inline(never)]
-fn place<const CELLS: usize>(
-    plan: &Plan<CELLS>,
-    fractions: &Fractions,
-    odd: u64,
-    edge: Edge,
-) -> Place {
-    let (side, a) = fractions.exactly(odd, edge);
-    if a.hi == 0.0 {
-        // The end itself, though no light may fall there.
-        let end = plan.exposure.start(side);
-        return Place::on_way(end, end, false, Pair::ZERO, 0);
-    }
-    plan.exposure.at_fraction(side, a, FOR_TICK)
-}
-
-/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in ticks.
-fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
-    // Below 2⁹⁶.
-    let ticks = length as u128 * tick_hz as u128;
-    u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
-}
-
-/// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
-#[cold]
-#[inline(never)]
-fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
-    let (mut most, mut fail) = (0, tick_hz);
-    while fail - most > 1 {
-        let middle = most + (fail - most) / 2;
-        let fits = exponent_of_ticks(length, middle, unit) <= MOST_TICKS;
-        *(if fits { &mut most } else { &mut fail }) = middle;
-    }
-    ScheduleError::TickRateTooHigh { most }
-}
-
-/// From times in the plan's unit to ticks, in fixed point.
-#[derive(Clone)]
-struct Direct {
-    start: i64,
-    /// What brings a time after the start to 31 bits above 2³², and the ticks in a unit of these, which count 2⁻⁶⁴.
-    up: u32,
-    factor: u64,
-}
-
-impl Direct {
-    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
-    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
-        // An `f32` interval has from 2³⁷ units to 2⁶².
-        let up = length.leading_zeros().wrapping_sub(1) & 31;
-        let down = unit + 96 - up as i32;
-        let rate = tick_hz as u64;
-        let factor = if down < 0 {
-            rate.checked_shr(down.unsigned_abs())
-        } else {
-            rate.checked_shl(down.unsigned_abs())
-        };
-        // Where a tick is next to all of the interval, nothing is left of it, and all is tick 0, to which it rounds.
-        Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
-    }
-
-    #[inline(always)]
-    fn tick(&self, time: i64) -> u32 {
-        let delay = time.wrapping_sub(self.start);
-        if delay < 0 {
-            return 0;
-        }
-        let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
-        let low = ((low * self.up as u64) >> 32) as u32;
-        let delay = high.wrapping_mul(self.up).wrapping_add(low) as u64;
-        let low = (delay * (self.factor as u32 as u64)) >> 32;
-        ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
-    }
-}

@@ -7,17 +7,17 @@
 //! last bit or so, is its answer.
 
 /// Logarithms here have 20 fraction bits, so that a difference of two fits 32 bits.
-const ONE: i32 = 1 << 20;
+const LOG_ONE: i32 = 1 << 20;
 
 /// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand. That
 /// of a negative number is below all others, so a root taken by it is the greatest: no such term makes up a positive sum.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
-    (x.to_bits() as i32 >> 3) - 127 * ONE
+    (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
 }
 
 /// By how much a logarithm is above the linear one on average.
-const MEAN: i32 = (0.043 * ONE as f32) as i32;
+const MEAN: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// 2³⁰ over `k`.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
@@ -51,7 +51,7 @@ const fn least_root(c: &[f32], log: i32) -> i32 {
 /// The number with a linear logarithm, at least 0; what is beyond all `f32` is infinite or NaN.
 #[inline(always)]
 const fn power(log: i32) -> f32 {
-    let log = log + 127 * ONE;
+    let log = log + 127 * LOG_ONE;
     let log = if log < 0 { 0 } else { log };
     f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })
 }
@@ -76,10 +76,10 @@ pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
             // The exponents divide by k up to a remainder, which the root takes in with the significands.
             let exponent = (log >> 20) - (divisor >> 20);
             let (whole, rest) = (exponent >> (k / 2), exponent & (k - 1));
-            let significand = |log: i32| power(log & (ONE - 1));
+            let significand = |log: i32| power(log & (LOG_ONE - 1));
             let root = square_root(significand(log) / significand(divisor) * (1 << rest) as f32);
             let root = if k == 4 { square_root(root) } else { root };
-            return power(rough_log(root) + whole * ONE);
+            return power(rough_log(root) + whole * LOG_ONE);
         }
     }
     power(root - MEAN)

@@ -7,7 +7,6 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::pair::{Pair, rounded_sum};
 use crate::plan::Plan;
-use crate::ramp::scaled;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
@@ -218,7 +217,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     #[inline]
     fn openness(&self, t: f32) -> (Pair, i32) {
         let (f, unit) = self.plan.exposure.openness(t);
-        let is_above = scaled(f, unit).difference(Pair::new(1.0)) > 0.0;
+        let is_above = f.shifted(unit).difference(Pair::new(1.0)) > 0.0;
         if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 

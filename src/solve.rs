@@ -31,7 +31,8 @@
 //! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
 //! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
 
-use crate::pair::{Pair, Series, flipped};
+use crate::pair::{Pair, flipped};
+use crate::series::Series;
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -48,12 +49,12 @@ pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
 
 /// Where less than this share of what is sought is missing, it is measured in pairs. Halley's step leaves some tenth of the
 /// cube: 2⁻⁴².
-const NEAR: f32 = 1.0 / 8192.0;
+const PAIRS_BELOW: f32 = 1.0 / 8192.0;
 
 /// A step in single precision leads to between a quarter of the distance from the anchor and some 2.5 times that: Newton
 /// overshoots where the density dips ahead. In the bits of the `f32`, where a binade is 2²³.
-const NEARER: i32 = -2 << 23;
-const FARTHER: i32 = (1 << 23) + (1 << 21);
+const LEAST_STEP: i32 = -2 << 23;
+const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
 const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
@@ -118,10 +119,10 @@ impl Taylor {
     #[inline(always)]
     const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {
         let mut c = *c;
-        divide(&mut c, x, 0);
+        horner(&mut c, x, 0);
         let value = c[0] * x;
-        divide(&mut c, x, 0);
-        divide(&mut c, x, 1);
+        horner(&mut c, x, 0);
+        horner(&mut c, x, 1);
         Self { value, d1: c[0], d2: c[1] }
     }
 
@@ -147,7 +148,7 @@ impl Taylor {
 
 /// Horner's rule at `x`, down to the coefficient `to`, with all that it passes kept.
 #[inline(always)]
-const fn divide<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
+const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
     let mut k = N - 1;
     while k > to {
         k -= 1;
@@ -192,7 +193,7 @@ pub(crate) const fn solve<const N: usize>(
     if sought <= 0.5 * error {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
     }
-    let near = (NEAR * sought + error).to_bits() as i32;
+    let near = (PAIRS_BELOW * sought + error).to_bits() as i32;
     let reach = anchor.reach();
     // At the end of the ramp the density may be 0.
     let mut x = if seed < 0.75 * reach { seed } else { 0.75 * reach };
@@ -211,7 +212,7 @@ pub(crate) const fn solve<const N: usize>(
                 // By bits, where a NaN is but one of the limits.
                 let next = (x + local.step(missing)).to_bits() as i32;
                 let bits = x.to_bits() as i32;
-                let (least, most) = (bits + NEARER, bits + FARTHER);
+                let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
                 // Not below 0.
                 let least = least & !(least >> 31);
                 let most = if most < reach { most } else { reach };

@@ -1,0 +1,84 @@
+//! The fractions of the exposure at which triggers and the ends of pulses are due, to 96 bits.
+
+use crate::pair::{Pair, power_of_two};
+use crate::ramp::WHOLE_EXPONENT;
+
+/// The fractions `(2i + 1) / 2n` of the exposure.
+#[derive(Clone)]
+pub(crate) struct Fractions {
+    pub(crate) n: u32,
+    /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
+    share: u64,
+    /// ... and what is missing of it, in units of 2⁻⁹⁶.
+    rest: u32,
+}
+
+impl Fractions {
+    /// A 64-bit division is dear on a small processor, so only this one is made.
+    pub(crate) fn new(n: u32) -> Self {
+        let divisor = n as u64 | (n == 0) as u64;
+        let share = (1 << 63) / divisor;
+        // The remainder over n is the remainder times 2/2n.
+        let remainder = (1 << 63) - share * divisor;
+        Self { n, share, rest: ((remainder * share) >> 31) as u32 }
+    }
+
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of these.
+    #[inline(always)]
+    pub(crate) fn in_u64(&self, odd: u32, edge: Edge) -> u64 {
+        let middle = self.share.wrapping_mul(odd as u64);
+        if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
+    }
+
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
+    pub(crate) fn exactly(&self, odd: u64, edge: Edge) -> (usize, Pair) {
+        let n = self.n as u64;
+        let (side, near) =
+            if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
+        // By words: near times a number of 96 bits, at most 2⁹⁵.
+        let low = near * self.rest as u64;
+        let middle = near * (self.share as u32 as u64) + (low >> 32);
+        let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
+        // The pulse's half is at most as much.
+        let (words, low) = if edge.is_off == (side == 0) {
+            let (low, carry) = (low as u32).overflowing_add(edge.rest);
+            (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)
+        } else {
+            let (low, borrow) = (low as u32).overflowing_sub(edge.rest);
+            (words.saturating_sub(edge.half).saturating_sub(borrow as u64), low)
+        };
+        // The 64 bits from the first that is set ...
+        let (words, low, down) =
+            if words >> 32 == 0 { (words << 32 | low as u64, 0, 32) } else { (words, low, 0) };
+        let zeros = words.leading_zeros() & 63;
+        let bits = words << zeros | (low as u64) << zeros >> 32;
+        // ... of which a pair takes 48.
+        let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
+        let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);
+        (side, Pair { hi: hi * unit, lo: lo * (unit / (1 << 24) as f32) })
+    }
+
+    /// The ends of a pulse that takes the part `duty`, above 0 and at most 1, of each share: when it goes on, and off.
+    pub(crate) fn edges(&self, duty: f32) -> [Edge; 2] {
+        let bits = duty.to_bits();
+        let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));
+        // Below 2¹²⁰.
+        let share = (self.share as u128) << 32 | self.rest as u128;
+        let half = (share * significand as u128).checked_shr(down).unwrap_or(0);
+        let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
+        [edge(false), edge(true)]
+    }
+}
+
+/// One end of a pulse: so far from the middle of its share, in units of 2⁻⁶⁴ and 2⁻⁹⁶, and on which side. A trigger is a pulse without
+/// length.
+#[derive(Clone, Copy)]
+pub(crate) struct Edge {
+    half: u64,
+    rest: u32,
+    is_off: bool,
+}
+
+impl Edge {
+    pub(crate) const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
+}

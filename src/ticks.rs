@@ -1,0 +1,187 @@
+//! From fractions of the exposure to the ticks of a timer.
+
+use crate::error::ScheduleError;
+use crate::exposure::FOR_TICK;
+use crate::fraction::{Edge, Fractions};
+use crate::moment::Moment;
+use crate::pair::{Pair, fixed};
+use crate::plan::{Plan, Words};
+
+/// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
+const DIRECT_TICKS: i32 = 24;
+/// An interval may have 2 to this ticks.
+const MOST_TICKS: i32 = 31;
+/// Frames of more triggers are searched for throughout: a polynomial might put neighbours in the wrong order.
+pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
+
+/// What places the triggers of one frame.
+#[derive(Clone)]
+pub(crate) struct Ticks<'a, const CELLS: usize> {
+    plan: &'a Plan<CELLS>,
+    pub(crate) fractions: Fractions,
+    tick_hz: u32,
+    plateau: Words,
+    /// None for frames that are searched for throughout.
+    scale: Option<TickScale>,
+}
+
+impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
+    pub(crate) fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
+        if tick_hz == 0 {
+            return Err(ScheduleError::TickRateZero);
+        }
+        let start = plan.start_in_units(0);
+        let length = (plan.start_in_units(1) - start) as u64;
+        let exponent = exponent_of_ticks(length, tick_hz, plan.unit());
+        if exponent > MOST_TICKS {
+            return Err(too_high(length, tick_hz, plan.unit()));
+        }
+        let searched = n > DIRECT_TRIGGERS || exponent > DIRECT_TICKS;
+        let scale = (!searched).then(|| TickScale::new(start, length, tick_hz, plan.unit()));
+        let (fractions, plateau) = (Fractions::new(n), plan.plateau_u64());
+        Ok(Self { plan, fractions, tick_hz, plateau, scale })
+    }
+
+    pub(crate) fn n(&self) -> u32 {
+        self.fractions.n
+    }
+
+    /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: u32) -> u32 {
+        self.edge(i, Edge::TRIGGER)
+    }
+
+    /// The tick of one end of a pulse around trigger `i`.
+    #[inline(always)]
+    pub(crate) fn edge(&self, i: u32, edge: Edge) -> u32 {
+        match self.direct(i, edge) {
+            Some(tick) => tick,
+            None => self.searched(2 * i as u64 + 1, edge),
+        }
+    }
+
+    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the polynomials, all are
+    /// searched for.
+    pub(crate) fn of_pulses(self, duty: f32) -> Self {
+        let dark = if duty < 1.0 { 1.0 - duty } else { 1.0 };
+        let closest = if duty < dark { duty } else { dark };
+        let is_direct = self.fractions.n as f32 <= closest * DIRECT_TRIGGERS as f32;
+        Self { scale: if is_direct { self.scale } else { None }, ..self }
+    }
+
+    /// The same, if no search is needed.
+    #[inline(always)]
+    pub(crate) fn direct(&self, i: u32, edge: Edge) -> Option<u32> {
+        let scale = self.scale.as_ref()?;
+        // A frame of which some are direct has so few that this fits.
+        let odd = i.wrapping_mul(2) | 1;
+        let time = self.plan.direct_u64(self.fractions.in_u64(odd, edge), &self.plateau)?;
+        Some(scale.tick(time))
+    }
+
+    /// The error of trigger `i`, which comes too soon after the one before.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn too_close(&self, i: u32, min_gap: u32) -> ScheduleError {
+        let gap = self.at(i) - self.at(i.saturating_sub(1));
+        ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
+    }
+
+    /// The same by a search; out of line, so that the direct way saves no registers for it.
+    #[cold]
+    #[inline(never)]
+    fn searched(&self, odd: u64, edge: Edge) -> u32 {
+        let unit = self.plan.unit();
+        let moment = moment(self.plan, &self.fractions, odd, edge);
+        let delay = moment.since(self.plan.exposure.start(0), unit);
+        if let Some(scale) = &self.scale {
+            // Rounded as the direct way rounds, so that neighbours keep their order.
+            return scale.tick(scale.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
+        }
+        let Pair { hi, lo } = delay.times(Pair::from_u32(self.tick_hz)).shifted(unit);
+        // A product's second half may be some ulp of the first.
+        let ticks = Pair::sum(hi, lo);
+        // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
+        let whole = ticks.hi as u32;
+        let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
+        // The cast rounds down what is above 0.
+        (whole + (rest + 256.0) as u32).saturating_sub(256)
+    }
+}
+
+/// The moment of the fraction `odd / 2n`, or of one end of a pulse around it, by a search.
+#[inline(never)]
+pub(crate) fn moment<const CELLS: usize>(
+    plan: &Plan<CELLS>,
+    fractions: &Fractions,
+    odd: u64,
+    edge: Edge,
+) -> Moment {
+    let (side, a) = fractions.exactly(odd, edge);
+    if a.hi == 0.0 {
+        // The end itself, though no light may fall there.
+        let end = plan.exposure.start(side);
+        return Moment::on_way(end, end, false, Pair::ZERO, 0);
+    }
+    plan.exposure.at_fraction(side, a, FOR_TICK)
+}
+
+/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in ticks.
+fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
+    // Below 2⁹⁶.
+    let ticks = length as u128 * tick_hz as u128;
+    u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
+}
+
+/// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
+#[cold]
+#[inline(never)]
+fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
+    let (mut most, mut fail) = (0, tick_hz);
+    while fail - most > 1 {
+        let middle = most + (fail - most) / 2;
+        let fits = exponent_of_ticks(length, middle, unit) <= MOST_TICKS;
+        *(if fits { &mut most } else { &mut fail }) = middle;
+    }
+    ScheduleError::TickRateTooHigh { most }
+}
+
+/// From times in the plan's unit to ticks, in fixed point.
+#[derive(Clone)]
+struct TickScale {
+    start: i64,
+    /// What brings a time after the start to 31 bits above 2³², and the ticks in a unit of these, which count 2⁻⁶⁴.
+    up: u32,
+    factor: u64,
+}
+
+impl TickScale {
+    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
+    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
+        // An `f32` interval has from 2³⁷ units to 2⁶².
+        let up = length.leading_zeros().wrapping_sub(1) & 31;
+        let down = unit + 96 - up as i32;
+        let rate = tick_hz as u64;
+        let factor = if down < 0 {
+            rate.checked_shr(down.unsigned_abs())
+        } else {
+            rate.checked_shl(down.unsigned_abs())
+        };
+        // Where a tick is next to all of the interval, nothing is left of it, and all is tick 0, to which it rounds.
+        Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
+    }
+
+    #[inline(always)]
+    fn tick(&self, time: i64) -> u32 {
+        let delay = time.wrapping_sub(self.start);
+        if delay < 0 {
+            return 0;
+        }
+        let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
+        let low = ((low * self.up as u64) >> 32) as u32;
+        let delay = high.wrapping_mul(self.up).wrapping_add(low) as u64;
+        let low = (delay * (self.factor as u32 as u64)) >> 32;
+        ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
+    }
+}
