@@ -25,13 +25,13 @@ impl Fractions {
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of these.
     #[inline(always)]
-    pub(crate) fn in_u64(&self, odd: u32, edge: Edge) -> u64 {
+    pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         let middle = self.share.wrapping_mul(odd as u64);
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
-    pub(crate) fn exactly(&self, odd: u64, edge: Edge) -> (usize, Pair) {
+    pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) =
             if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };

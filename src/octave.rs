@@ -9,6 +9,7 @@
 //! upper part. The offset within the octave is exact: the significand of `a`, less the octave's middle.
 
 use crate::exposure::Exposure;
+use crate::pair::fixed;
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
 /// the part of the octave that it serves, or somewhat less.
@@ -69,13 +70,6 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
-/// Counts of a curve's times: the unit's exponent, and the times at which the sides start.
-#[derive(Clone, Copy)]
-pub(crate) struct Unit {
-    pub(crate) exponent: i32,
-    pub(crate) starts: [i64; 2],
-}
-
 /// The bits of the least top: below 2⁻²⁸ there are no octaves, so that the bits of 0 are not among theirs.
 const LEAST: u32 = (1.0 / (1 << 28) as f32).to_bits();
 
@@ -108,14 +102,14 @@ pub(crate) const fn part(exposure: &Exposure, side: usize, ramp: usize) -> [f64;
     [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// Fits the octaves of a side. Returns the tops by ramp, in [`STEP`]s. The far ramp's octaves come first; the near ramp's top
+/// Fits the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`STEP`]s. The far ramp's octaves come first; the near ramp's top
 /// stands so many octaves higher.
 ///
 /// Out of line, and with a slice, so that it is the same for any number of octaves.
 #[inline(never)]
 pub(crate) const fn fit(
     exposure: &Exposure,
-    unit: &Unit,
+    unit: i32,
     side: usize,
     octaves: &mut [Octave],
 ) -> [u8; 2] {
@@ -315,7 +309,7 @@ impl Span {
     }
 
     /// The octave with a polynomial, where one keeps the promise.
-    const fn fitted(&self, exposure: &Exposure, unit: &Unit) -> Octave {
+    const fn fitted(&self, exposure: &Exposure, unit: i32) -> Octave {
         let c = self.interpolate(exposure);
 
         // The largest value that Horner's rule meets fills 31 bits.
@@ -329,12 +323,12 @@ impl Span {
             return Octave::NONE;
         }
         let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
-        let exponent = if exponent < unit.exponent { unit.exponent } else { exponent };
-        if exponent - unit.exponent > 30 {
+        let exponent = if exponent < unit { unit } else { exponent };
+        if exponent - unit > 30 {
             return Octave::NONE;
         }
         let scale = power_of_two_f64(exponent);
-        let factor = 1 << (exponent - unit.exponent);
+        let factor = 1 << (exponent - unit);
         let mut octave = Octave { center: self.center() as u32, ..Octave::NONE };
         let mut k = 0;
         while k < DEGREE {
@@ -342,8 +336,8 @@ impl Span {
             k += 1;
         }
         // Each product is rounded down, by half a unit on average, and only the last one's counts in full.
-        let middle = (c[0] / power_of_two_f64(unit.exponent)) as i64 + factor as i64 / 2;
-        let start = unit.starts[self.side & 1];
+        let middle = (c[0] / power_of_two_f64(unit)) as i64 + factor as i64 / 2;
+        let start = fixed(exposure.start(self.side), unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
         if octave.keeps_promise(exposure, self, c[0], scale) { octave } else { Octave::NONE }

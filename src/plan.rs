@@ -17,7 +17,7 @@
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{self, FINE, NO_TIME, Octave, Span, Unit, floor_bits};
+use crate::octave::{self, FINE, NO_TIME, Octave, Span, floor_bits};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::WHOLE;
 use crate::shape::Shape;
@@ -65,7 +65,6 @@ impl<const CELLS: usize> Plan<CELLS> {
         };
         let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
         let unit = unit_for(exposure.start(0), exposure.start(1));
-        let starts = [fixed(exposure.start(0), unit), fixed(exposure.start(1), unit)];
         let [from, to] = exposure.joins(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
         let (mut base, mut slope, mut plateau) = (0, 0, [to, 0]);
@@ -84,15 +83,14 @@ impl<const CELLS: usize> Plan<CELLS> {
                 plateau = [last, last.saturating_sub(before)];
             }
         }
-        let unit = Unit { exponent: unit, starts };
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
         // That there are none to fit, the compiler sees, and leaves the code for it out.
         while CELLS > 0 && serves && side < 2 {
-            tops[side] = octave::fit(&exposure, &unit, side, &mut octaves[side]);
+            tops[side] = octave::fit(&exposure, unit, side, &mut octaves[side]);
             side += 1;
         }
-        let scale = power_of_two(unit.exponent + 32);
+        let scale = power_of_two(unit + 32);
         Ok(Self { exposure, scale, plateau, base, slope, tops, octaves })
     }
 

@@ -118,7 +118,7 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
     /// be: a search is exact to its error, and 1/2 is counted from either side. Then the later end takes the tick of the earlier
     /// one, which is within the promise for both.
     fn at(&self, i: u32) -> (u32, u32) {
-        let [on, off] = self.edges;
+        let [on, off] = &self.edges;
         let mut start = self.ticks.edge(i, on);
         if self.is_close && i > 0 {
             start = start.max(self.ticks.edge(i - 1, off));

@@ -286,7 +286,7 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
     /// Is trigger `i` of the frame placed without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.direct(i, Edge::TRIGGER).is_some()
+        self.frame.direct(i, &Edge::TRIGGER).is_some()
     }
 }
 
@@ -309,7 +309,7 @@ impl<const CELLS: usize> Times<'_, CELLS> {
         if n <= EXACT_HALVES {
             self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
         } else {
-            moment(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, Edge::TRIGGER).time()
+            moment(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, &Edge::TRIGGER).time()
         }
     }
 }

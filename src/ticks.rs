@@ -49,12 +49,12 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
     #[inline(always)]
     pub(crate) fn at(&self, i: u32) -> u32 {
-        self.edge(i, Edge::TRIGGER)
+        self.edge(i, &Edge::TRIGGER)
     }
 
     /// The tick of one end of a pulse around trigger `i`.
     #[inline(always)]
-    pub(crate) fn edge(&self, i: u32, edge: Edge) -> u32 {
+    pub(crate) fn edge(&self, i: u32, edge: &Edge) -> u32 {
         match self.direct(i, edge) {
             Some(tick) => tick,
             None => self.searched(2 * i as u64 + 1, edge),
@@ -72,7 +72,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
 
     /// The same, if no search is needed.
     #[inline(always)]
-    pub(crate) fn direct(&self, i: u32, edge: Edge) -> Option<u32> {
+    pub(crate) fn direct(&self, i: u32, edge: &Edge) -> Option<u32> {
         let scale = self.scale.as_ref()?;
         // A frame of which some are direct has so few that this fits.
         let odd = i.wrapping_mul(2) | 1;
@@ -91,7 +91,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The same by a search; out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn searched(&self, odd: u64, edge: Edge) -> u32 {
+    fn searched(&self, odd: u64, edge: &Edge) -> u32 {
         let unit = self.plan.unit();
         let moment = moment(self.plan, &self.fractions, odd, edge);
         let delay = moment.since(self.plan.exposure.start(0), unit);
@@ -116,7 +116,7 @@ pub(crate) fn moment<const CELLS: usize>(
     plan: &Plan<CELLS>,
     fractions: &Fractions,
     odd: u64,
-    edge: Edge,
+    edge: &Edge,
 ) -> Moment {
     let (side, a) = fractions.exactly(odd, edge);
     if a.hi == 0.0 {
@@ -175,12 +175,10 @@ impl TickScale {
     #[inline(always)]
     fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
-        if delay < 0 {
-            return 0;
-        }
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
         let low = ((low * self.up as u64) >> 32) as u32;
-        let delay = high.wrapping_mul(self.up).wrapping_add(low) as u64;
+        // A polynomial may be before the start by its error.
+        let delay = (high.wrapping_mul(self.up).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }
