@@ -167,19 +167,24 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.on_line((bits << 8 | 1 << 31) >> (shift & 31))
     }
 
+    /// The time, in units, by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
+    #[inline(always)]
+    pub(crate) fn direct(&self, u: f32) -> i64 {
+        let before_last = self.before_last(u.to_bits());
+        if before_last < self.plateau[1] {
+            return self.by_line(u.to_bits());
+        }
+        let (side, bits) = Self::nearer(u);
+        match self.octave(side, before_last >> 31, bits) {
+            Some((octave, place)) => octave.time(octave.offset(place)),
+            None => NO_TIME,
+        }
+    }
+
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let before_last = self.before_last(u.to_bits());
-        let time = if before_last < self.plateau[1] {
-            self.by_line(u.to_bits())
-        } else {
-            let (side, bits) = Self::nearer(u);
-            match self.octave(side, before_last >> 31, bits) {
-                Some((octave, place)) => octave.time(octave.offset(place)),
-                None => return self.searched(u),
-            }
-        };
+        let time = self.direct(u);
         // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
         // upper word, the lower one only has to say whether it is 0.
         let high = (time >> 32) as i32;
@@ -220,18 +225,6 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
-    /// The time, in units, if no search is needed.
-    #[inline(always)]
-    pub(crate) fn direct(&self, u: f32) -> Option<i64> {
-        let before_last = self.before_last(u.to_bits());
-        if before_last < self.plateau[1] {
-            return Some(self.by_line(u.to_bits()));
-        }
-        let (side, bits) = Self::nearer(u);
-        let (octave, place) = self.octave(side, before_last >> 31, bits)?;
-        octave.exists().then(|| octave.time(octave.offset(place)))
-    }
-
     /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
     pub(crate) const fn least_direct(&self, side: usize) -> f64 {
         let [near, far] = self.exposure.joins(side);
@@ -266,7 +259,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, a) = Self::count(u);
-        if a > 0.0 && self.direct(u).is_none() {
+        if a > 0.0 && self.direct(u) == NO_TIME {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
         } else {
             0

@@ -5,6 +5,7 @@ use core::fmt;
 use crate::batch;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
+use crate::octave::NO_TIME;
 use crate::pair::{Pair, rounded_sum};
 use crate::plan::Plan;
 
@@ -332,7 +333,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, u: f32) -> bool {
-        self.plan.direct(u).is_some()
+        self.plan.direct(u) != NO_TIME
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.
