@@ -1,9 +1,10 @@
 //! The exposure: a ramp, a plateau and a ramp, with one area over all three; its exact inverse, its cdf and its openness.
 //!
-//! Everything is seen from two sides. Side 0 looks from the earlier end and counts `a = u`; side 1 looks from the later end,
-//! back in time, and counts `a = 1 - u`, exact for `u >= 1/2`. From its side a fraction `a` of at most 1/2 lies on the near
-//! ramp, on the plateau, or on the far ramp, and what is sought there is never more than `a`: so an error relative to what
-//! is sought is none that `a` could see. A mirrored curve gives mirrored times.
+//! Fractions of the exposure are counted from the nearer end of the curve: from side 0, the earlier end, `a = u`; from side 1,
+//! the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near* ramp, the other
+//! one the *far* ramp. A fraction `a` of at most 1/2 lies on the near ramp, on the plateau, or on the far ramp, and what is
+//! sought there is never more than `a`. So an error relative to what is sought is as small relative to `a`. A mirrored curve
+//! gives mirrored times.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
@@ -15,7 +16,7 @@ use crate::shape::Shape;
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
 /// these keep their order.
 pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
-/// For a fraction with more bits, and to fit polynomials by.
+/// For a fraction with more bits, as ticks have them, and for the times that polynomials are fitted to.
 pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +44,8 @@ enum At {
 }
 
 impl Exposure {
-    /// The exposure of two ramps with an openness of at most `most`; errors name the first one `part`. Out of line, for every
-    /// constructor that runs to share it.
+    /// The exposure of two ramps with an openness of at most `most`. Errors call the first one `part`. Out of line, so that all
+    /// constructors that are called at run time share it.
     #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
@@ -106,7 +107,8 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends, and at which the plateau ends; 1/2 if that is all but for a [`trace`](Self::trace).
+    /// The fractions at which the near ramp ends, and at which the plateau ends. Within a [`trace`](Self::trace) of 1/2 they are
+    /// 1/2.
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
         const fn fraction(x: f64, trace: u64) -> f64 {
             let x = x / WHOLE as f64;
@@ -117,7 +119,7 @@ impl Exposure {
         [fraction(near, self.trace()), fraction(near + self.plateau.to_f64(), self.trace())]
     }
 
-    /// The same of side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; at most all ones.
+    /// The same from side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; the greatest is all ones.
     pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {
@@ -136,8 +138,9 @@ impl Exposure {
         [words(near.share, self.trace()), (!beyond).saturating_add(1)]
     }
 
-    /// How near to 1/2 a join is at 1/2, in units of 2⁻⁶⁴: but for the rounding of the fractions, and without a plateau but for
-    /// some ulp, where a polynomial of one ramp is good enough for the other.
+    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the rounding of
+    /// pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, an ulp or two, where the polynomial of one ramp
+    /// also serves the other: its error is measured an ulp beyond its range, too ([`fit`](crate::fit)).
     const fn trace(&self) -> u64 {
         if self.plateau.hi > 0.0 { 1 << 20 } else { 1 << 41 }
     }
@@ -149,15 +152,15 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
-        let beyond = a.minus_loose(near);
-        let behind = beyond.minus(self.plateau);
-        if behind.rounded() > 0.0 {
-            return Section::Ramp(side ^ 1, behind);
+        let past_near = a.minus_loose(near);
+        let past_plateau = past_near.minus(self.plateau);
+        if past_plateau.rounded() > 0.0 {
+            return Section::Ramp(side ^ 1, past_plateau);
         }
         let (time, until) = (self.plateau_start(side), self.plateau_start(side ^ 1));
         let (area, exponent) = significand(self.area);
         let unit = exponent - WHOLE_EXPONENT;
-        Section::Plateau(Moment::on_way(time, until, side == 1, beyond.times(area), unit))
+        Section::Plateau(Moment::on_way(time, until, side == 1, past_near.times(area), unit))
     }
 
     /// The moment at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
@@ -166,14 +169,14 @@ impl Exposure {
         match self.section(side, a) {
             Section::Plateau(moment) => moment,
             Section::Ramp(ramp, target) => {
-                // One address, instead of the curve's and an index, which the search would keep on the stack.
+                // One address instead of the curve's and an index, which the search would keep on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
                 ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }
     }
 
-    /// The time since a side's start at which a fraction has been collected, for a polynomial to be fitted.
+    /// The time since a side's start at which a fraction has been collected, for the fit of a polynomial.
     #[inline(never)]
     pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
         let a = Pair::from_f64(a * WHOLE as f64);
@@ -187,8 +190,8 @@ impl Exposure {
         if side == 0 { elapsed } else { -elapsed }
     }
 
-    /// What an error in time is relative to: the time itself, or, where the curve runs across time 0, the greater end; but
-    /// no more than the interval, in which ticks count.
+    /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but at most
+    /// the interval, since ticks are counted from its start.
     pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
         let (start, end) = (self.start(0) as f64, self.start(1) as f64);
         let time = if side == 0 { start + elapsed } else { end - elapsed };
@@ -207,7 +210,7 @@ impl Exposure {
     fn at(&self, t: f32) -> At {
         let [start, end] = [self.start(0), self.start(1)];
         let [open, close] = [self.plateau_start(0), self.plateau_start(1)];
-        // A plateau without length has no instant of its own: it is the ramps' that have length.
+        // An instant that is a plateau without length belongs to a ramp that has length.
         let plateau = open < close;
         if !(t >= start && t <= end) {
             At::Outside
@@ -280,7 +283,7 @@ impl Exposure {
         if nearest <= 0.0 {
             return 0.0;
         }
-        // The middle between the two `f32` around the mass, to which it is rounded.
+        // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
         let rest = (mass.hi - nearest) + mass.lo;
         let bits = nearest.to_bits();
         let next = f32::from_bits(if rest < 0.0 { bits - 1 } else { bits + 1 });
@@ -293,11 +296,11 @@ impl Exposure {
         if nearest < WHOLE { nearest / WHOLE } else { 1.0 }
     }
 
-    /// Which of two neighbours `t` has, where its mass lies so near to their middle that pairs may not tell.
+    /// Which of two neighbouring `f32` is the cdf, if the mass is so near to their middle that pairs cannot tell.
     ///
-    /// Then it is the inverse that tells, for the middle has one time: what is before that gets the lesser neighbour, all
-    /// else the greater. So the cdf never steps back, not even where next to no light falls and neighbouring times have
-    /// the same mass but for rounding. Wherever the mass is farther from the middle than `noise`, both ways agree.
+    /// The middle has exactly one time, which the inverse finds. Times before that get the lesser neighbour, all others the
+    /// greater one. So the cdf does not step back, not even where next to no light falls and neighbouring times have the same
+    /// mass except for its rounding. If the mass is farther from the middle than `noise`, both ways agree.
     #[cold]
     #[inline(never)]
     fn settled(
@@ -323,8 +326,8 @@ impl Exposure {
     }
 }
 
-/// So near to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise is
-/// 2⁻³⁰ at the most (see the text of the module `solve`).
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise
+/// is below 2⁻³⁰ (see the text of the module `solve`).
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.

@@ -30,16 +30,17 @@ impl Fractions {
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
     }
 
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in [`WHOLE`], to 2⁻⁴⁵.
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
+    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵.
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) =
             if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
-        // By words: near times a number of 96 bits, at most 2⁹⁵.
+        // Word by word: `near` times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
         let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
-        // The pulse's half is at most as much.
+        // Half of the pulse is at most as much.
         let (words, low) = if edge.is_off == (side == 0) {
             let (low, carry) = (low as u32).overflowing_add(edge.rest);
             (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)
@@ -70,8 +71,8 @@ impl Fractions {
     }
 }
 
-/// One end of a pulse: so far from the middle of its share, in units of 2⁻⁶⁴ and 2⁻⁹⁶, and on which side. A trigger is a pulse without
-/// length.
+/// One end of a pulse: half of the pulse, in units of 2⁻⁶⁴ and for the rest 2⁻⁹⁶, before or behind the middle of its share. For a
+/// trigger that is 0.
 #[derive(Clone, Copy)]
 pub(crate) struct Edge {
     half: u64,

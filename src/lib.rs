@@ -33,6 +33,7 @@ mod bezier;
 mod cubic;
 mod error;
 mod exposure;
+mod fit;
 mod fraction;
 mod moment;
 mod octave;

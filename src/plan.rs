@@ -1,28 +1,35 @@
-//! A plan: what answers most questions without a search. The plateau's line and the octaves' polynomials give the time as
-//! a 64-bit integer; it is rounded once. Both public curves are one.
+//! How one `u` is answered. The plateau's line or an octave's polynomial gives the time as a 64-bit count of units, which is
+//! rounded once. Where neither serves, a search finds it. Each of the two public curves holds one plan.
 //!
-//! The way of a `u` through [`Plan::inverse_cdf`]:
+//! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
 //!
-//! 1. On the plateau: the line `t = base + A u`, and 10.
-//! 2. The side from which `u` is counted, and how far: `a = min(u, 1 - u)`.
-//! 3. The octave of `a` ([`octave`](crate::octave)): its polynomial, and 10.
-//! 4. Else `a` as a pair ([`pair`](crate::pair)).
-//! 5. What is to be collected on which ramp ([`exposure`](crate::exposure)).
-//! 6. That ramp seen from the end that faces the side ([`ramp`](crate::ramp)).
-//! 7. The nearest of its four anchors.
-//! 8. A root as the first guess ([`seed`](crate::seed)).
-//! 9. Halley's steps, the residual in pairs, one verified step ([`solve`](crate::solve)), and the time at that place.
-//! 10. One rounding.
+//! 1. If `u` is on the plateau, the line `t = base + A u` gives the time. Go to 10.
+//! 2. The nearer end of the curve is its *side*, 0 or 1, and `a = min(u, 1 - u)` is counted from there.
+//! 3. If `a` falls into an octave with a polynomial ([`octave`]), that gives the time. Go to 10.
+//! 4. Else `a` becomes a pair of two `f32` ([`pair`](crate::pair)).
+//! 5. The ramp on which `a` is collected, and how much of it there ([`exposure`](crate::exposure)).
+//! 6. That ramp, seen from the end that faces the side ([`ramp`](crate::ramp)).
+//! 7. The nearest of four places on it from which a search may start, its *anchors*.
+//! 8. A root of the leading term there is the first guess ([`seed`](crate::seed)).
+//! 9. Halley's steps, what is then missing in pairs, and one step for that, with a proof ([`solve`](crate::solve)).
+//! 10. One rounding to `f32`.
+//!
+//! On a processor with doubles, [`batch`](crate::batch) takes the plateau's line in those, to the same bits.
+//!
+//! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's error is below
+//! half of the distance between neighbours, also where octaves meet. A search's is below a quarter of it ([`exposure`](crate::exposure)),
+//! so the order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::octave::{self, FINE, NO_TIME, Octave, Span, floor_bits};
+use crate::fit::{Span, fit};
+use crate::octave::{self, FINE, NO_TIME, Octave, floor_bits};
 use crate::pair::{Pair, exponent, fixed, power_of_two};
 use crate::ramp::WHOLE;
 use crate::shape::Shape;
 
-/// The plateau in `u` that counts 2⁻⁶⁴: its last one, and how many it has.
+/// The plateau by `u` in units of 2⁻⁶⁴: the last one, and how many there are.
 #[derive(Clone)]
 pub(crate) struct Words {
     last: u64,
@@ -32,25 +39,26 @@ pub(crate) struct Words {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
-    /// 2³² units, in which the curve's times count at most 2⁶², as a power of two.
+    /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
     scale: f32,
-    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. What is beyond the last
-    /// one is on the closing ramp.
+    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. So a `u` is on the line if
+    /// `last - u < count`, wrapping; and beyond the last one, on the closing ramp, if that is negative.
     plateau: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
-    /// For each side, the tops of its octaves by ramp ([`octave::fit`]).
+    /// For each side, the tops of its octaves by ramp ([`fit`]).
     tops: [[u8; 2]; 2],
     /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
 
-/// Does the processor have doubles? Those of 64 bits do.
+/// Does the processor have doubles? One of 64 bits does.
 pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 impl<const CELLS: usize> Plan<CELLS> {
-    /// The plan of two ramps with an openness of at most `most`; errors name the first one `part`.
+    /// The plan of two ramps with an openness of at most `most`. Errors call the first one `part`: the opening ramp, or a single
+    /// curve.
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
@@ -73,10 +81,10 @@ impl<const CELLS: usize> Plan<CELLS> {
             let masses = [Shape::new(opening).mass(), Shape::new(closing).mass()];
             base = in_units(open as f64, unit) - in_units(masses[0], unit);
             slope = in_units(close as f64, unit) + in_units(masses[1], unit) - base;
-            // Where the curve lies too far from time 0 for its unit, all is searched for.
+            // If the curve is so far from time 0 that the line has fewer than 40 bits, every `u` is searched for.
             serves = slope >> 40 != 0;
             if serves {
-                // At 1 the end is exact.
+                // 1 itself has the exact end.
                 let before_end = 1.0f32.to_bits() - 1;
                 let last = if to < before_end { to } else { before_end };
                 let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
@@ -85,9 +93,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        // That there are none to fit, the compiler sees, and leaves the code for it out.
+        // `CELLS > 0` lets the compiler leave the fitting out where there are no octaves.
         while CELLS > 0 && serves && side < 2 {
-            tops[side] = octave::fit(&exposure, unit, side, &mut octaves[side]);
+            tops[side] = fit(&exposure, unit, side, &mut octaves[side]);
             side += 1;
         }
         let scale = power_of_two(unit + 32);
@@ -117,9 +125,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         (self.base as f64 * unit, self.slope as f64 * unit, bounds)
     }
 
-    /// The side from which `u` is counted and how far, by the bits of that: what is no fraction gets those of none.
+    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those of no octave.
     ///
-    /// By integers, since a comparison of floats keeps a processor waiting; and without a branch, for the side is unpredictable.
+    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is unpredictable.
     #[inline(always)]
     fn nearer(u: f32) -> (usize, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
@@ -128,14 +136,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The same as a number, negative below 0 and above 1.
+    /// The side from which `u` is counted, and `min(u, 1 - u)`: negative or NaN for what is no fraction.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
         let late = 1.0 - u;
         if late < u { (1, late) } else { (0, u) }
     }
 
-    /// The time on the plateau, in units, at a `u` that counts 2⁻³².
+    /// The time on the plateau, in units, at a `u` in units of 2⁻³².
     #[inline(always)]
     pub(crate) fn on_line(&self, u: u32) -> i64 {
         let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
@@ -150,13 +158,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.plateau[0].wrapping_sub(bits)
     }
 
-    /// The octave of an `a` with these bits on a ramp, and its place in it. What is no fraction above 0 has none.
+    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). What is no fraction above 0 has none.
     #[inline(always)]
     fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][(ramp & 1) as usize]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // The significand in 32 bits, and for its sign what the difference of the significands borrowed from the exponents'.
+        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is in the
+        // lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and their difference.
         Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
     }
 
@@ -176,7 +185,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
         let (side, bits) = Self::nearer(u);
         match self.octave(side, before_last >> 31, bits) {
-            Some((octave, place)) => octave.time(octave.offset(place)),
+            Some((octave, position)) => octave.time(octave.offset(position)),
             None => NO_TIME,
         }
     }
@@ -185,33 +194,33 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let time = self.direct(u);
-        // The conversion of 64 bits by that of 32, which a small processor has: with 25 bits or more in the
-        // upper word, the lower one only has to say whether it is 0.
+        // A small processor converts 32 bits, not 64. If the upper word has 25 bits or more, all that counts of the lower one is
+        // whether it is 0.
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
-            return self.near_zero(u, time);
+            return self.rounded_with_care(u, time);
         }
         (high | (time as u32 != 0) as i32) as f32 * self.scale
     }
 
-    /// The same for a time near 0, or where an octave has no polynomial.
+    /// The same for a time near 0, and the search where there is none.
     #[inline(always)]
-    fn near_zero(&self, u: f32, time: i64) -> f32 {
+    fn rounded_with_care(&self, u: f32, time: i64) -> f32 {
         if time == NO_TIME {
             return self.searched(u);
         }
-        // A time of one word has the other to fill first.
+        // A time that fits one word is moved into the upper one first.
         let sign = (time >> 63) as i32;
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // As many bits up as fill the upper word; scaled in two steps, for one may not be a normal number.
+        // Moved up until the upper word is full; scaled in two steps, because one power of two may not be a normal number.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
-    /// [`inverse_cdf`](Self::inverse_cdf) by a search. At the ends, and for what is no fraction, it is the start or the end.
+    /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
     /// Out of line, so that the direct way saves no registers for it.
     #[cold]
@@ -225,7 +234,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
-    /// Above this and up to 1/2, no fraction from a side needs a search, in `f32` or in words.
+    /// No fraction from a side that is above this, up to 1/2, needs a search, as an `f32` or in units of 2⁻⁶⁴.
     pub(crate) const fn least_direct(&self, side: usize) -> f64 {
         let [near, far] = self.exposure.joins(side);
         let mut least = self.served(side, side ^ 1, 0.5);
@@ -239,9 +248,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         if least <= far { self.served(side, side, least) } else { least }
     }
 
-    /// The same of one ramp's octaves, if it holds above `least`.
+    /// The same after one ramp's octaves, if it holds above `least` without them.
     const fn served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
-        let part = octave::part(&self.exposure, side, ramp);
+        let part = octave::range(&self.exposure, side, ramp);
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let mut index = 0;
         while index < CELLS {
@@ -266,7 +275,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
-    /// The plateau in `u` that counts 2⁻⁶⁴.
+    /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> Words {
         let [near, far] = self.exposure.joins_u64();
         let last = far.saturating_sub(1);
@@ -274,7 +283,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         Words { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) } }
     }
 
-    /// The time, in units, at a `u` that counts 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
+    /// The time, in units, at a `u` in units of 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
     #[inline(always)]
     pub(crate) fn direct_u64(&self, u: u64, plateau: &Words) -> Option<i64> {
         let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
@@ -284,7 +293,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
-        // Where all of the upper word are zeros, there are no octaves any more.
+        // If the upper word is 0, `a` is below all octaves, and the index is that of none.
         let zeros = high.leading_zeros();
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31);
@@ -293,8 +302,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let below = (top << 9 >> 1) as i32 - significand as i32;
         let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
         let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
-        let place = significand as i32 | below & i32::MIN;
-        octave.exists().then(|| octave.time(octave.offset(place)))
+        let position = significand as i32 | below & i32::MIN;
+        octave.exists().then(|| octave.time(octave.offset(position)))
     }
 }
 
@@ -306,7 +315,7 @@ const fn unit_for(start: f32, end: f32) -> i32 {
     (most.to_bits() >> 52) as i32 - 1023 - 61
 }
 
-/// A time in units of `2^e`, rounded to one.
+/// A time in units of `2^e`, rounded towards 0.
 const fn in_units(time: f64, e: i32) -> i64 {
     (time * f64::from_bits(((1023 - e) as u64) << 52)) as i64
 }

@@ -4,11 +4,11 @@
 //! from 0 there to [`ONE`] at the other end. So both tails keep their relative accuracy. A side of the curve
 //! sees every ramp from the end that faces it: side 0 from the earlier end, side 1 from the later one, back in time.
 //!
-//! Near its end a series is as its leading term, and a root of that is a good first guess. So it is near a place inside where
-//! the density nearly vanishes, if the series is taken from there: what is a flat place for a search from the end, where the
-//! slope tells next to nothing, is then a root to be taken. A density `f t'` is that flat only where `f` or `t'` has a
-//! minimum, and each of these cubics and parabolas has one at most. So every search for a mass starts at one of four
-//! anchors, the one whose mass is nearest: the two ends and the two minima.
+//! Newton's method needs a good first guess where the slope of the mass, the density `f t'`, nearly vanishes. Near a ramp's end
+//! the series is nearly its leading term, and a root of that term is such a guess. Inside the ramp the density nearly vanishes
+//! only near the minimum of `f` or of `t'`. Each has one at most, being a cubic and a parabola, and with the series expanded
+//! there, the guess is again a root of its leading term. So a search for a mass starts from one of four *anchors*, the one
+//! whose mass is nearest: the two ends and the two minima.
 
 use crate::bezier::CubicBezier;
 use crate::cubic::integral;
@@ -19,7 +19,7 @@ use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ONE, Offset, solve};
 
-/// Fractions of the exposure count so many to the whole: the least `f32` and its rounding errors are then normal numbers.
+/// The whole exposure, in the unit of fractions: the least `f32`, and what rounding makes of it, are then normal numbers.
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
@@ -27,36 +27,36 @@ pub(crate) const WHOLE_EXPONENT: i32 = 104;
 /// of those of [`on_grid`], so that these keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
-/// A slope from a quarter to half of a ramp's mean `t'`.
+/// A slope from a quarter to half of a ramp's mean `t'`. If the least `t'` is below, a time may be searched for from there.
 const SLOW: f32 = 0.25 * LENGTH / ONE;
 
-/// A ramp's length in its own unit, but for a factor in [1, 2).
+/// A ramp's length in its own unit, except for a factor in [1, 2).
 const LENGTH: f32 = (1u128 << 64) as f32;
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct End {
     time: f32,
-    /// `|t(p) - time|` but for its last coefficient.
+    /// `|t(p) - time|` except for its last coefficient.
     elapsed: [Pair; 2],
-    /// The mass in between, but for its last coefficient.
+    /// The mass in between, except for its last coefficient.
     mass: [Pair; 5],
 }
 
-/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. All in it counts away from
-/// the nearer end; place and mass are negative where that is the later one.
+/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. Place, mass and powers count away
+/// from the nearer end of the ramp. Place and mass are negative if that is the later end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
     /// How far from the nearer end.
     place: f32,
     /// The mass between that end and here.
     mass: Pair,
-    /// The mass from here, by powers of the distance; the two coefficients that are missing follow from the end's.
+    /// The mass from here, by powers of the distance. The last two coefficients follow from those of the end.
     c: [f32; 4],
 }
 
 impl Flat {
-    /// No place: nothing is near to it.
+    /// No place: no mass is near to it.
     const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
 }
 
@@ -106,7 +106,7 @@ impl Ramp {
             let mut kind = 0;
             while kind < 2 {
                 let p = minima[kind];
-                // A trace beyond the middle, so that rounding hides no minimum from both sides.
+                // A little beyond the middle, so that rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
                     let (place, p) = (p as f32 * ONE, p as f32 as f64);
                     let series = Series { c: &masses[side].0, last: masses[side].1 };
@@ -181,7 +181,7 @@ impl Ramp {
             let c = self.single(side ^ 1);
             return Anchor { place: Pair::new(ONE), back: BACK, c, sought: -sought };
         }
-        // A flat place counts from its nearer end, and so do the powers.
+        // The powers count away from the flat place's nearer end. They are mirrored if the target lies the other way.
         let flat = &self.flats[nearest & 1];
         let is_other = (flat.place < 0.0) != (side == 1);
         let [.., c5, c6] = self.single(side ^ is_other as usize);
@@ -196,8 +196,8 @@ impl Ramp {
         Anchor { place, back, c, sought: sought.abs() }
     }
 
-    /// The moment at which a fraction has been collected since the end that faces a side, but for an `error`; both in
-    /// [`WHOLE`].
+    /// The moment at which a fraction has been collected since the end that faces a side. The errors are those of [`solve`], in
+    /// [`WHOLE`] as the fraction.
     #[inline(always)]
     pub(crate) fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
         let unit = unit_of_mass(self.share);
@@ -210,7 +210,7 @@ impl Ramp {
         )
     }
 
-    /// The same, seeded as a constant can.
+    /// The same with a first guess that a constant can compute.
     pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
@@ -259,7 +259,7 @@ impl Ramp {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor = Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
-        // Where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there.
+        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there and the target near.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
             let slowest = -c2 / thrice;
@@ -288,8 +288,8 @@ impl End {
     }
 }
 
-/// `t` to an ulp of the greater end of a ramp that runs across time 0, or to half of one, where `f32` lie denser than any
-/// search is exact.
+/// `t` rounded to half an ulp of the farther end of a ramp that runs across time 0: next to 0, `f32` are denser than a search is
+/// exact.
 #[inline(never)]
 fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
@@ -307,8 +307,8 @@ fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     }
 }
 
-/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁸⁰ to 2⁸¹, so that all
-/// coefficients keep their bits.
+/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁸⁰ to 2⁸¹ (a ramp with less
+/// than 2⁻¹⁵⁰ of the exposure less), so that all coefficients keep their bits.
 #[inline(always)]
 const fn unit_of_mass(share: Pair) -> f32 {
     power_of_two(up_of_mass(share))
@@ -326,13 +326,14 @@ const fn up_of_mass(share: Pair) -> i32 {
     80 - if exponent < -46 { -46 } else { exponent }
 }
 
-/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that.
+/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its length is
+/// subnormal).
 #[inline(always)]
 const fn unit_of_elapsed(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
 
-/// The coefficients by powers of the share of a ramp as those by powers of the place, times `scale`; the last one apart.
+/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`; the last one apart.
 const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> ([Pair; M], Pair) {
     const { assert!(M + 1 == N) };
     let mut scale = scale;
@@ -349,7 +350,7 @@ const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> (
     (pairs, last)
 }
 
-/// The coefficients around `x` in single precision, taken in pairs, for they may be differences of nearly the same.
+/// The coefficients around `x` in single precision, computed in pairs, because they may be differences of nearly equal numbers.
 #[cold]
 #[inline(never)]
 fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {
@@ -373,7 +374,7 @@ impl RampPoint<'_> {
         self.offset.value(self.ramp.collected(self.side)).scaled(per_unit_of_mass(self.ramp.share))
     }
 
-    /// What rounding makes of that at most: see [`Series::at`].
+    /// A bound of the rounding error of [`mass`](Self::mass): see [`Series::at`].
     pub(crate) fn noise(&self) -> f32 {
         let c = self.ramp.single(self.side);
         let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
@@ -385,7 +386,7 @@ impl RampPoint<'_> {
     fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
-        // Scaled so that the second halves of all coefficients, and what they make of the least place, keep their bits.
+        // Scaled so that the second halves of all coefficients, and their products with the least place, keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
