@@ -1,11 +1,13 @@
-//! Doubles where the processor has them: the plateau's line in doubles, for one `u` and for a slice.
+//! A faster way to the plateau's answers on a processor with doubles: its line in those, for one `u` and for a slice,
+//! to the same bits.
 
 use crate::plan::{DOUBLES, Plan};
 
 /// The plateau's line, `t = base + A u`.
 ///
-/// In doubles the time is within four roundings of the exact one, and in 64-bit units within one, so the two lie
-/// less than the slack apart; where all within the slack rounds to one `f32`, that is the answer of both.
+/// In doubles the time is within four roundings of the exact one, each at most 2⁸ units; in units it is within one. So
+/// the two are less than the slack of 2¹² units apart, and if all within the slack rounds to one `f32`, that is the
+/// answer of both.
 struct Line {
     base: f64,
     slope: f64,
@@ -19,7 +21,6 @@ impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(plan: &Plan<CELLS>) -> Self {
         let (base, slope, [from, to]) = plan.line();
-        // 2¹² units are 2⁻⁴⁸ of the greatest time.
         Self { base, slope, slack: 4096.0 * plan.unit_of_time() as f64, from, to }
     }
 
@@ -46,9 +47,9 @@ pub(crate) fn inverse_cdf<const CELLS: usize>(plan: &Plan<CELLS>, u: f32) -> f32
 
 /// [`inverse_cdf`] of each `u` into the `t` beside it.
 ///
-/// Which section a `u` falls into can't be predicted, and where a processor tries, a miss costs more than
-/// the answer. So a first pass gives every `u` the plateau's answer, several at a time, a second lists,
-/// without a branch, those for which it is none, and a third mends these.
+/// A processor cannot predict which section a `u` falls into, and a miss costs it more than the answer. So a first pass
+/// gives each `u` the plateau's answer, several at a time. A second lists, without a branch, those `u` that are not on
+/// it, and a third answers these.
 pub(crate) fn inverse_cdf_slice<const CELLS: usize>(plan: &Plan<CELLS>, u: &[f32], t: &mut [f32]) {
     if !DOUBLES {
         for (u, t) in u.iter().zip(t) {
@@ -58,7 +59,7 @@ pub(crate) fn inverse_cdf_slice<const CELLS: usize>(plan: &Plan<CELLS>, u: &[f32
     }
     const CHUNK: usize = 128;
     let line = Line::new(plan);
-    // Zipped they would divide by a chunk's length, which built for size is no constant: a panic for all the compiler knows.
+    // Not zipped, because that would divide by a chunk's length, which built for size is no constant: a possible panic.
     let mut chunks = t.chunks_mut(CHUNK);
     for u in u.chunks(CHUNK) {
         let Some(t) = chunks.next() else { return };
@@ -72,7 +73,7 @@ pub(crate) fn inverse_cdf_slice<const CELLS: usize>(plan: &Plan<CELLS>, u: &[f32
             list[listed % CHUNK] = i as u8;
             listed += 1 - *right as usize;
         }
-        // Without an index that could panic: the list has `listed` places, and each is one of both slices.
+        // `get`, because an index could panic: the compiler does not know that each number is a place of both slices.
         for i in list.iter().take(listed) {
             if let (Some(u), Some(t)) = (u.get(*i as usize), t.get_mut(*i as usize)) {
                 *t = plan.inverse_cdf(*u);

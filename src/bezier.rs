@@ -108,9 +108,9 @@ impl CubicBezier {
     /// by [`GRAZE`] of the ramp's length or of the greatest |f|.
     pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
         let t = widened(self.times());
-        // Grazing is for the inside: before its start or after its end there is no ramp. Only where rounding puts the
-        // first control time before the start, t' is -GRAZE there at worst, and time, with the second one a third in,
-        // runs as -GRAZE p + p², which dips by GRAZE²/4.
+        // Grazing is for the inside: before its start and after its end there is no ramp. But rounding may put the
+        // first control time before the start. Then t' is -GRAZE there at worst, and time, with the second control time
+        // a third in, runs as -GRAZE p + p², which dips by GRAZE²/4.
         let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
         let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
         let leaves = first < -slack || last > t[3] - t[0] + slack;
@@ -129,6 +129,5 @@ impl CubicBezier {
     }
 }
 
-/// How far, relative to its size, a bounded quantity may pass its bound by the rounding of its
-/// control points: 2⁻²².
+/// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;

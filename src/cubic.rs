@@ -1,5 +1,5 @@
-//! Cubics in `f64`, as a curve's construction needs them: extremes, the power form from a place, and what lifts a curve
-//! that grazes its bound.
+//! Cubics in `f64`, for the construction of a curve: extremes, the power form around a place, and how a curve that
+//! grazes a bound is lifted onto it.
 
 /// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
 #[derive(Clone, Copy)]
@@ -11,7 +11,7 @@ pub(crate) struct Cubic {
 impl Cubic {
     /// From its value at 0 and the differences of its Bernstein coefficients.
     pub(crate) const fn new(value: f64, [d0, d1, d2]: [f64; 3]) -> Self {
-        // The last one is the same seen from the other end, to the bit.
+        // The last one is symmetric, so it has the same bits seen from the other end.
         Self { value, c: [3.0 * d0, 3.0 * (d1 - d0), (d0 + d2) - 2.0 * d1] }
     }
 
@@ -73,8 +73,8 @@ pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
     if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
 }
 
-/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. An extremum inside that is 0 but for
-/// rounding is 0. Seen from both ends, so that the mirrored cubic has the same.
+/// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. An extremum inside that is within
+/// rounding of 0 counts as 0. Seen from both ends, so that the mirrored cubic has the same.
 pub(crate) const fn cubic_range([a, b, c, d]: [f64; 4]) -> (f64, f64) {
     let (there, back) = (range_from_start([a, b, c, d]), range_from_start([d, c, b, a]));
     (
@@ -117,7 +117,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
     (low, high)
 }
 
-/// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and a trace for the
+/// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁵⁰ for the
 /// rounding of that, each to the next `f32` above. A Bezier moves with its control values.
 pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     let (low, high) = cubic_range(widened(v));

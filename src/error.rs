@@ -24,15 +24,15 @@ pub enum CurveError {
     /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`
     /// (for a single curve: it ends before it starts).
     TimesOutOfOrder,
-    /// `open_start` and `close_end` are the same `f32`: there is no interval, or it is so short for its distance from time 0
-    /// that `f32` cannot tell its ends apart. Count times from nearer by.
+    /// `open_start` and `close_end` are the same `f32`: there is no interval, or it is so short for its distance from
+    /// time 0 that `f32` cannot tell its ends apart. Count times from a nearer origin.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
     /// Time turns back along the ramp: `t'(p) < 0` somewhere in [0, 1].
     TimeTurnsBack(Ramp),
-    /// The same by the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening), whose times are
-    /// fractions of the whole interval, not of their ramp, nor times themselves.
+    /// Time turns back because of the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening),
+    /// whose times are fractions of the whole interval, not of their ramp, nor times themselves.
     InnerTimesTurnBack(Ramp),
     /// The openness falls below 0 somewhere on the ramp.
     NegativeOpenness(Ramp),
@@ -137,7 +137,7 @@ pub enum ScheduleError {
     },
     /// More triggers than the schedule can hold.
     CapacityExceeded {
-        /// So many it can hold.
+        /// How many it can hold.
         capacity: u32,
     },
     /// Two triggers would come closer than the minimum gap. How many would keep it,
@@ -145,9 +145,9 @@ pub enum ScheduleError {
     GapTooSmall {
         /// The first trigger that comes too early, by its index.
         trigger: u32,
-        /// So many ticks it comes after the one before it.
+        /// The ticks since the trigger before it.
         gap: u32,
-        /// So many are required.
+        /// The ticks that are required.
         min_gap: u32,
     },
     /// A duty that is not above 0 and at most 1.
@@ -156,9 +156,9 @@ pub enum ScheduleError {
     PulseTooShort {
         /// The first such pulse, by its index.
         pulse: u32,
-        /// So many ticks it lasts.
+        /// The ticks that it lasts.
         length: u32,
-        /// So many are required.
+        /// The ticks that are required.
         min_pulse: u32,
     },
 }

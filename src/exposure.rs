@@ -1,10 +1,11 @@
-//! The exposure: a ramp, a plateau and a ramp, with one area over all three; its exact inverse, its cdf and its openness.
+//! The exposure: a ramp, a plateau and a ramp, with one area over all three; its exact inverse, its cdf and its
+//! openness.
 //!
-//! Fractions of the exposure are counted from the nearer end of the curve: from side 0, the earlier end, `a = u`; from side 1,
-//! the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near* ramp, the other
-//! one the *far* ramp. A fraction `a` of at most 1/2 lies on the near ramp, on the plateau, or on the far ramp, and what is
-//! sought there is never more than `a`. So an error relative to what is sought is as small relative to `a`. A mirrored curve
-//! gives mirrored times.
+//! Fractions of the exposure are counted from the nearer end of the curve: from side 0, the earlier end, `a = u`; from
+//! side 1, the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near*
+//! ramp, the other one the *far* ramp. A fraction `a` of at most 1/2 lies on the near ramp, on the plateau, or on the
+//! far ramp, and what is sought there is never more than `a`. So an error relative to what is sought is as small
+//! relative to `a`. A mirrored curve gives mirrored times.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
@@ -13,8 +14,8 @@ use crate::pair::{Pair, power_of_two, rounded_sum};
 use crate::ramp::{Ramp, RampPoint, WHOLE, WHOLE_EXPONENT};
 use crate::shape::Shape;
 
-/// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so that
-/// these keep their order.
+/// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
+/// that these keep their order.
 pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
 /// For a fraction with more bits, as ticks have them, and for the times that polynomials are fitted to.
 pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
@@ -44,8 +45,8 @@ enum At {
 }
 
 impl Exposure {
-    /// The exposure of two ramps with an openness of at most `most`. Errors call the first one `part`. Out of line, so that all
-    /// constructors that are called at run time share it.
+    /// The exposure of two ramps with an openness of at most `most`. Errors call the first one `part`. Out of line, so
+    /// that all constructors that are called at run time share it.
     #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
@@ -107,8 +108,8 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends, and at which the plateau ends. Within a [`trace`](Self::trace) of 1/2 they are
-    /// 1/2.
+    /// The fractions at which the near ramp ends, and at which the plateau ends. Within a [`trace`](Self::trace) of 1/2
+    /// they are 1/2.
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
         const fn fraction(x: f64, trace: u64) -> f64 {
             let x = x / WHOLE as f64;
@@ -138,9 +139,9 @@ impl Exposure {
         [words(near.share, self.trace()), (!beyond).saturating_add(1)]
     }
 
-    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the rounding of
-    /// pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, an ulp or two, where the polynomial of one ramp
-    /// also serves the other: its error is measured an ulp beyond its range, too ([`fit`](crate::fit)).
+    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
+    /// rounding of pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, four ulp: the polynomial of
+    /// the near ramp serves it, too, and its error is measured at 1/2 ([`fit`](crate::fit)).
     const fn trace(&self) -> u64 {
         if self.plateau.hi > 0.0 { 1 << 20 } else { 1 << 41 }
     }
@@ -190,8 +191,8 @@ impl Exposure {
         if side == 0 { elapsed } else { -elapsed }
     }
 
-    /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but at most
-    /// the interval, since ticks are counted from its start.
+    /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
+    /// at most the interval, since ticks are counted from its start.
     pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
         let (start, end) = (self.start(0) as f64, self.start(1) as f64);
         let time = if side == 0 { start + elapsed } else { end - elapsed };
@@ -298,9 +299,10 @@ impl Exposure {
 
     /// Which of two neighbouring `f32` is the cdf, if the mass is so near to their middle that pairs cannot tell.
     ///
-    /// The middle has exactly one time, which the inverse finds. Times before that get the lesser neighbour, all others the
-    /// greater one. So the cdf does not step back, not even where next to no light falls and neighbouring times have the same
-    /// mass except for its rounding. If the mass is farther from the middle than `noise`, both ways agree.
+    /// The middle has exactly one time, which the inverse finds. Times before that get the lesser neighbour, all others
+    /// the greater one. So the cdf does not step back, not even where next to no light falls and neighbouring times
+    /// have the same mass except for its rounding. If the mass is farther from the middle than `noise`, both ways
+    /// agree.
     #[cold]
     #[inline(never)]
     fn settled(
@@ -326,8 +328,8 @@ impl Exposure {
     }
 }
 
-/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: their noise
-/// is below 2⁻³⁰ (see the text of the module `solve`).
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is:
+/// their noise is below 2⁻³⁰ (see the text of the module `solve`).
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.

@@ -1,5 +1,5 @@
-//! How the octaves of a side are fitted, when a curve is built: the polynomial through the exact times at a few nodes, which
-//! is kept if it keeps the promise.
+//! How the octaves of a side are fitted, when a curve is built: the polynomial through the exact times at a few nodes,
+//! which is kept if it keeps the promise.
 
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, FINE, FINER, LEAST, Octave, STEP, below, floor_bits, range};
@@ -34,21 +34,21 @@ const PEAKS: [f64; DEGREE + 2] = [
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
 const FORWARD_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
-/// The error in `u` that it may have, in ulp. Neighbouring `u` are an ulp apart, so below 1/2 their times cannot change places,
-/// also not where one octave follows another.
+/// The error in `u` that it may have, in ulp. Neighbouring `u` are an ulp apart, so below 1/2 their times cannot change
+/// places, also not where one octave follows another.
 const ULP_ERROR: f64 = 0.45;
 /// What the rounding of products and of the middle adds at most, in the unit of the coefficients.
 const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
-/// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one polynomial. If the
-/// tops are moved out, the last part of the ramp has a polynomial of its own. The first number is taken that leaves no octave
-/// without a polynomial.
+/// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
+/// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
+/// taken that leaves no octave without a polynomial.
 const STRETCHES: [u32; 4] = [0, 5, 6, 4];
 
-/// Fits the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`STEP`]s above [`LEAST`]. The far
-/// ramp's octaves come first, and the near ramp's top is raised by one octave for each of them.
+/// Fits the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`STEP`]s above [`LEAST`].
+/// The far ramp's octaves come first, and the near ramp's top is raised by one octave for each of them.
 ///
 /// Out of line, and with a slice, so that it is the same for any number of octaves.
 #[inline(never)]
@@ -62,8 +62,8 @@ pub(crate) const fn fit(
     while i < 2 {
         let ramp = side ^ 1 ^ i;
         let range = range(exposure, side, ramp);
-        // A ramp without octaves has a top, too: fractions of the plateau that are not on its line are looked up under it, and have
-        // to find octaves without a polynomial.
+        // A ramp without octaves has a top, too: fractions of the plateau that are not on its line are looked up under
+        // it, and have to find octaves without a polynomial.
         let far = exposure.joins(side)[1];
         let hidden = if far < FINE as f64 { far } else { FINE as f64 };
         let (mut highest, mut end, mut stretch) = (stretched([0.0, hidden], 0), first, 0);
@@ -92,7 +92,8 @@ pub(crate) const fn fit(
 const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
     let end = floor_bits(to);
     let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
-    // If the range began within some ulp of an octave's end, rounding might put its first fraction into the octave below.
+    // If the range began within some ulp of an octave's end, rounding might put its first fraction into the octave
+    // below.
     let beyond = top.wrapping_sub(floor_bits(from));
     if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }
 }
@@ -100,8 +101,9 @@ const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
 impl Octave {
     /// Is the error where it peaks small enough in time, and in `u`? Measured through the arithmetic that will run.
     ///
-    /// A polynomial through the values at Chebyshev's nodes has an error much like Chebyshev's polynomial, whose extrema the
-    /// peaks are. Between them it is not bounded by an argument: the sweeps over every `f32` have seen 0.35 ulp of `u`.
+    /// A polynomial through the values at Chebyshev's nodes has an error much like Chebyshev's polynomial, whose
+    /// extrema the peaks are. Between them it is not bounded by an argument: the sweeps over every `f32` have seen 0.35
+    /// ulp of `u`.
     const fn keeps_promise(
         &self,
         exposure: &Exposure,
@@ -117,7 +119,8 @@ impl Octave {
             // The rounding of the exact time in `f64` counts, too.
             let error = error.abs() + exact / (1u64 << 51) as f64;
             let size = exposure.size_of_time(span.side, exact);
-            // The time that an ulp of u takes: at the ends the lesser of both sides, since time may run slower beyond a join.
+            // The time that an ulp of u takes: at the ends the lesser of both sides, since time may run slower beyond a
+            // join.
             let ulp = self.slope(x) * scale * span.ulp() / span.width;
             let beyond = if i == 0 {
                 exact - exposure.elapsed(span.side, span.middle - span.half - span.ulp())
@@ -273,8 +276,8 @@ impl Span {
     }
 }
 
-/// The divided differences of the next order. Out of line, as the next function, because loops that the compiler unrolls in
-/// each place cost kilobytes.
+/// The divided differences of the next order. Out of line, as the next function, because loops that the compiler
+/// unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
     let mut i = 0;

@@ -23,7 +23,8 @@ impl Fractions {
         Self { n, share, rest: ((remainder * share) >> 31) as u32 }
     }
 
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of these.
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of
+    /// these.
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         let middle = self.share.wrapping_mul(odd as u64);
@@ -71,8 +72,8 @@ impl Fractions {
     }
 }
 
-/// One end of a pulse: half of the pulse, in units of 2⁻⁶⁴ and for the rest 2⁻⁹⁶, before or behind the middle of its share. For a
-/// trigger that is 0.
+/// One end of a pulse: half of the pulse, in units of 2⁻⁶⁴ and for the rest 2⁻⁹⁶, before or behind the middle of its
+/// share. For a trigger that is 0.
 #[derive(Clone, Copy)]
 pub(crate) struct Edge {
     half: u64,

@@ -1,10 +1,10 @@
 //! How a camera's shutter opens, as a probability density: an opening cubic Bezier, a fully open plateau, a closing
 //! cubic Bezier, integrated in closed form and inverted to the last bit or so, in `f32` and without allocation.
 //!
-//! [`ShutterCurve`] is the shutter: [`inverse_cdf`](ShutterCurve::inverse_cdf) gives the time by which a fraction of the
-//! exposure has been collected, [`trigger_ticks`](ShutterCurve::trigger_ticks) the ticks of a timer at which pulses get
-//! equal shares of it. [`BezierPdf`] is one [`CubicBezier`] alone. Both are built by `const fn`s, and [`valid`] turns a wrong
-//! curve in a `static` into a compile error.
+//! [`ShutterCurve`] is the shutter: [`inverse_cdf`](ShutterCurve::inverse_cdf) gives the time by which a fraction of
+//! the exposure has been collected, [`trigger_ticks`](ShutterCurve::trigger_ticks) the ticks of a timer at which pulses
+//! get equal shares of it. [`BezierPdf`] is one [`CubicBezier`] alone. Both are built by `const fn`s, and [`valid`]
+//! turns a wrong curve in a `static` into a compile error.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, valid};
@@ -28,6 +28,11 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
+// To read in this order: two `f32` as one number, `pair`; polynomials of these, `series`; where such a polynomial
+// reaches a target, `solve` and its first guess, `seed`. One Bezier: `bezier`, `cubic`, `shape`; seen from either end,
+// `ramp`; a time as it is found, `moment`. Two ramps and a plateau, `exposure`. Without a search: `octave`, `fit`. All
+// of it together is a `plan`, which lists the steps of one answer; `batch` shortens them on large processors. The
+// public types stand on that: `shutter`, `pdf`, `schedule` (with `fraction` and `ticks`), `pulse`, `error`.
 mod batch;
 mod bezier;
 mod cubic;

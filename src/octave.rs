@@ -1,12 +1,13 @@
 //! The direct way: an octave of `u` as a polynomial that gives the time without a search.
 //!
-//! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower towards
-//! the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in each. Each ramp has
-//! octaves of its own. They are powers of two apart from its *top*, which is the fraction at which the ramp ends, or somewhat
-//! more. So no octave holds parts of two ramps, and the plateau between them is answered by its line.
+//! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower
+//! towards the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in
+//! each. Each ramp has octaves of its own. They are powers of two apart from its *top*, which is the fraction at which
+//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, and the plateau between them is answered by
+//! its line.
 //!
-//! How many octaves `a` is below a top tells the difference of the bits of both `f32`, since the exponent is the upper part of
-//! them. The offset within the octave is exact: the significand of `a` minus that of the octave's middle.
+//! How many octaves `a` is below a top tells the difference of the bits of both `f32`, since the exponent is the upper
+//! part of them. The offset within the octave is exact: the significand of `a` minus that of the octave's middle.
 
 use crate::exposure::Exposure;
 
@@ -17,15 +18,15 @@ pub(crate) struct Octave {
     pub(crate) middle: i64,
     /// A power of two, or minus that from the later side; 0 where there is no polynomial.
     pub(crate) factor: i32,
-    /// The significand from which `x` is counted, doubled. Its lowest 5 bits are a shift instead: `x` is the difference times
-    /// 2 to that.
+    /// The significand from which `x` is counted, doubled. Its lowest 5 bits are a shift instead: `x` is the difference
+    /// times 2 to that.
     pub(crate) center: u32,
     /// `P(x) = c[7] x + c[6] x² + ...`: in the order in which Horner's rule needs them.
     pub(crate) c: [i32; DEGREE],
 }
 
-/// The time, in units, that stands for none: that of an octave without a polynomial. (Where a polynomial gives this very
-/// time, the search that follows gives the same answer.)
+/// The time, in units, that stands for none: that of an octave without a polynomial. (Where a polynomial gives this
+/// very time, the search that follows gives the same answer.)
 pub(crate) const NO_TIME: i64 = 1;
 
 pub(crate) const DEGREE: usize = 8;
@@ -54,8 +55,8 @@ pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64
     if ramp != side {
         return [far, 0.5];
     }
-    // If the near ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it for a part
-    // of this ramp. So this ramp gets no octaves.
+    // If the near ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it for
+    // a part of this ramp. So this ramp gets no octaves.
     let is_hidden = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if is_hidden { 0.0 } else { to }]
@@ -77,9 +78,9 @@ impl Octave {
 
     /// The `x` of a position, in 2⁻³².
     ///
-    /// An octave holds the end of one binade and the start of the next one. In the upper binade a position is how far the
-    /// significand, in 32 bits, is above 2³¹. In the lower one it is how far it is below 2³², negative, and counts half as much.
-    /// So the upper one is doubled.
+    /// An octave holds the end of one binade and the start of the next one. In the upper binade a position is how far
+    /// the significand, in 32 bits, is above 2³¹. In the lower one it is how far it is below 2³², negative, and counts
+    /// half as much. So the upper one is doubled.
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         let ahead = position & !(position >> 31);

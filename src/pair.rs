@@ -1,8 +1,9 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
 //! The second number is at most a few ulp of the first. The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
-//! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good as
-//! each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to that.
+//! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good
+//! as each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to
+//! that.
 
 /// `hi + lo`
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +56,7 @@ impl Pair {
         self.plus(other.negated())
     }
 
-    /// `self - other`, as a sum whose second number may be the greater where the two are nearly the same.
+    /// `self - other`, whose second number may be the greater one if the two are nearly equal.
     #[inline(always)]
     pub(crate) const fn minus_loose(self, other: Self) -> Self {
         let Self { hi, lo } = Self::sum(self.hi, -other.hi);
@@ -122,8 +123,8 @@ impl Pair {
     }
 }
 
-/// `-x` if `sign` is the sign bit, `x` if it is 0: without a branch, which would double what follows, and without a product,
-/// which is dear where there is no FPU.
+/// `-x` if `sign` is the sign bit, `x` if it is 0: without a branch, which would double the code that follows, and
+/// without a product, which is slow without an FPU.
 #[inline(always)]
 pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {
     f32::from_bits(x.to_bits() ^ sign)
@@ -183,24 +184,25 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let hi = way.hi * first * second;
     let sum = Pair::sum(base, hi);
     let rest = sum.lo + way.lo * first * second;
-    // Less may be subnormal, or have a subnormal second half; and what is midway between two `f32` is a power of two from
-    // either, perhaps only by rounding.
+    // Less may be subnormal, or have a subnormal second half. And a sum midway between two `f32` has a power of two as
+    // its rest; so may others by rounding.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
         return careful_sum(base, way, first, second);
     }
     sum.hi + rest
 }
 
-/// `base + way first second`, where it takes more care.
+/// `base + way first second`, where rounding takes more care.
 #[cold]
 #[inline(never)]
 const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
-    // In a greater unit, where it is small, all are normal numbers.
+    // If it is small, a greater unit makes all of them normal numbers.
     let is_small = base.abs() + (way.hi * first * second).abs() < power_of_two(-78);
     let up = if is_small { 48 } else { 0 };
     let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    // A number whose last place is that of the least `f32` has what will be subnormal rounded to that place.
+    // A sum that will be subnormal is rounded to the last place of the least `f32` by adding a number with that last
+    // place.
     let (rough, least) = (base + hi, power_of_two(up - 126));
     let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
     let near = Pair::sum(base, hi);
@@ -208,7 +210,8 @@ const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
 }
 
-/// `a + b`, or of its two neighbours the one whose last bit is set: to round that once more is to round once.
+/// `a + b` rounded to odd: if it is not exact, the neighbour whose last bit is set. To round that once more rounds once
+/// in all.
 #[inline(always)]
 const fn odd_sum(a: f32, b: f32) -> f32 {
     let sum = Pair::sum(a, b);

@@ -7,8 +7,8 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp};
 use crate::plan::Plan;
 
-/// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`, and any unit of time, the same
-/// for what goes in and what comes out.
+/// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`, and any unit of time, the
+/// same for what goes in and what comes out.
 ///
 /// `cdf(p) = K ∫ f t' dp` and `K = 1 / ∫₀¹ f t' dp`, in closed form.
 ///

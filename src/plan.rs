@@ -1,5 +1,5 @@
-//! How one `u` is answered. The plateau's line or an octave's polynomial gives the time as a 64-bit count of units, which is
-//! rounded once. Where neither serves, a search finds it. Each of the two public curves holds one plan.
+//! How one `u` is answered. The plateau's line or an octave's polynomial gives the time as a 64-bit count of units,
+//! which is rounded once. Where neither serves, a search finds it. Each of the two public curves holds one plan.
 //!
 //! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
 //!
@@ -16,9 +16,9 @@
 //!
 //! On a processor with doubles, [`batch`](crate::batch) takes the plateau's line in those, to the same bits.
 //!
-//! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's error is below
-//! half of the distance between neighbours, also where octaves meet. A search's is below a quarter of it ([`exposure`](crate::exposure)),
-//! so the order holds where a search follows a polynomial or the line.
+//! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
+//! error is below half of the distance between neighbours, also where octaves meet. A search's is below a quarter of it
+//! ([`exposure`](crate::exposure)), so the order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
@@ -41,8 +41,8 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
     scale: f32,
-    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. So a `u` is on the line if
-    /// `last - u < count`, wrapping; and beyond the last one, on the closing ramp, if that is negative.
+    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. So a `u` is on
+    /// the line if `last - u < count`, wrapping; and beyond the last one, on the closing ramp, if that is negative.
     plateau: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
@@ -57,8 +57,8 @@ pub(crate) struct Plan<const CELLS: usize> {
 pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 impl<const CELLS: usize> Plan<CELLS> {
-    /// The plan of two ramps with an openness of at most `most`. Errors call the first one `part`: the opening ramp, or a single
-    /// curve.
+    /// The plan of two ramps with an openness of at most `most`. Errors call the first one `part`: the opening ramp, or
+    /// a single curve.
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
@@ -125,9 +125,11 @@ impl<const CELLS: usize> Plan<CELLS> {
         (self.base as f64 * unit, self.slope as f64 * unit, bounds)
     }
 
-    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those of no octave.
+    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those
+    /// of no octave.
     ///
-    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is unpredictable.
+    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
+    /// unpredictable.
     #[inline(always)]
     fn nearer(u: f32) -> (usize, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
@@ -151,21 +153,23 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// How far the bits of a `u` on the plateau's line are before those of the last one; at least the plateau's count for all
-    /// others, and with the sign bit for those beyond.
+    /// How far the bits of a `u` on the plateau's line are before those of the last one; at least the plateau's count
+    /// for all others, and with the sign bit for those beyond.
     #[inline(always)]
     fn before_last(&self, bits: u32) -> u32 {
         self.plateau[0].wrapping_sub(bits)
     }
 
-    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). What is no fraction above 0 has none.
+    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). What is no fraction above
+    /// 0 has none.
     #[inline(always)]
     fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][(ramp & 1) as usize]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is in the
-        // lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and their difference.
+        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is
+        // in the lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and
+        // their difference.
         Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
     }
 
@@ -194,8 +198,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let time = self.direct(u);
-        // A small processor converts 32 bits, not 64. If the upper word has 25 bits or more, all that counts of the lower one is
-        // whether it is 0.
+        // A small processor converts 32 bits, not 64. If the upper word has 25 bits or more, all that counts of the
+        // lower one is whether it is 0.
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
             return self.rounded_with_care(u, time);
@@ -214,7 +218,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // Moved up until the upper word is full; scaled in two steps, because one power of two may not be a normal number.
+        // Moved up until the upper word is full; scaled in two steps, because one power of two may not be a normal
+        // number.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale

@@ -9,13 +9,14 @@ use crate::shutter::ShutterCurve;
 use crate::ticks::Ticks;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
-    /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Through the shutter each
-    /// lets the same dose, `duty · A / n`: it takes the part `duty`, above 0 and at most 1, out of the middle of its share of the
-    /// exposure, from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`. At 1 they touch; they never overlap.
+    /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Through the
+    /// shutter each lets the same dose, `duty · A / n`: it takes the part `duty`, above 0 and at most 1, out of the
+    /// middle of its share of the exposure, from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`. At 1
+    /// they touch; they never overlap.
     ///
-    /// Ticks are counted and rounded as [`trigger_ticks`](Self::trigger_ticks) does it, with the same accuracy, and `tick_hz` is
-    /// the number of them in one unit of the curve's time. A pulse that is shorter than a tick may have its on and its off in the
-    /// same one.
+    /// Ticks are counted and rounded as [`trigger_ticks`](Self::trigger_ticks) does it, with the same accuracy, and
+    /// `tick_hz` is the number of them in one unit of the curve's time. A pulse that is shorter than a tick may have
+    /// its on and its off in the same one.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -43,8 +44,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         Ok(PulseTicks { frame, left: 0..n })
     }
 
-    /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of [`pulse_ticks`](Self::pulse_ticks), none shorter
-    /// than `min_pulse` ticks and none sooner than `min_gap` ticks after the one before has gone off.
+    /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of
+    /// [`pulse_ticks`](Self::pulse_ticks), none shorter than `min_pulse` ticks and none sooner than `min_gap` ticks
+    /// after the one before has gone off.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
@@ -57,8 +59,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short, more places than `u32::MAX`, and those of [`pulse_ticks`](Self::pulse_ticks). What the slice
-    /// then holds is no schedule.
+    /// A pulse or a gap that is too short, more places than `u32::MAX`, and those of [`pulse_ticks`](Self::pulse_ticks). The slice
+    /// then holds a part of the schedule, and else what it held.
     pub fn pulses_into(
         &self,
         pulses: &mut [(u32, u32)],
@@ -90,8 +92,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 }
 
-/// The ticks at which a frame's pulses go on and off, of [`ShutterCurve::pulse_ticks`]: any of them in constant time, from either
-/// end.
+/// The ticks at which a frame's pulses go on and off, of [`ShutterCurve::pulse_ticks`]: any of them in constant time,
+/// from either end.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const CELLS: usize = 8> {
     frame: Pulses<'a, CELLS>,
@@ -114,9 +116,9 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
 
     /// The ticks of pulse `i`.
     ///
-    /// Ends that are half a share apart or more are in order, as triggers are. Those that are closer, or at one fraction, may not
-    /// be: a search is exact to its error, and 1/2 is counted from either side. Then the later end takes the tick of the earlier
-    /// one, which is within the promise for both.
+    /// Ends that are half a share apart or more are in order, as triggers are. Those that are closer, or at one
+    /// fraction, may not be: a search is exact to its error, and 1/2 is counted from either side. Then the later end
+    /// takes the tick of the earlier one, which is within the promise for both.
     fn at(&self, i: u32) -> (u32, u32) {
         let [on, off] = &self.edges;
         let mut start = self.ticks.edge(i, on);

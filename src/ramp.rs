@@ -1,14 +1,14 @@
 //! A ramp: one Bezier, seen from either end, and the anchors from which a search on it starts.
 //!
-//! From an end, the time passed and the mass collected are polynomials without a constant term in the place, which counts
-//! from 0 there to [`ONE`] at the other end. So both tails keep their relative accuracy. A side of the curve
+//! From an end, the time passed and the mass collected are polynomials without a constant term in the place, which
+//! counts from 0 there to [`ONE`] at the other end. So both tails keep their relative accuracy. A side of the curve
 //! sees every ramp from the end that faces it: side 0 from the earlier end, side 1 from the later one, back in time.
 //!
-//! Newton's method needs a good first guess where the slope of the mass, the density `f t'`, nearly vanishes. Near a ramp's end
-//! the series is nearly its leading term, and a root of that term is such a guess. Inside the ramp the density nearly vanishes
-//! only near the minimum of `f` or of `t'`. Each has one at most, being a cubic and a parabola, and with the series expanded
-//! there, the guess is again a root of its leading term. So a search for a mass starts from one of four *anchors*, the one
-//! whose mass is nearest: the two ends and the two minima.
+//! Newton's method needs a good first guess where the slope of the mass, the density `f t'`, nearly vanishes. Near a
+//! ramp's end the series is nearly its leading term, and a root of that term is such a guess. Inside the ramp the
+//! density nearly vanishes only near the minimum of `f` or of `t'`. Each has one at most, being a cubic and a parabola,
+//! and with the series expanded there, the guess is again a root of its leading term. So a search for a mass starts
+//! from one of four *anchors*, the one whose mass is nearest: the two ends and the two minima.
 
 use crate::bezier::CubicBezier;
 use crate::cubic::integral;
@@ -19,15 +19,17 @@ use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ONE, Offset, solve};
 
-/// The whole exposure, in the unit of fractions: the least `f32`, and what rounding makes of it, are then normal numbers.
+/// The whole exposure, in the unit of fractions: the least `f32`, and what rounding makes of it, are then normal
+/// numbers.
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
-/// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between neighbours, also
-/// of those of [`on_grid`], so that these keep their order.
+/// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between
+/// neighbours, also of those of [`on_grid`], so that these keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
-/// A slope from a quarter to half of a ramp's mean `t'`. If the least `t'` is below, a time may be searched for from there.
+/// A slope from a quarter to half of a ramp's mean `t'`. If the least `t'` is below, a time may be searched for from
+/// there.
 const SLOW: f32 = 0.25 * LENGTH / ONE;
 
 /// A ramp's length in its own unit, except for a factor in [1, 2).
@@ -43,8 +45,8 @@ struct End {
     mass: [Pair; 5],
 }
 
-/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. Place, mass and powers count away
-/// from the nearer end of the ramp. Place and mass are negative if that is the later end.
+/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. Place, mass and powers
+/// count away from the nearer end of the ramp. Place and mass are negative if that is the later end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
     /// How far from the nearer end.
@@ -196,8 +198,8 @@ impl Ramp {
         Anchor { place, back, c, sought: sought.abs() }
     }
 
-    /// The moment at which a fraction has been collected since the end that faces a side. The errors are those of [`solve`], in
-    /// [`WHOLE`] as the fraction.
+    /// The moment at which a fraction has been collected since the end that faces a side. The errors are those of
+    /// [`solve`], in [`WHOLE`] as the fraction.
     #[inline(always)]
     pub(crate) fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
         let unit = unit_of_mass(self.share);
@@ -288,8 +290,8 @@ impl End {
     }
 }
 
-/// `t` rounded to half an ulp of the farther end of a ramp that runs across time 0: next to 0, `f32` are denser than a search is
-/// exact.
+/// `t` rounded to half an ulp of the farther end of a ramp that runs across time 0: next to 0, `f32` are denser than a
+/// search is exact.
 #[inline(never)]
 fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
@@ -307,8 +309,8 @@ fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     }
 }
 
-/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁸⁰ to 2⁸¹ (a ramp with less
-/// than 2⁻¹⁵⁰ of the exposure less), so that all coefficients keep their bits.
+/// The factor from [`WHOLE`] to a ramp's own unit of mass, a power of two: in it the ramp has from 2⁸⁰ to 2⁸¹ (0 if it
+/// is dark), so that all coefficients keep their bits.
 #[inline(always)]
 const fn unit_of_mass(share: Pair) -> f32 {
     power_of_two(up_of_mass(share))
@@ -326,14 +328,15 @@ const fn up_of_mass(share: Pair) -> i32 {
     80 - if exponent < -46 { -46 } else { exponent }
 }
 
-/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its length is
-/// subnormal).
+/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its
+/// length is subnormal).
 #[inline(always)]
 const fn unit_of_elapsed(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
 
-/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`; the last one apart.
+/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`; the last one
+/// apart.
 const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> ([Pair; M], Pair) {
     const { assert!(M + 1 == N) };
     let mut scale = scale;
@@ -350,7 +353,8 @@ const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> (
     (pairs, last)
 }
 
-/// The coefficients around `x` in single precision, computed in pairs, because they may be differences of nearly equal numbers.
+/// The coefficients around `x` in single precision, computed in pairs, because they may be differences of nearly equal
+/// numbers.
 #[cold]
 #[inline(never)]
 fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {
@@ -386,7 +390,8 @@ impl RampPoint<'_> {
     fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
-        // Scaled so that the second halves of all coefficients, and their products with the least place, keep their bits.
+        // Scaled so that the second halves of all coefficients, and their products with the least place, keep their
+        // bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];

@@ -27,10 +27,11 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         TriggerTimes { frame: Times { curve: self, fractions: Fractions::new(n) }, left: 0..n }
     }
 
-    /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the openness is
-    /// at most 1 (a curve whose control points pass 1 by their rounding may miss the gap by 2⁻²² of it). A curve that never
-    /// fully opens may take more. The gap is in the curve's unit; [`most_triggers`](Self::most_triggers) takes one in ticks.
-    /// `u32::MAX` where nothing is required: for a gap of 0, a negative one, or NaN.
+    /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the
+    /// openness is at most 1 (a curve whose control points pass 1 by their rounding may miss the gap by 2⁻²² of it). A
+    /// curve that never fully opens may take more. The gap is in the curve's unit;
+    /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required: for a gap of 0,
+    /// a negative one, or NaN.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -43,19 +44,21 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
         }
-        // The area is known to about 2⁻⁵¹, so a quotient so near to the next integer counts as that. The cast rounds down, and
-        // saturates.
+        // The area is known to about 2⁻⁵¹, so a quotient so near to the next integer counts as that. The cast rounds
+        // down, and saturates.
         let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
         let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
     }
 
-    /// Each trigger of a frame of up to so many costs at most the worst direct answer: it is placed by a polynomial or by the
-    /// plateau's line, never by a search. This holds for [`trigger_times`](Self::trigger_times), and for
-    /// [`trigger_ticks`](Self::trigger_ticks) on intervals of up to 2²⁴ ticks. The README has both costs in cycles.
+    /// A number such that in a frame of up to so many triggers each is placed by a polynomial or by the plateau's line,
+    /// none by a search. So each costs at most the worst direct answer. This holds for
+    /// [`trigger_times`](Self::trigger_times), and for [`trigger_ticks`](Self::trigger_ticks) on intervals of up to 2²⁴
+    /// ticks. The README has both costs in cycles.
     ///
-    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more. 0 says that there is no such
-    /// frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too difficult for polynomials.
+    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more. 0 says that there is no
+    /// such frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too difficult for
+    /// polynomials.
     ///
     /// Being constant, it makes a deadline that the compiler checks:
     ///
@@ -78,18 +81,18 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     pub const fn direct_triggers(&self) -> u32 {
         let least = [self.plan.least_direct(0), self.plan.least_direct(1)];
         let least = if least[0] > least[1] { least[0] } else { least[1] };
-        // The first and the last trigger come nearest to the ends: 1/2n away, in units of 2⁻⁶⁴, and as `f32` 2⁻²⁴ less.
-        // It saturates, so that the compiler sees that it is not 0.
+        // The first and the last trigger come nearest to the ends, to 1/2n. In units of 2⁻⁶⁴, and 2⁻²⁴ more for the
+        // rounding of `f32`. Saturating, so that the compiler sees that the divisor is not 0.
         let least = ((least * 18446744073709551616.0) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / least;
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }
 
-    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start); never a step back. Add the
-    /// timer's own base with `wrapping_add`.
+    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start); never a step back. Add
+    /// the timer's own base with `wrapping_add`.
     ///
-    /// `tick_hz` is the number of ticks in one unit of the curve's time: for a curve in seconds the timer's rate in Hz, for a
-    /// curve in ms a thousandth of that. No error can tell a rate that was meant for another unit.
+    /// `tick_hz` is the number of ticks in one unit of the curve's time: for a curve in seconds the timer's rate in Hz,
+    /// for a curve in ms a thousandth of that. No error can tell a rate that was meant for another unit.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -103,10 +106,10 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most
-    /// 3/4 tick from that, for intervals of any length up to 2³¹ ticks: above 2²⁴, the direct polynomials are
-    /// left aside for the solver, which places to a thousandth of a tick. Only where the openness touches 0 between the
-    /// ends, so that many times have next to the same exposure, it is this that is kept: to 2⁻³⁰ by proof, to 2⁻³⁶ in all tests.
+    /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most 3/4 tick from
+    /// that, for intervals of any length up to 2³¹ ticks: above 2²⁴, triggers are searched for, and placed to a
+    /// thousandth of a tick. If the openness touches 0 between the ends, many times have nearly the same exposure.
+    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ by proof, to 2⁻³⁶ in all tests.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
@@ -118,8 +121,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         Ok(TriggerTicks { frame: Ticks::new(&self.plan, n, tick_hz)?, left: 0..n })
     }
 
-    /// A checked schedule: as many triggers as `ticks` has places, at the ticks of [`trigger_ticks`](Self::trigger_ticks), no
-    /// two closer than `min_gap` ticks. `tick_hz` counts ticks in one unit of the curve's time, as there.
+    /// A checked schedule: as many triggers as `ticks` has places, at the ticks of
+    /// [`trigger_ticks`](Self::trigger_ticks), no two closer than `min_gap` ticks. `tick_hz` counts ticks in one unit
+    /// of the curve's time, as there.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
@@ -135,8 +139,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     ///
     /// # Errors
-    /// A gap not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). What the slice then
-    /// holds is no schedule.
+    /// A gap that is not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). The slice then
+    /// holds a part of the schedule, and else what it held.
     pub fn schedule_into(
         &self,
         ticks: &mut [u32],
@@ -154,7 +158,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
                 return Err(frame.too_close(i, min_gap));
             }
             *place = tick;
-            // What is beyond 32 bits is beyond all ticks.
+            // A sum beyond 32 bits is beyond all ticks.
             earliest = tick.saturating_add(min_gap);
         }
         Ok(())
@@ -188,12 +192,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         Ok(schedule)
     }
 
-    /// As many of `wanted` triggers as keep a gap of `min_gap` ticks: all of them, or so many that keep it while one more does
-    /// not; at least 1, unless none are wanted. `tick_hz` counts ticks in one unit of the curve's time.
+    /// As many of `wanted` triggers as keep a gap of `min_gap` ticks: all of them, or so many that keep it while one
+    /// more does not; at least 1, unless none are wanted. `tick_hz` counts ticks in one unit of the curve's time.
     ///
-    /// It tries frames, each up to where the gap is too small: those around the exposure over the gap, which is next to the
-    /// answer for a shutter that opens fully, and from there on by doubled steps and bisection. So it costs a few frames
-    /// at best, and `2 log2(wanted)` at worst.
+    /// It tries frames, each up to where the gap is too small: those around the exposure over the gap, which is next to
+    /// the answer for a shutter that opens fully, and from there on by doubled steps and bisection. So it costs a few
+    /// frames at best, and `2 log2(wanted)` at worst.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -320,7 +324,7 @@ macro_rules! iterate {
         impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
             type Item = $item;
 
-            // Into the one loop that there mostly is.
+            // Into the caller's loop; there is mostly one.
             #[inline(always)]
             fn next(&mut self) -> Option<$item> {
                 let i = self.left.next()?;

@@ -1,16 +1,17 @@
 //! The first guess of a search: a k-th root.
 //!
-//! Near the anchor that it is measured from a series is as its leading term, `S(x) ≈ c_k x^k`, so `x` is near the least
-//! `(sought / c_k)^(1/k)` over the positive coefficients. The exponents of floating-point numbers are logarithms that come
-//! for free; they tell which root is least, to a tenth, which Halley's step makes a thousandth. Where it is a second or
-//! fourth root, `libm` or `micromath` take it if these features are on. The search behind it is the same, and so, to the
-//! last bit or so, is its answer.
+//! Near its anchor a series is nearly its leading term, `S(x) ≈ c_k x^k`, so `x` is near the least `(sought /
+//! c_k)^(1/k)` over the positive coefficients. The bits of a floating-point number, taken as an integer, are nearly its
+//! logarithm. So the least root is found to about a tenth, which one step of Halley's makes a thousandth. If it is a
+//! second or fourth root, and the feature is on, `libm` or `micromath` takes it. The search that follows is the same,
+//! and so, to the last bit or so, is its answer.
 
 /// Logarithms here have 20 fraction bits, so that a difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand. That
-/// of a negative number is below all others, so a root taken by it is the greatest: no such term makes up a positive sum.
+/// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand.
+/// The sign bit of a negative number makes it less by 256, and the root greater by a factor of at least 2^(256/6):
+/// never the least one.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
@@ -22,7 +23,7 @@ const MEAN: i32 = (0.043 * LOG_ONE as f32) as i32;
 /// 2³⁰ over `k`.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
-/// `x / k` for `k` up to 6, near enough, without a division that could fail.
+/// `x / k` for `k` up to 6, nearly, without a division, which the compiler would check.
 #[inline(always)]
 const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32

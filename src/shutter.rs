@@ -12,14 +12,15 @@ use crate::plan::Plan;
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
 ///
-/// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density is per
-/// that unit, and the rate of a timer counts ticks in one of it (Hz, if it is the second). Either ramp may have no length (a
-/// box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
+/// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
+/// is per that unit, and the rate of a timer counts ticks in one of it (Hz, if it is the second). Either ramp may have
+/// no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
 ///
-/// `CELLS` is the number of octaves of `u` a side that are answered directly by a polynomial: a curve takes
-/// 480 bytes, and 96 more for each. Eight leave at most one `u` in 256 of a typical curve to the solver that `CELLS = 0`
-/// uses throughout; the accuracy is the same for all. More than 64 do not compile, and in a constant the compiler's limit on
-/// evaluation may come before, beyond 16. For another number than 8 each constructor has a form `with_cells`.
+/// `CELLS` is the number of polynomials for each side, counted from the start and from the end; each answers one octave
+/// of `u`. A curve takes 480 bytes, and 96 more for each. With 8 of them at most one `u` in 256 of a typical curve is
+/// found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
+/// and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another number than 8 end
+/// in `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {
     pub(crate) plan: Plan<CELLS>,
@@ -46,9 +47,9 @@ impl ShutterCurve {
         Self::with_cells(opening, closing)
     }
 
-    /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from
-    /// `close_start` to `close_end`, times in any unit: a trapezoid; a box where the ramps have no length, a triangle where
-    /// the plateau has none.
+    /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from `close_start` to
+    /// `close_end`, times in any unit: a trapezoid; a box where the ramps have no length, a triangle where the plateau
+    /// has none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -69,9 +70,9 @@ impl ShutterCurve {
     }
 
     /// The shutter in the form of RenderMan's `shutteropening`: the `times`, in any unit, at which it starts and ends
-    /// to open and starts and ends to close, and its inner control points `[t1, y1, t2, y2, t5, y5, t6,
-    /// y6]`, whose times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, also those of
-    /// the closing ramp.
+    /// to open and starts and ends to close, and its inner control points `[t1, y1, t2, y2, t5, y5, t6, y6]`, whose
+    /// times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, for the closing
+    /// ramp as well.
     ///
     /// ```
     /// use shutter_curve::{CurveError, Ramp, ShutterCurve};
@@ -86,7 +87,8 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_cells`](Self::with_cells), but for inner times out of order an error that says what they are.
+    /// As [`with_cells`](Self::with_cells), but inner times out of order are
+    /// [`InnerTimesTurnBack`](CurveError::InnerTimesTurnBack).
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
         Self::shutteropening_with_cells(times, inner)
     }
@@ -107,8 +109,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness
     /// outside [0, 1] anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose
-    /// reciprocal `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², as the rounding of
-    /// control points makes them.
+    /// reciprocal `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², for the rounding of
+    /// control points.
     pub const fn with_cells(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -159,7 +161,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         inner: [f32; 8],
     ) -> Result<Self, CurveError> {
         let (opening, closing) = CubicBezier::shutteropening(times, inner);
-        // The opening ramp's control times follow from the last time, too; which is none of its.
+        // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
+        // ramp's.
         if times[0].is_finite() && times[1].is_finite() && !times[3].is_finite() {
             return Err(CurveError::NotFinite(Ramp::Closing));
         }
@@ -222,7 +225,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 
-    /// The normalised density at `t`, `K · opening(t)`, in fractions of the exposure per unit of time.
+    /// The normalised density at `t`, `opening(t)` over the [`exposure`](Self::exposure), in fractions of the exposure
+    /// per unit of time.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -235,8 +239,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         self.plan.exposure.density(self.openness(t))
     }
 
-    /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1 after
-    /// it has closed.
+    /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1
+    /// after it has closed.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -285,7 +289,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// # Panics
     /// If the lengths differ.
-    // Where the caller's lengths are known, so is the check.
+    // Inlined, so that the compiler drops the check if it knows both lengths.
     #[inline(always)]
     pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
         assert!(u.len() == t.len(), "u and t differ in length");
@@ -317,8 +321,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`: above 0, and at most 1 + 2⁻²², by the rounding that control points are
-    /// forgiven.
+    /// The shutter efficiency `A / (close_end - open_start)`: above 0, and at most 1 + 2⁻²², by the rounding that
+    /// control points are forgiven.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

@@ -1,58 +1,62 @@
 //! The search: where a series reaches a target, and the proof that it does.
 //!
-//! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and in
-//! single precision from an [`Anchor`] near the target, to search by. One search is
+//! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and
+//! in single precision from an [`Anchor`] near the target, to search by. One search is
 //!
 //! 1. Halley's steps in single precision, none too long, until next to nothing is missing;
 //! 2. what is missing, measured in pairs;
 //! 3. one more step for that, and a computed bound of what it leaves, which accepts the answer or not.
 //!
-//! Where it is too great, 2 and 3 are repeated from the place that was reached. There are two more ways out: the anchor
-//! itself, where no more is sought than half of the error, and the cap on evaluations, which no search is known to reach.
+//! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
+//! if the target is within half of the error of it, and at the cap on evaluations, which no search is known to reach.
+//! At the cap the answer is the last place that was measured, without a proof.
 //!
-//! **The bound.** Let `c` be the anchor's coefficients, `x` the distance from it, `d_k` the Taylor coefficients there, and
-//! `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`, the k-th term being `Σ_j C(j,k) c_j
-//! x^(j-k) s^k`. Let `Y = |x| + |s|` and `E = Σ_{j>=3} j |c_j| Y^(j-3)`. From the third on the terms are together at most
-//! `3.4 E |s|³`, because `Σ_{k>=3} C(j,k) |x|^(j-k) |s|^k <= C(j,3) |s|³ Y^(j-3)`, and `C(j,3) <= 10/3 j`. The first two are known
-//! in single precision: wrong by at most 2⁻²⁰ `|s| D`, where `D = |c_1| + 2 |c_2| Y + E Y²` bounds all slopes on the way,
-//! because some 14 roundings of 2⁻²⁴ lead to them, 10 of Horner's rule. Where `x` is itself rounded, by `m`, the slopes
-//! are wrong by `5 m (2 |c_2| + E Y)` more, since `j - 1 <= 5`. So what is left is at most
+//! **The bound.** Let `c` be the anchor's coefficients, `x` the distance from it, `d_k` the Taylor coefficients there,
+//! and `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`, the k-th term being `Σ_j
+//! C(j,k) c_j x^(j-k) s^k`. Let `Y = |x| + |s|` and `E = Σ_{j>=3} j |c_j| Y^(j-3)`. From the third on the terms are
+//! together at most `3.4 E |s|³`, because `Σ_{k>=3} C(j,k) |x|^(j-k) |s|^k <= C(j,3) |s|³ Y^(j-3)`, and `C(j,3) <= 10/3
+//! j`. The first two are known in single precision: wrong by at most 2⁻²⁰ `|s| D`, where `D = |c_1| + 2 |c_2| Y + E Y²`
+//! bounds all slopes on the way, because some 14 roundings of 2⁻²⁴ lead to them, 10 of Horner's rule. Where `x` is
+//! itself rounded, by `m`, the slopes are wrong by `5 m (2 |c_2| + E Y)` more, since `j - 1 <= 5`. So what is left is
+//! at most
 //!
 //! `|r - s (d_1 + d_2 s)| + |s| (2⁻²⁰ D + 5 m (2 |c_2| + E Y) + 3.4 E s²)`
 //!
-//! and what measuring `r` missed: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A non-negative
-//! polynomial's increasing integral bounds that sum (Markov): for degree 6 it is at most 1083 times the series, the greatest
-//! quotient of the integrals over [-1, 0] and [0, 1] of `x s²` or `(1 - x) s²` with a quadratic `s`. So measuring misses less than
-//! 2⁻³⁰ of the target, within the quarter of an error of 2⁻²⁶ that is left for it. A search for a smaller error is as exact as
-//! pairs are; where a step is within an ulp of its place, there is no better one, and the greater error is asked for.
+//! and the error of `r` itself: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A
+//! non-negative polynomial's increasing integral bounds that sum (Markov): for degree 6 it is at most 1083 times the
+//! series, the greatest quotient of the integrals over [-1, 0] and [0, 1] of `x s²` or `(1 - x) s²` with a quadratic
+//! `s`. So `r` is wrong by less than 2⁻³⁰ of the target, within the quarter of an error of 2⁻²⁶ that is left for it. A
+//! search for a smaller error is as exact as pairs are; where a step is within an ulp of its place, there is no better
+//! one, and the greater error is asked for.
 //!
-//! **The end.** From `NEWTON` evaluations on each measured place halves a bracket of certain signs. When that is as narrow as
-//! neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r` are below
-//! 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside it is by search that
-//! this is known. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
+//! **The end.** After `FREE` evaluations each measured place halves a bracket of certain signs. When that is as narrow
+//! as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r`
+//! are below 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside, this
+//! is known by search only. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
-/// The least `f32` u then still leads to a place that is a normal number, and the last coefficient's second half is one.
+/// The least `f32` u then still leads to a place that is a normal number, and the last coefficient's second half is
+/// one.
 pub(crate) const ONE: f32 = (1 << 30) as f32;
 
-/// Evaluations before all of them are measured in pairs and the bracket has to keep up with what bisection would make of it.
-const NEWTON: u32 = 10;
+/// After so many evaluations all are measured in pairs, and each halves the bracket.
+const FREE: u32 = 10;
 /// Bisections that bring any bracket between 0 and [`ONE`] down to neighbours, taken by their bits; each takes two
 /// evaluations.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
-pub const MAX_EVALUATIONS: u32 = NEWTON + 2 * BISECTION;
+pub const MAX_EVALUATIONS: u32 = FREE + 2 * BISECTION;
 
-/// Where less than this share of what is sought is missing, it is measured in pairs. Halley's step leaves some tenth of the
-/// cube: 2⁻⁴².
+/// If less than this share of what is sought is missing, it is measured in pairs. A step of Halley's leaves about a
+/// tenth of the cube of that: 2⁻⁴².
 const PAIRS_BELOW: f32 = 1.0 / 8192.0;
 
-/// A step in single precision leads to between a quarter of the distance from the anchor and some 2.5 times that: Newton
-/// overshoots where the density dips ahead. In the bits of the `f32`, where a binade is 2²³.
+/// A step in single precision leads to between a quarter of the distance from the anchor and about 2.5 times that:
+/// Newton overshoots if the density dips ahead. In the bits of the `f32`, where a binade is 2²³.
 const LEAST_STEP: i32 = -2 << 23;
 const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
@@ -68,7 +72,7 @@ const ULP: f32 = f32::EPSILON;
 /// Where a search starts: a place on the ramp, and the series around it in the direction of the target.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
-    /// The direction: the sign bit where it is back.
+    /// The direction: the sign bit if it is back, 0 if not.
     pub(crate) back: u32,
     /// What is collected from here, by powers of the distance.
     pub(crate) c: [f32; N],
@@ -115,7 +119,7 @@ struct Taylor {
 }
 
 impl Taylor {
-    /// Of `c[0] x + c[1] x² + ...`, by synthetic division: each pass leaves one more coefficient.
+    /// Of `c[0] x + c[1] x² + ...`, by synthetic division: each pass of Horner's rule leaves one more coefficient.
     #[inline(always)]
     const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {
         let mut c = *c;
@@ -126,18 +130,19 @@ impl Taylor {
         Self { value, d1: c[0], d2: c[1] }
     }
 
-    /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`. A division is dear, so it is the
-    /// quotient's series up to `b²`; but not beyond `b = 1/2`, from where that grows again and may lead to and fro.
+    /// The step to make up for `missing`: Halley's `n / (1 + b)`, from Newton's step `n`. A division is slow, so it is
+    /// the quotient's series up to `b²`; but not beyond `b = 1/2`, from where the series grows again and a search may
+    /// swing.
     #[inline(always)]
     const fn step(&self, missing: f32) -> f32 {
-        // Where rounding makes the slope negative, the step still goes to where the target is.
+        // If rounding makes the slope negative, the step still leads towards the target.
         let inverse = 1.0 / self.d1.abs();
         let newton = missing * inverse;
         let bend = self.d2 * newton * inverse;
         if bend > 0.5 { newton / (1.0 + bend) } else { newton * (1.0 - bend * (1.0 - bend)) }
     }
 
-    /// The same for a step that is next to nothing.
+    /// The same for a step that is tiny.
     #[inline(always)]
     const fn short_step(&self, missing: f32) -> f32 {
         let inverse = 1.0 / self.d1;
@@ -146,7 +151,7 @@ impl Taylor {
     }
 }
 
-/// Horner's rule at `x`, down to the coefficient `to`, with all that it passes kept.
+/// Horner's rule at `x`, down to the coefficient `to`; each sum replaces its coefficient.
 #[inline(always)]
 const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
     let mut k = N - 1;
@@ -156,7 +161,7 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
     }
 }
 
-/// The bound of what is missing after the step `s`, where `x` is rounded by `moved`: see the module's text.
+/// The bound of what is left after the step `s`, if `x` is rounded by `moved`: see the module's text.
 #[inline(always)]
 const fn left<const N: usize>(
     c: &[f32; N],
@@ -179,28 +184,30 @@ const fn left<const N: usize>(
     first + size * (ROUNDING * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, but for an `error`, of which a quarter is for measuring.
+/// The place where `series` reaches `target` within the error `wanted`, of which a quarter is for measuring; within
+/// `accepted` if the last step is less than an ulp of its place, since there is no better answer then.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,
     target: Pair,
     anchor: &Anchor<N>,
     seed: f32,
-    [error, most]: [f32; 2],
+    [wanted, accepted]: [f32; 2],
 ) -> Offset {
     let Anchor { place, back, c, sought } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
-    if sought <= 0.5 * error {
+    if sought <= 0.5 * wanted {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
     }
-    let near = (PAIRS_BELOW * sought + error).to_bits() as i32;
+    let in_pairs = (PAIRS_BELOW * sought + wanted).to_bits() as i32;
     let reach = anchor.reach();
     // At the end of the ramp the density may be 0.
     let mut x = if seed < 0.75 * reach { seed } else { 0.75 * reach };
     let reach = reach.to_bits() as i32;
+    // The place, once it is measured in pairs.
     let mut p = f32::NAN;
     let mut moved = 0.0;
-    // The bracket, by bits, as it is halved.
+    // The bracket, by bits, since that is how it is halved.
     let (mut low, mut high) = (0, ONE.to_bits() as i32);
     let mut evaluations = 0;
     loop {
@@ -208,8 +215,8 @@ pub(crate) const fn solve<const N: usize>(
         evaluations += 1;
         if p.is_nan() {
             let missing = sought - local.value;
-            if missing.abs().to_bits() as i32 > near && evaluations < NEWTON {
-                // By bits, where a NaN is but one of the limits.
+            if missing.abs().to_bits() as i32 > in_pairs && evaluations < FREE {
+                // By bits, so that the step of a NaN is one of the limits, too.
                 let next = (x + local.step(missing)).to_bits() as i32;
                 let bits = x.to_bits() as i32;
                 let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
@@ -229,7 +236,7 @@ pub(crate) const fn solve<const N: usize>(
                 continue;
             }
         }
-        // From here on signs are certain.
+        // In pairs the sign of what is missing is certain.
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
@@ -240,7 +247,7 @@ pub(crate) const fn solve<const N: usize>(
         // A NaN is beyond.
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
-        let error = if step.abs() <= ULP * p { most } else { error };
+        let error = if step.abs() <= ULP * p { accepted } else { wanted };
         if is_inside && left(&c, [x, moved], &local, missing, step) <= 0.75 * error {
             let Pair { hi, lo } = Pair::sum(p, way);
             return Offset { x: hi, rest: lo, evaluations };
@@ -248,9 +255,9 @@ pub(crate) const fn solve<const N: usize>(
         if evaluations >= MAX_EVALUATIONS - 1 {
             return Offset { x: p, rest: 0.0, evaluations };
         }
-        // The middle by bits: half of the `f32` between lie on either side.
+        // The middle by bits, so that half of the `f32` in the bracket lie on either side.
         let middle = f32::from_bits((low + (high - low) / 2) as u32);
-        p = if is_inside && evaluations < NEWTON { end } else { middle };
+        p = if is_inside && evaluations < FREE { end } else { middle };
         (x, moved) = (anchor.distance(p), 0.0);
     }
 }

@@ -11,7 +11,8 @@ use crate::plan::{Plan, Words};
 const DIRECT_TICKS: i32 = 24;
 /// An interval may have 2 to this ticks.
 const MOST_TICKS: i32 = 31;
-/// Frames of more triggers are searched for throughout: a polynomial might put neighbours in the wrong order.
+/// In frames of more triggers all are searched for: polynomials, whose error in `u` is up to 0.45 ulp of an `f32`,
+/// might swap neighbours.
 pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
 
 /// What places the triggers of one frame.
@@ -21,7 +22,7 @@ pub(crate) struct Ticks<'a, const CELLS: usize> {
     pub(crate) fractions: Fractions,
     tick_hz: u32,
     plateau: Words,
-    /// None for frames that are searched for throughout.
+    /// None if all triggers of the frame are searched for.
     scale: Option<TickScale>,
 }
 
@@ -61,8 +62,8 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         }
     }
 
-    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the polynomials, all are
-    /// searched for.
+    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the
+    /// polynomials, all are searched for.
     pub(crate) fn of_pulses(self, duty: f32) -> Self {
         let dark = if duty < 1.0 { 1.0 - duty } else { 1.0 };
         let closest = if duty < dark { duty } else { dark };
@@ -70,7 +71,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         Self { scale: if is_direct { self.scale } else { None }, ..self }
     }
 
-    /// The same, if no search is needed.
+    /// The tick of one end of a pulse, if no search is needed.
     #[inline(always)]
     pub(crate) fn direct(&self, i: u32, edge: &Edge) -> Option<u32> {
         let scale = self.scale.as_ref()?;
@@ -88,7 +89,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
     }
 
-    /// The same by a search; out of line, so that the direct way saves no registers for it.
+    /// The same by a search. Out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
     fn searched(&self, odd: u64, edge: &Edge) -> u32 {
@@ -102,10 +103,10 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let Pair { hi, lo } = delay.times(Pair::from_u32(self.tick_hz)).shifted(unit);
         // A product's second half may be some ulp of the first.
         let ticks = Pair::sum(hi, lo);
-        // What is above 2²⁴ in f32 has no fraction; what the second half adds to it is below 2⁸ then.
+        // An `f32` above 2²⁴ is an integer, and what the second half adds to it is below 2⁸.
         let whole = ticks.hi as u32;
         let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
-        // The cast rounds down what is above 0.
+        // The cast rounds a positive number down.
         (whole + (rest + 256.0) as u32).saturating_sub(256)
     }
 }
@@ -127,7 +128,8 @@ pub(crate) fn moment<const CELLS: usize>(
     plan.exposure.at_fraction(side, a, FOR_TICK)
 }
 
-/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in ticks.
+/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in
+/// ticks.
 fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
     // Below 2⁹⁶.
     let ticks = length as u128 * tick_hz as u128;
@@ -151,8 +153,9 @@ fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
 #[derive(Clone)]
 struct TickScale {
     start: i64,
-    /// What brings a time after the start to 31 bits above 2³², and the ticks in a unit of these, which count 2⁻⁶⁴.
+    /// The power of two that brings a time after the start to 31 bits in the upper word.
     up: u32,
+    /// The ticks in a unit of that word, in units of 2⁻⁶⁴.
     factor: u64,
 }
 
@@ -168,7 +171,7 @@ impl TickScale {
         } else {
             rate.checked_shl(down.unsigned_abs())
         };
-        // Where a tick is next to all of the interval, nothing is left of it, and all is tick 0, to which it rounds.
+        // If a tick is much longer than the interval, the factor is 0, and so are all ticks.
         Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
     }
 
