@@ -31,7 +31,7 @@ use crate::shape::Shape;
 
 /// The plateau by `u` in units of 2⁻⁶⁴: the last one, and how many there are.
 #[derive(Clone)]
-pub(crate) struct Words {
+pub(crate) struct PlateauU64 {
     last: u64,
     count: u64,
 }
@@ -281,16 +281,19 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The plateau by `u` in units of 2⁻⁶⁴.
-    pub(crate) fn plateau_u64(&self) -> Words {
+    pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
         let last = far.saturating_sub(1);
         let before = near.max(1 << 55);
-        Words { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) } }
+        PlateauU64 {
+            last,
+            count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) },
+        }
     }
 
     /// The time, in units, at a `u` in units of 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
     #[inline(always)]
-    pub(crate) fn direct_u64(&self, u: u64, plateau: &Words) -> Option<i64> {
+    pub(crate) fn direct_u64(&self, u: u64, plateau: &PlateauU64) -> Option<i64> {
         let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
         if before_last < plateau.count {
             return Some(self.on_line((u >> 32) as u32));

@@ -5,7 +5,7 @@ use crate::exposure::FOR_TICK;
 use crate::fraction::{Edge, Fractions};
 use crate::moment::Moment;
 use crate::pair::{Pair, fixed};
-use crate::plan::{Plan, Words};
+use crate::plan::{Plan, PlateauU64};
 
 /// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
 const DIRECT_TICKS: i32 = 24;
@@ -21,7 +21,7 @@ pub(crate) struct Ticks<'a, const CELLS: usize> {
     plan: &'a Plan<CELLS>,
     pub(crate) fractions: Fractions,
     tick_hz: u32,
-    plateau: Words,
+    plateau: PlateauU64,
     /// None if all triggers of the frame are searched for.
     scale: Option<TickScale>,
 }
