@@ -126,7 +126,7 @@ impl Exposure {
             if x.hi >= WHOLE {
                 return u64::MAX;
             }
-            // The upper word, and the rest in its unit, which the pair's second half may make some 2⁷.
+            // The upper word, and the rest in its unit, which the pair's second half may bring to about 2⁷.
             let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));
             let upper = x.hi as u32;
             let rest = (x.hi - upper as f32) + x.lo;

@@ -14,7 +14,7 @@ pub(crate) struct Fractions {
 }
 
 impl Fractions {
-    /// A 64-bit division is dear on a small processor, so only this one is made.
+    /// A 64-bit division is slow on a small processor, so there is only this one.
     pub(crate) fn new(n: u32) -> Self {
         let divisor = n as u64 | (n == 0) as u64;
         let share = (1 << 63) / divisor;

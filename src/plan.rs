@@ -138,7 +138,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The side from which `u` is counted, and `min(u, 1 - u)`: negative or NaN for what is no fraction.
+    /// The side from which `u` is counted, and `min(u, 1 - u)`: negative outside [0, 1], and NaN for NaN.
     #[inline(always)]
     fn count(u: f32) -> (usize, f32) {
         let late = 1.0 - u;

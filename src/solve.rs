@@ -3,7 +3,7 @@
 //! A series `S` here increases along the ramp and is known twice: in pairs from one end of the ramp, to measure by, and
 //! in single precision from an [`Anchor`] near the target, to search by. One search is
 //!
-//! 1. Halley's steps in single precision, none too long, until next to nothing is missing;
+//! 1. Halley's steps in single precision, none too long, until hardly anything is missing;
 //! 2. what is missing, measured in pairs;
 //! 3. one more step for that, and a computed bound of what it leaves, which accepts the answer or not.
 //!
