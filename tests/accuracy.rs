@@ -407,6 +407,25 @@ fn the_cdf_never_steps_back() {
     assert!(pairs > 2_000_000);
 }
 
+/// Where openness touches 0 far from the end, the terms of the mass there cancel all but a 500th of their sum, and what rounding
+/// leaves is more than neighbouring times differ by. The plateau's length puts the middle of two `f32` right there.
+#[test]
+fn the_cdf_never_steps_back_where_terms_cancel() {
+    let opening =
+        [(0.0, 0.0), (0.2149356, 0.04391764), (-0.3171351, -0.043355178), (1.0, 0.03209994)];
+    let ours = shutter::<8>(&Curve::shutter(opening, [(1.0043026, 1.0); 4]));
+    let mut t = 0.2063f32;
+    let (first, mut steps, mut last) = (ours.cdf(t), 0, ours.cdf(t));
+    for _ in 0..10_000 {
+        t = t.next_up();
+        let cdf = ours.cdf(t);
+        assert!(cdf >= last, "{cdf:e} after {last:e} at {t:e}");
+        steps += u32::from(cdf > last);
+        last = cdf;
+    }
+    assert!(steps == 1, "from {first:e} to {last:e}: not the middle of two f32");
+}
+
 #[test]
 fn a_mirrored_curve_gives_mirrored_times() {
     let mut compared = 0;
