@@ -472,6 +472,16 @@ fn time_0_at_half_of_the_light_needs_no_search() {
     }
 }
 
+/// However short the plateau around half of the light, the octaves end where it begins: beyond, where the shutter jumps from half to
+/// fully open, no polynomial would serve.
+#[test]
+fn a_plateau_next_to_half_of_the_light_needs_no_search() {
+    let trace = 2f32.powi(-24);
+    let half = |start, end| CubicBezier::line((start, 0.5), (end, 0.5)).points();
+    let ours = shutter::<8>(&Curve::shutter(half(-1.0, 0.0), half(trace, 1.0)));
+    assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0));
+}
+
 /// Ramps, openness and intervals as far apart as `f32` and the limits of a curve let them be; some are refused, since
 /// `f32` does not hold their area or its reciprocal.
 #[test]
