@@ -426,6 +426,20 @@ fn the_cdf_never_steps_back_where_terms_cancel() {
     assert!(steps == 1, "from {first:e} to {last:e}: not the middle of two f32");
 }
 
+/// Around time 0 neighbours on a plateau are closer than two `f32` tell fractions apart. In each of these boxes the middle of two
+/// fractions is where the time since the start gains a last bit, and with it another rounding.
+#[test]
+fn the_cdf_never_steps_back_next_to_time_0() {
+    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)]
+    {
+        let ours = shutter::<8>(&Curve::shutter([(start, 1.0); 4], [(end, 1.0); 4]));
+        let first = 2f32.powi(-24).to_bits() - 200;
+        let values: Vec<f32> = (first..first + 400).map(|t| ours.cdf(f32::from_bits(t))).collect();
+        assert!(values.is_sorted(), "from {start} to {end}");
+        assert!(values[0] < values[399], "from {start} to {end}: not the middle of two f32");
+    }
+}
+
 #[test]
 fn a_mirrored_curve_gives_mirrored_times() {
     let mut compared = 0;
