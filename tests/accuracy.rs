@@ -486,6 +486,21 @@ fn time_0_at_half_of_the_light_needs_no_search() {
     }
 }
 
+/// What the tests of searches go by: a search takes one evaluation to come near and one to measure, at least; all else takes none.
+#[test]
+fn evaluations_are_those_of_searches() {
+    let curve =
+        named().into_iter().find(|one| one.name == "raised_cosine").expect("its name").curve;
+    let (direct, searched) = (shutter::<8>(&curve), shutter::<0>(&curve));
+    for u in [1e-20, 0.01, 0.1, 0.4, 0.6, 0.9, 0.99] {
+        assert!((2..=EVALUATIONS).contains(&searched.evaluations(u)), "at {u}");
+        assert_eq!(direct.evaluations(u) == 0, direct.is_direct(u), "at {u}");
+    }
+    for u in [0.0, 1.0, -1.0, 2.0, f32::NAN] {
+        assert_eq!(searched.evaluations(u), 0, "at {u}");
+    }
+}
+
 /// However short the plateau around half of the light, the octaves end where it begins: beyond, where the shutter jumps from half to
 /// fully open, no polynomial would serve.
 #[test]
