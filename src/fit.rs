@@ -306,3 +306,30 @@ const fn power_of_two_f64(exponent: i32) -> f64 {
 const fn round(x: f64) -> i32 {
     (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
+    fn chebyshev(x: f64) -> f64 {
+        let (mut last, mut value) = (1.0, x);
+        for _ in 0..DEGREE {
+            (last, value) = (value, 2.0 * x * value - last);
+        }
+        value
+    }
+
+    /// The nodes are its roots; at the peaks it is -1 and 1 in turn.
+    #[test]
+    fn nodes_and_peaks_are_those_of_chebyshev() {
+        assert!(NODES.iter().all(|node| chebyshev(*node).abs() < 1e-13));
+        assert!(NODES.is_sorted_by(|a, b| a < b));
+        let mut sign = -1.0;
+        for peak in PEAKS {
+            assert!((chebyshev(peak) - sign).abs() < 1e-13, "{peak}");
+            sign = -sign;
+        }
+        assert!(PEAKS.is_sorted_by(|a, b| a < b));
+    }
+}

@@ -407,6 +407,39 @@ fn the_cdf_never_steps_back() {
     assert!(pairs > 2_000_000);
 }
 
+/// Where openness touches 0 far from the end, the terms of the mass there cancel all but a 500th of their sum, and what rounding
+/// leaves is more than neighbouring times differ by. The plateau's length puts the middle of two `f32` right there.
+#[test]
+fn the_cdf_never_steps_back_where_terms_cancel() {
+    let opening =
+        [(0.0, 0.0), (0.2149356, 0.04391764), (-0.3171351, -0.043355178), (1.0, 0.03209994)];
+    let ours = shutter::<8>(&Curve::shutter(opening, [(1.0043026, 1.0); 4]));
+    let mut t = 0.2063f32;
+    let (first, mut steps, mut last) = (ours.cdf(t), 0, ours.cdf(t));
+    for _ in 0..10_000 {
+        t = t.next_up();
+        let cdf = ours.cdf(t);
+        assert!(cdf >= last, "{cdf:e} after {last:e} at {t:e}");
+        steps += u32::from(cdf > last);
+        last = cdf;
+    }
+    assert!(steps == 1, "from {first:e} to {last:e}: not the middle of two f32");
+}
+
+/// Around time 0 neighbours on a plateau are closer than two `f32` tell fractions apart. In each of these boxes the middle of two
+/// fractions is where the time since the start gains a last bit, and with it another rounding.
+#[test]
+fn the_cdf_never_steps_back_next_to_time_0() {
+    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)]
+    {
+        let ours = shutter::<8>(&Curve::shutter([(start, 1.0); 4], [(end, 1.0); 4]));
+        let first = 2f32.powi(-24).to_bits() - 200;
+        let values: Vec<f32> = (first..first + 400).map(|t| ours.cdf(f32::from_bits(t))).collect();
+        assert!(values.is_sorted(), "from {start} to {end}");
+        assert!(values[0] < values[399], "from {start} to {end}: not the middle of two f32");
+    }
+}
+
 #[test]
 fn a_mirrored_curve_gives_mirrored_times() {
     let mut compared = 0;
@@ -451,6 +484,31 @@ fn time_0_at_half_of_the_light_needs_no_search() {
         let ours = shutter::<8>(&Curve::shutter(moved(curve.opening), moved(curve.closing)));
         assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0), "{name}");
     }
+}
+
+/// What the tests of searches go by: a search takes one evaluation to come near and one to measure, at least; all else takes none.
+#[test]
+fn evaluations_are_those_of_searches() {
+    let curve =
+        named().into_iter().find(|one| one.name == "raised_cosine").expect("its name").curve;
+    let (direct, searched) = (shutter::<8>(&curve), shutter::<0>(&curve));
+    for u in [1e-20, 0.01, 0.1, 0.4, 0.6, 0.9, 0.99] {
+        assert!((2..=EVALUATIONS).contains(&searched.evaluations(u)), "at {u}");
+        assert_eq!(direct.evaluations(u) == 0, direct.is_direct(u), "at {u}");
+    }
+    for u in [0.0, 1.0, -1.0, 2.0, f32::NAN] {
+        assert_eq!(searched.evaluations(u), 0, "at {u}");
+    }
+}
+
+/// However short the plateau around half of the light, the octaves end where it begins: beyond, where the shutter jumps from half to
+/// fully open, no polynomial would serve.
+#[test]
+fn a_plateau_next_to_half_of_the_light_needs_no_search() {
+    let trace = 2f32.powi(-24);
+    let half = |start, end| CubicBezier::line((start, 0.5), (end, 0.5)).points();
+    let ours = shutter::<8>(&Curve::shutter(half(-1.0, 0.0), half(trace, 1.0)));
+    assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0));
 }
 
 /// Ramps, openness and intervals as far apart as `f32` and the limits of a curve let them be; some are refused, since

@@ -19,8 +19,8 @@ pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
 /// In ticks: where the interval has at most [`DIRECT_TICKS`], and where it has more.
 pub const TICKS: [f64; 2] = [0.75, 0.501];
 pub const DIRECT_TICKS: f64 = (1 << 24) as f64;
-/// Of the mass, for one u.
-pub const EVALUATIONS: u32 = 8;
+/// Of the mass, for one u: as many as any search is known to take. What takes more has wandered.
+pub const EVALUATIONS: u32 = 5;
 
 /// The worst that was seen, and what broke a promise.
 #[derive(Clone, Debug, Default)]
