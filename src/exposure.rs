@@ -256,7 +256,7 @@ impl Exposure {
                 let (area, exponent) = significand(self.area);
                 let way = Pair::sum(t, -self.plateau_start(0)).over(area);
                 let way = way.shifted(WHOLE_EXPONENT - exponent);
-                self.nearest(t, self.ramps[0].share.plus(way), None)
+                self.nearest(t, self.ramps[0].share.plus(way), 0.0, None)
             }
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
         }
@@ -266,30 +266,44 @@ impl Exposure {
     #[inline(never)]
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
         let on = self.ramp(ramp).at_time(t);
-        let mass = on.mass();
-        // From the start of the ramp, or back from its end.
-        let mass = match (ramp, on.side) {
-            (0, 0) => mass,
-            (0, _) => self.ramps[0].share.minus(mass),
-            (_, 0) => self.ramps[0].share.plus(self.plateau).plus(mass),
-            _ => Pair::new(WHOLE).minus(mass),
+        let part = on.mass();
+        // From the start of the ramp, or back from its end. What the part leaves of a share may be little.
+        let little = LITTLE * part.hi;
+        let (mass, little) = match (ramp, on.side) {
+            (0, 0) => (part, 0.0),
+            (0, _) => (self.ramps[0].share.minus(part), little),
+            (_, 0) => (self.ramps[0].share.plus(self.plateau).plus(part), 0.0),
+            _ => (Pair::new(WHOLE).minus(part), little),
         };
-        self.nearest(t, mass, Some(on))
+        self.nearest(t, mass, little, Some(on))
     }
 
     /// The `f32` nearest to the mass that `t` has, as a fraction.
     #[inline(always)]
-    fn nearest(&self, t: f32, mass: Pair, on: Option<RampPoint>) -> f32 {
-        let nearest = mass.rounded();
-        if nearest <= 0.0 {
-            return 0.0;
+    fn nearest(&self, t: f32, mass: Pair, little: f32, on: Option<RampPoint>) -> f32 {
+        if mass.rounded() <= little {
+            return self.nearest_to_little(t, mass, on);
         }
+        self.neighbour(t, mass, on, false)
+    }
+
+    /// The same for a little mass, or none.
+    #[cold]
+    #[inline(never)]
+    fn nearest_to_little(&self, t: f32, mass: Pair, on: Option<RampPoint>) -> f32 {
+        if mass.rounded() <= 0.0 { 0.0 } else { self.neighbour(t, mass, on, true) }
+    }
+
+    /// The nearest of the two `f32` around a mass.
+    #[inline(always)]
+    fn neighbour(&self, t: f32, mass: Pair, on: Option<RampPoint>, is_little: bool) -> f32 {
+        let nearest = mass.rounded();
         // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
         let rest = (mass.hi - nearest) + mass.lo;
         let bits = nearest.to_bits();
         let next = f32::from_bits(if rest < 0.0 { bits - 1 } else { bits + 1 });
         let distance = (0.5 * (next - nearest) - rest).abs();
-        let nearest = if distance < nearest * NEAR_MIDDLE {
+        let nearest = if is_little || distance < nearest * NEAR_MIDDLE {
             self.settled(t, nearest, next, distance, on)
         } else {
             nearest
@@ -328,8 +342,12 @@ impl Exposure {
     }
 }
 
-/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is:
-/// their noise is below 2⁻³⁰ (see the text of the module `solve`).
+/// A mass may be what a part that was measured leaves of a ramp's share. From this share of the part on, the part's noise
+/// is at most four times as much of the mass.
+const LITTLE: f32 = 0.25;
+
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: the
+/// noise of a measured part is below 2⁻³⁰ of it (see the text of the module `solve`), and so below this of the mass.
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.

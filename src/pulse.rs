@@ -40,7 +40,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         }
         let ticks = Ticks::new(&self.plan, n, tick_hz)?;
         let edges = ticks.fractions.edges(duty);
-        let frame = Pulses { ticks: ticks.of_pulses(duty), edges, is_close: duty > 0.5 };
+        let frame = Pulses { ticks, edges, is_close: duty > 0.5 };
         Ok(PulseTicks { frame, left: 0..n })
     }
 

@@ -62,15 +62,6 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         }
     }
 
-    /// The same frame for pulses that take the part `duty` of each share. If ends of pulses come too close for the
-    /// polynomials, all are searched for.
-    pub(crate) fn of_pulses(self, duty: f32) -> Self {
-        let dark = if duty < 1.0 { 1.0 - duty } else { 1.0 };
-        let closest = if duty < dark { duty } else { dark };
-        let is_direct = self.fractions.n as f32 <= closest * DIRECT_TRIGGERS as f32;
-        Self { scale: if is_direct { self.scale } else { None }, ..self }
-    }
-
     /// The tick of one end of a pulse, if no search is needed.
     #[inline(always)]
     pub(crate) fn direct(&self, i: u32, edge: &Edge) -> Option<u32> {
