@@ -342,8 +342,8 @@ impl Exposure {
     }
 }
 
-/// A mass may be what a part that was measured leaves of a ramp's share. From this share of the part on, the part's noise
-/// is at most four times as much of the mass.
+/// A mass may be what a measured part leaves of a ramp's share. If the mass is more than this fraction of the part, the
+/// part's noise, relative to the mass, is at most four times what it is relative to the part.
 const LITTLE: f32 = 0.25;
 
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: the

@@ -2,7 +2,7 @@
 
 use crate::pair::{Pair, rounded_sum};
 
-/// A time, `time + elapsed` or, where `back`, `time - elapsed`: an exact `f32` and the way from it.
+/// A time, `time + elapsed` or, if `back`, `time - elapsed`: an exact `f32` and the way from it.
 #[derive(Clone, Copy)]
 pub(crate) struct Moment {
     pub(crate) time: f32,
@@ -17,7 +17,7 @@ pub(crate) struct Moment {
 }
 
 impl Moment {
-    /// A place on the plateau, on the way from one end of it to the other.
+    /// A moment on the plateau, on the way from one end of it to the other.
     pub(crate) const fn on_way(
         time: f32,
         until: f32,
