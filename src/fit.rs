@@ -176,7 +176,7 @@ impl Span {
             return None;
         }
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        // The significand of the top counts 2³¹ to 2³², and a unit of a place is half of one of its.
+        // The significand of the top is from 2³¹ to 2³², and offsets count in half of its unit.
         let significand = (top << 8 | 1 << 31) as f64;
         let (mut width, mut finer) = (0.5 * high / significand * WORD, 0);
         // A small part of an octave fills the word, too, or the coefficients would have few bits.

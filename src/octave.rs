@@ -6,8 +6,9 @@
 //! the ramp ends, or somewhat more. So no octave holds parts of two ramps, and the plateau between them is answered by
 //! its line.
 //!
-//! How many octaves `a` is below a top tells the difference of the bits of both `f32`, since the exponent is the upper
-//! part of them. The offset within the octave is exact: the significand of `a` minus that of the octave's middle.
+//! The difference of the bits of the top's and of `a`'s `f32` tells how many octaves lie between them, since the
+//! exponent is the upper part of the bits. The offset within the octave is exact: the significand of `a` minus that of
+//! the octave's middle.
 
 use crate::exposure::Exposure;
 

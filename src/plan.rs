@@ -17,8 +17,9 @@
 //! On a processor with doubles, [`batch`](crate::batch) takes the plateau's line in those, to the same bits.
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
-//! error is below half of the distance between neighbours, also where octaves meet. A search's is below a quarter of it
-//! ([`exposure`](crate::exposure)), so the order holds where a search follows a polynomial or the line.
+//! error is kept below 0.45 of the distance between neighbours, also where octaves meet; it is judged where it peaks
+//! ([`fit`]). A search's is below a quarter of that distance ([`exposure`](crate::exposure)), so the order holds where
+//! a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
@@ -160,8 +161,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.plateau[0].wrapping_sub(bits)
     }
 
-    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). What is no fraction above
-    /// 0 has none.
+    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
+    /// outside [0, 1] and for NaN.
     #[inline(always)]
     fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][(ramp & 1) as usize]);
