@@ -57,24 +57,28 @@ pub fn draw_curve(graph: &mut Graph, plan: &Plan, unit: Unit, f: impl Fn(f32) ->
     Ok(())
 }
 
-/// An empty graph over the time of the plan. The upper shares the lower's name of the axis.
-pub fn graph<'a, 'b>(
+/// An axis: its range, its name, and how its numbers are written.
+pub struct Axis<'a> {
+    pub range: Range<f64>,
+    pub name: Option<&'a str>,
+    pub label: &'a dyn Fn(&f64) -> String,
+}
+
+/// An empty graph, with so much room for the numbers of the axis `y`. Without a name, `x` is that of the graph below.
+pub fn axes<'a, 'b>(
     area: &'a Area<'b>,
-    plan: &Plan,
-    unit: Unit,
-    y: &str,
-    x: Option<&str>,
-    range: Range<f64>,
+    x: Axis,
+    y: Axis,
+    room: i32,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
     let mut graph = ChartBuilder::on(area)
         .margin_left(16 * SCALE)
         .margin_right(24 * SCALE)
         .margin_top(8 * SCALE)
         .margin_bottom(8 * SCALE)
-        .x_label_area_size(if x.is_some() { 50 } else { 28 } * SCALE)
-        .y_label_area_size(60 * SCALE)
-        .build_cartesian_2d(time_range(plan, unit), range)?;
-    let places = decimals(unit.of(plan.length()), 3);
+        .x_label_area_size(if x.name.is_some() { 50 } else { 28 } * SCALE)
+        .y_label_area_size(room * SCALE)
+        .build_cartesian_2d(x.range, y.range)?;
     graph
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -83,14 +87,28 @@ pub fn graph<'a, 'b>(
         .set_all_tick_mark_size(5 * SCALE)
         .label_style(style::font(14 * SCALE))
         .axis_desc_style(style::font(15 * SCALE))
-        .x_desc(x.unwrap_or_default())
-        .y_desc(y)
+        .x_desc(x.name.unwrap_or_default())
+        .y_desc(y.name.unwrap_or_default())
         .x_labels(11)
         .y_labels(6)
-        .x_label_formatter(&|t| trimmed(*t, places))
-        .y_label_formatter(&|y| format!("{y:.1}"))
+        .x_label_formatter(x.label)
+        .y_label_formatter(y.label)
         .draw()?;
     Ok(graph)
+}
+
+/// An empty graph over the time of the plan.
+pub fn graph<'a, 'b>(
+    area: &'a Area<'b>,
+    plan: &Plan,
+    unit: Unit,
+    y: &str,
+    x: Option<&str>,
+    range: Range<f64>,
+) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
+    let places = decimals(unit.of(plan.length()), 3);
+    let time = Axis { range: time_range(plan, unit), name: x, label: &|t| trimmed(*t, places) };
+    axes(area, time, Axis { range, name: Some(y), label: &|y| format!("{y:.1}") }, 60)
 }
 
 /// The axis of time: the interval, and a little room on either side.

@@ -6,8 +6,8 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::drawing::{Drawn, SCALE, centred, dot, pen, picture};
-use super::style::{self, Area, BLUE, FAINT, GREY, Graph, VERMILION};
+use super::drawing::{Axis, Drawn, SCALE, axes, centred, dot, pen, picture};
+use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
 use crate::fit::Fit;
 use crate::unit::{Unit, decimals, short, trimmed};
 
@@ -148,29 +148,8 @@ fn graph<'a, 'b>(
     range: Range<f64>,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
     let (first, last) = ends(fit);
-    let mut graph = ChartBuilder::on(area)
-        .margin_left(16 * SCALE)
-        .margin_right(24 * SCALE)
-        .margin_top(8 * SCALE)
-        .margin_bottom(8 * SCALE)
-        .x_label_area_size(if x.is_some() { 50 } else { 28 } * SCALE)
-        .y_label_area_size(72 * SCALE)
-        .build_cartesian_2d(unit.of(first)..unit.of(last), range.clone())?;
     let (across, up) = (decimals(unit.of(last - first), 3), decimals(range.end - range.start, 3));
-    graph
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(pen(FAINT, 1.0))
-        .axis_style(pen(GREY, 1.0))
-        .set_all_tick_mark_size(5 * SCALE)
-        .label_style(style::font(14 * SCALE))
-        .axis_desc_style(style::font(15 * SCALE))
-        .x_desc(x.unwrap_or_default())
-        .y_desc(y)
-        .x_labels(11)
-        .y_labels(6)
-        .x_label_formatter(&|t| trimmed(*t, across))
-        .y_label_formatter(&|y| trimmed(*y, up))
-        .draw()?;
-    Ok(graph)
+    let time = unit.of(first)..unit.of(last);
+    let time = Axis { range: time, name: x, label: &|t| trimmed(*t, across) };
+    axes(area, time, Axis { range, name: Some(y), label: &|y| trimmed(*y, up) }, 72)
 }
