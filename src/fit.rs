@@ -42,6 +42,12 @@ const NOISE: f64 = 2.5;
 
 const WORD: f64 = 4294967296.0;
 
+/// Part of an octave is counted in finer units as long as its half is less than this share of the octave's width, which
+/// the next finer unit doubles. What the offsets leave of the word, 0.02 · 2³², is more than a center's lowest bits
+/// come to, 2⁵, at the finest unit.
+const FILLED: f64 = 0.24;
+const MOST_FINER: u32 = 20;
+
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
 /// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
 /// taken that leaves no octave without a polynomial.
@@ -179,8 +185,11 @@ impl Span {
         // The significand of the top is from 2³¹ to 2³², and offsets count in half of its unit.
         let significand = (top << 8 | 1 << 31) as f64;
         let (mut width, mut finer) = (0.5 * high / significand * WORD, 0);
-        // A small part of an octave fills the word, too, or the coefficients would have few bits.
-        while finer < FINER && half <= 0.25 * width {
+        // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it: the
+        // center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift. At
+        // a quarter of the width, a half of exactly this left the word, and the polynomial gave the time of its other
+        // end.
+        while finer < MOST_FINER && half <= FILLED * width {
             width *= 0.5;
             finer += 1;
         }

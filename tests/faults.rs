@@ -233,6 +233,26 @@ fn a_gap_too_small_tells_its_numbers() {
 
 // Found by an attack on 0.2.0 before it was released.
 
+/// Joins at plain fractions of the exposure, which whole milliseconds have: offsets left the word, and the polynomial gave
+/// the time of the other end of its part.
+#[test]
+fn joins_at_plain_fractions() {
+    let opening = [(0.0, 0.0), (2.5, 0.0), (7.5, 1.0), (10.0, 1.0)];
+    let closing = [(10.0, 1.0), (11.5, 1.0), (14.5, 0.0), (16.0, 0.0)];
+    let tent = Curve::shutter(opening, closing);
+    assert_eq!(shutter::<8>(&tent).inverse_cdf(0.625), 10.0);
+    judge_inverse(&tent, around(0.625, 200));
+
+    let late = Curve::shutter(instant(0.0, 1.0), [(1.0, 1.0), (2.5, 1.0), (5.5, 0.0), (7.0, 0.0)]);
+    assert!(shutter::<8>(&late).trigger_ticks(2, 1000).unwrap().eq([1000, 3321]));
+    let early = Curve::shutter(opening, instant(13.0, 1.0));
+    let exact = Exact::new(&early);
+    for (i, tick) in (0..).zip(shutter::<8>(&early).trigger_ticks(4, 1000).unwrap()) {
+        let error = tick_error(&exact, tick, [i, 4], 1000);
+        assert!(error <= TICKS[0], "trigger {i} is {error} ticks off");
+    }
+}
+
 #[test]
 fn the_cdf_on_either_side_of_half() {
     let curve = Curve::shutter(
