@@ -108,16 +108,28 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends, and at which the plateau ends. Within a [`trace`](Self::trace) of 1/2
-    /// they are 1/2.
+    /// The fractions at which the near ramp ends and the far ramp begins. Without a plateau these are one number, by the
+    /// lesser share, since that has more bits.
+    pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
+        let near = self.ramp(side).share.to_f64() / WHOLE as f64;
+        let far = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+        if self.has_plateau() {
+            [near, far]
+        } else if near < 0.5 {
+            [near; 2]
+        } else {
+            [far; 2]
+        }
+    }
+
+    /// The same, but 1/2 within a [`trace`](Self::trace) of that.
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
-        const fn fraction(x: f64, trace: u64) -> f64 {
-            let x = x / WHOLE as f64;
+        const fn traced(x: f64, trace: u64) -> f64 {
             let is_half = (x - 0.5).abs() < trace as f64 / 18446744073709551616.0;
             if is_half { 0.5 } else { x }
         }
-        let near = self.ramp(side).share.to_f64();
-        [fraction(near, self.trace()), fraction(near + self.plateau.to_f64(), self.trace())]
+        let [near, far] = self.exact_joins(side);
+        [traced(near, self.trace()), traced(far, self.trace())]
     }
 
     /// The same from side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; the greatest is all ones.
@@ -135,15 +147,23 @@ impl Exposure {
             if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }
         }
         let [near, far] = [&self.ramps[0], &self.ramps[1]];
+        let near = words(near.share, self.trace());
+        if !self.has_plateau() && near < 1 << 63 {
+            return [near; 2];
+        }
         let beyond = words(far.share, self.trace());
-        [words(near.share, self.trace()), (!beyond).saturating_add(1)]
+        [near, (!beyond).saturating_add(1)]
+    }
+
+    pub(crate) const fn has_plateau(&self) -> bool {
+        self.plateau.hi > 0.0
     }
 
     /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
     /// rounding of pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, four ulp: the polynomial of
     /// the near ramp serves it, too, and its error is measured at 1/2 ([`fit`](crate::fit)).
     const fn trace(&self) -> u64 {
-        if self.plateau.hi > 0.0 { 1 << 20 } else { 1 << 41 }
+        if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }
 
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
@@ -175,20 +195,6 @@ impl Exposure {
                 ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }
-    }
-
-    /// The time since a side's start at which a fraction has been collected, for the fit of a polynomial.
-    #[inline(never)]
-    pub(crate) const fn elapsed(&self, side: usize, a: f64) -> f64 {
-        let a = Pair::from_f64(a * WHOLE as f64);
-        let moment = match self.section(side, a) {
-            Section::Plateau(moment) => moment,
-            Section::Ramp(ramp, target) => {
-                self.ramp(ramp).at_mass_const(side, target, [FOR_TICK * a.hi, FOR_FRACTION * a.hi])
-            }
-        };
-        let elapsed = moment.since_f64(self.start(side));
-        if side == 0 { elapsed } else { -elapsed }
     }
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but

@@ -35,6 +35,7 @@
 // public types stand on that: `shutter`, `pdf`, `schedule` (with `fraction` and `ticks`), `pulse`, `error`.
 mod batch;
 mod bezier;
+mod certificate;
 mod cubic;
 mod error;
 mod exposure;
@@ -43,6 +44,7 @@ mod fraction;
 mod moment;
 mod octave;
 mod pair;
+mod path;
 mod pdf;
 mod plan;
 mod pulse;

@@ -42,11 +42,4 @@ impl Moment {
         let way = self.elapsed.shifted(self.unit - unit);
         if self.back { base.minus(way) } else { base.plus(way) }
     }
-
-    /// The time since `start`, in `f64`.
-    pub(crate) const fn since_f64(self, start: f32) -> f64 {
-        let unit = f64::from_bits(((1023 + self.unit) as u64) << 52);
-        let (base, way) = (self.time as f64 - start as f64, self.elapsed.to_f64() * unit);
-        if self.back { base - way } else { base + way }
-    }
 }

@@ -76,12 +76,12 @@ impl<const CELLS: usize> Plan<CELLS> {
         let unit = unit_for(exposure.start(0), exposure.start(1));
         let [from, to] = exposure.joins(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
+        let shapes = [Shape::new(opening), Shape::new(closing)];
         let (mut base, mut slope, mut plateau) = (0, 0, [to, 0]);
         let mut serves = true;
         if open < close {
-            let masses = [Shape::new(opening).mass(), Shape::new(closing).mass()];
-            base = in_units(open as f64, unit) - in_units(masses[0], unit);
-            slope = in_units(close as f64, unit) + in_units(masses[1], unit) - base;
+            base = in_units(open as f64, unit) - in_units(shapes[0].mass(), unit);
+            slope = in_units(close as f64, unit) + in_units(shapes[1].mass(), unit) - base;
             // If the curve is so far from time 0 that the line has fewer than 40 bits, every `u` is searched for.
             serves = slope >> 40 != 0;
             if serves {
@@ -96,7 +96,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let mut side = 0;
         // `CELLS > 0` lets the compiler leave the fitting out where there are no octaves.
         while CELLS > 0 && serves && side < 2 {
-            tops[side] = fit(&exposure, unit, side, &mut octaves[side]);
+            tops[side] = fit(&exposure, &shapes, unit, side, &mut octaves[side]);
             side += 1;
         }
         let scale = power_of_two(unit + 32);
@@ -260,7 +260,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let mut index = 0;
         while index < CELLS {
-            if let Some(span) = Span::new(side, part, octave::below(top, index)) {
+            if let Some(span) = Span::new(part, octave::below(top, index)) {
                 if !self.octaves[side & 1][index].exists() {
                     break;
                 }

@@ -14,7 +14,7 @@ use crate::bezier::CubicBezier;
 use crate::cubic::integral;
 use crate::moment::Moment;
 use crate::pair::{Pair, exponent, flipped, power_of_two};
-use crate::seed::{seed, seed_by_bits};
+use crate::seed::seed;
 use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ONE, Offset, solve};
@@ -206,18 +206,6 @@ impl Ramp {
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
         let seed = seed(&anchor.c, anchor.sought);
-        self.moment(
-            side,
-            solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
-        )
-    }
-
-    /// The same with a first guess that a constant can compute.
-    pub(crate) const fn at_mass_const(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
-        let unit = unit_of_mass(self.share);
-        let target = target.scaled(unit);
-        let anchor = self.anchor(side, target);
-        let seed = seed_by_bits(&anchor.c, anchor.sought);
         self.moment(
             side,
             solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),

@@ -57,12 +57,6 @@ const fn power(log: i32) -> f32 {
     f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })
 }
 
-/// The guess of a distance from logarithms alone; all that a constant can use.
-#[inline(always)]
-pub(crate) const fn seed_by_bits(c: &[f32], sought: f32) -> f32 {
-    power(least_root(c, rough_log(sought)) - MEAN)
-}
-
 /// The guess of a distance by the root that the features choose.
 #[inline(always)]
 pub(crate) fn seed(c: &[f32], sought: f32) -> f32 {
