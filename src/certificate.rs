@@ -1,8 +1,9 @@
 //! The certificate of an octave: a bound of its polynomial's error over all of it, not at samples alone.
 //!
-//! Along a [`Stretch`] of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial: `x`, the offset, has degree
-//! 6 in the Bezier's parameter, `Q` has degree 8 in that, `t` has degree 3. With the openness `f` beside it, `R f` is the
-//! error in exposure, of degree 51. No root is sought, and a kink of time over exposure is none of these polynomials.
+//! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to 1:
+//! the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f` beside
+//! it, `R f` is the error in exposure, of degree 51. No root is sought, and a kink of time over exposure is none of these
+//! polynomials.
 //!
 //! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
 //! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M
@@ -11,29 +12,47 @@
 //! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
 //! on is enough, and for `R f` that times `Σ |f_k| A^k`.
 //!
-//! docs/proofs.md leads from this to what an answer is off by.
+//! What is a difference of nearly equal numbers is computed in `f64`; the rest in `f32`, whose rounding [`SLACK`] makes up
+//! for. docs/proofs.md leads from this to what an answer is off by.
 
 use crate::octave::DEGREE;
-use crate::path::Stretch;
+use crate::path::{Path, value};
 
 /// Numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
-const POINTS: [(usize, f64); 3] =
-    [(16, 0.9807852804032304), (48, 0.9978589232386035), (96, 0.9994645874763657)];
+const POINTS: [(usize, f64); 3] = [
+    (16, 0.9807852804032304),
+    (48, 0.9978589232386035),
+    (96, 0.9994645874763657),
+];
 
 /// The number of ways to a bound.
 pub(crate) const WAYS: usize = POINTS.len();
 
-/// By how much ellipses are greater than the interval: `ρ`.
-const ELLIPSES: [f64; 6] = [2.5, 3.0, 3.5, 4.0, 5.0, 7.0];
+/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried, which
+/// `Q(x₀ + x₁ s) f` does not exceed.
+const ELLIPSES: [[f32; 3]; 6] =
+    [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 
-/// Half of the least degree that is tried, which `Q(x₀ + x₁ s) f` does not exceed, and how many greater ones are.
+const fn ellipse(rho: f32) -> [f32; 3] {
+    let square = 1.0 / (rho * rho);
+    let twelfth = square * square * square * square * square * square;
+    [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)]
+}
+
+/// Half of the least degree, and how many degrees are tried, each greater by 2.
 const HALF_DEGREE: usize = 6;
 const DEGREES: usize = 7;
 
-/// The error, and its products with each of three cubics: all of them at the points, and bounds between these.
+/// More than what some hundred roundings of an `f32` come to.
+const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
+
+/// The products of the error with cubics: 1 first, which is the error itself.
+pub(crate) const KINDS: usize = 3;
+
+/// The greatest errors at the points, and bounds for all places between.
 pub(crate) struct Errors {
-    pub(crate) seen: [f64; 4],
-    pub(crate) bound: [f64; 4],
+    pub(crate) seen: [f32; KINDS],
+    pub(crate) bound: [f32; KINDS],
 }
 
 /// The errors of the polynomial `q[0] x + q[1] x² + ...` along a stretch whose fraction is counted in offsets, and
@@ -41,60 +60,46 @@ pub(crate) struct Errors {
 #[inline(never)]
 pub(crate) const fn errors(
     q: &[f64; DEGREE],
-    along: &Stretch,
-    weights: &[[f64; 4]; 3],
+    along: &Path,
+    weights: &[[f32; 4]; KINDS],
     way: usize,
 ) -> Errors {
-    let Stretch { elapsed, fraction, .. } = along;
-    let (points, cosine) = POINTS[way];
+    let (points, cosine) = POINTS[way % WAYS];
     // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
-    let (mut seen, mut shares) = ([0.0; 4], [0.0; DEGREES]);
+    let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
     let (mut s, mut last, mut i) = (1.0, cosine, 0);
     while i <= points {
-        let x = value(fraction, s);
-        let error = (value(q, x) * x - value(elapsed, s)).abs();
-        greater(&mut seen[0], error);
-        let mut kind = 1;
-        while kind < 4 {
-            greater(&mut seen[kind], error * value(&weights[kind - 1], s).abs());
+        let x = value(&along.fraction, s);
+        let error = (value(q, x) * x - value(&along.elapsed, s)).abs() as f32;
+        let mut kind = 0;
+        while kind < KINDS {
+            let error = error * single(&weights[kind], s as f32).abs();
+            // Written so that a NaN stays.
+            seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
             kind += 1;
         }
-        if i >= HALF_DEGREE && i - HALF_DEGREE < DEGREES {
-            shares[i - HALF_DEGREE] = s;
+        let half = i.wrapping_sub(HALF_DEGREE);
+        if half < DEGREES {
+            shares[half] = s as f32;
         }
         (s, last) = (2.0 * cosine * s - last, s);
         i += 1;
     }
-    let mut bound = [f64::INFINITY; 4];
-    let mut i = 0;
+    let (mut bound, mut i) = ([f32::INFINITY; KINDS], 0);
     while i < ELLIPSES.len() {
-        let rho = ELLIPSES[i];
-        let axis = 0.5 * (rho + 1.0 / rho);
-        let linear = fraction[0].abs() + fraction[1].abs() * axis;
-        let all = absolute(fraction, axis);
-        let (mut powers, mut greatest, mut k) = ([linear, all], 0.0, 1);
-        while k < DEGREE {
-            powers = [powers[0] * linear, powers[1] * all];
-            greatest += q[k].abs() * (powers[1] - powers[0]);
-            k += 1;
-        }
+        let [axis, square, first] = ELLIPSES[i];
+        let beyond = first * bends(q, &along.fraction, axis);
         let mut kind = 0;
-        while kind < 4 {
-            let mut tail = 2.0 * greatest / (rho - 1.0);
-            if kind > 0 {
-                tail *= absolute(&weights[kind - 1], axis);
-            }
+        while kind < KINDS {
+            let mut tail = SLACK * beyond * absolute(&weights[kind], axis);
             let mut half = 0;
-            while half < HALF_DEGREE + DEGREES {
-                if half >= HALF_DEGREE {
-                    let share = shares[half - HALF_DEGREE];
-                    let most = (seen[kind] + tail) / share + tail;
-                    // A share of 0 or less is of no degree below that of the points.
-                    if share > 0.0 && most < bound[kind] {
-                        bound[kind] = most;
-                    }
+            while half < DEGREES {
+                // A share of 0 or less is that of no degree below the number of points.
+                let most = (SLACK * seen[kind] + tail) / shares[half] + tail;
+                if shares[half] > 0.0 && most < bound[kind] {
+                    bound[kind] = most;
                 }
-                tail /= rho * rho;
+                tail *= square;
                 half += 1;
             }
             kind += 1;
@@ -104,31 +109,33 @@ pub(crate) const fn errors(
     Errors { seen, bound }
 }
 
-/// The greater of two numbers, or NaN.
-const fn greater(most: &mut f64, x: f64) {
-    if !(x <= *most) {
-        *most = x;
-    }
-}
-
-/// The value at `x` of a polynomial by its coefficients, from the constant one up.
+/// `Σ |c_k| (Y^k - Y₁^k)`: how far `Q(x)` may be from `Q(x₀ + x₁ s)` on an ellipse, but for the term `c₁ x`.
 #[inline(never)]
-pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
-    let (mut value, mut k) = (0.0, c.len());
+const fn bends(q: &[f64; DEGREE], [x0, x1, curved @ ..]: &[f64; 7], axis: f32) -> f32 {
+    let linear = x0.abs() as f32 + x1.abs() as f32 * axis;
+    let (mut curve, mut k) = (0.0, curved.len());
     while k > 0 {
         k -= 1;
-        value = value * x + c[k];
+        curve = (curve + curved[k].abs() as f32) * axis;
     }
-    value
+    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
+    let (mut power, mut more, mut sum, mut k) = (linear, curve * axis, 0.0, 1);
+    let curve = more;
+    while k < DEGREE {
+        more = (linear + curve) * more + curve * power;
+        power *= linear;
+        sum += q[k].abs() as f32 * more;
+        k += 1;
+    }
+    sum
 }
 
-/// The same of its coefficients without their signs: a bound of all values within `x` of 0.
-#[inline(never)]
-pub(crate) const fn absolute(c: &[f64], x: f64) -> f64 {
-    let (mut value, mut k) = (0.0, c.len());
-    while k > 0 {
-        k -= 1;
-        value = value * x + c[k].abs();
-    }
-    value
+/// The value at `x` of a cubic by its coefficients, from the constant one up.
+const fn single(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
+    c0 + x * (c1 + x * (c2 + x * c3))
+}
+
+/// The value of the coefficients without their signs: a bound of all values within `x` of 0.
+pub(crate) const fn absolute(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
+    single(&[c0.abs(), c1.abs(), c2.abs(), c3.abs()], x)
 }

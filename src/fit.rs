@@ -1,25 +1,17 @@
 //! How the octaves of a side are fitted, when a curve is built: the polynomial through the exact times at a few nodes,
 //! which is kept if a certificate says that it keeps the promise.
 
-use crate::certificate::{WAYS, absolute, errors, value};
-use crate::cubic::{quadratic_min, sqrt};
+use crate::certificate::{WAYS, absolute, errors};
+use crate::cubic::quadratic_min;
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, FINE, FINER, LEAST, Octave, STEP, below, floor_bits, range};
 use crate::pair::{exponent, fixed};
-use crate::path::{Path, Stretch};
+use crate::path::{Path, scale, value};
 use crate::shape::Shape;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
-const NODES: [f64; DEGREE + 1] = [
-    -0.984807753012208,
-    -0.8660254037844387,
-    -0.6427876096865394,
-    -0.3420201433256687,
-    0.0,
-    0.3420201433256687,
-    0.6427876096865394,
-    0.8660254037844387,
-    0.984807753012208,
+const NODES: [f32; DEGREE + 1] = [
+    -0.98480775, -0.8660254, -0.64278764, -0.34202015, 0.0, 0.34202015, 0.64278764, 0.8660254, 0.98480775,
 ];
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
@@ -171,28 +163,26 @@ impl Span {
         self.octave / (1 << self.finer) as f64
     }
 
+    /// The stretch of a path between two places, its fractions counted as offsets from the center; and how far rounding
+    /// takes such an offset.
+    const fn counted(&self, path: &Path, first: f64, last: f64) -> (Path, f64) {
+        let (mut along, noise) = path.stretch(first, last);
+        along.fraction[0] -= self.center() as f64 / WORD * self.octave;
+        let per_width = 1.0 / self.width();
+        scale(&mut along.fraction, per_width, 1.0);
+        (along, noise * per_width)
+    }
+
     /// The middle's significand, nearly, doubled; and the shift in its lowest bits.
     const fn center(&self) -> u64 {
         (self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
     }
-
-    /// A stretch, whose fractions become offsets from the center.
-    const fn counted(&self, mut along: Stretch) -> Stretch {
-        along.fraction[0] -= self.center() as f64 / WORD * self.octave;
-        let (per_width, mut k) = (1.0 / self.width(), 0);
-        while k < along.fraction.len() {
-            along.fraction[k] *= per_width;
-            k += 1;
-        }
-        along.noise *= per_width;
-        along
-    }
 }
 
 /// A polynomial in the unit of its coefficients, as an octave evaluates it.
-struct Fitted {
+struct Polynomial {
     /// From that of `x` up.
-    q: [f64; DEGREE],
+    c: [f64; DEGREE],
     /// The time from the side's start that its value is added to.
     middle: f64,
     /// The unit of its value, in time.
@@ -201,29 +191,16 @@ struct Fitted {
     steep: f64,
 }
 
-/// What errors may be, in the unit of the coefficients.
-struct Limits {
-    /// What rounding adds to each error in time.
-    rounding: f64,
-    /// What a tick's fraction loses in 32 bits, in time.
-    lost: f64,
-    /// Relative to the time.
-    relative: f64,
-    /// In a tick's time.
-    tick: f64,
-    /// In exposure.
-    light: f64,
-}
-
 impl Side<'_> {
     /// The octave of a part of a ramp, with a polynomial where one keeps the promise.
+    #[inline(never)]
     const fn fitted(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
         let first = path.place(span.middle - span.half, false);
         let last = path.place(span.middle + span.half, true);
-        let along = span.counted(path.stretch(first, last));
+        let (along, noise) = span.counted(path, first, last);
         let c = interpolated(&along);
 
-        // The largest value that Horner's rule meets fills 31 bits.
+        // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
         let reach = span.half / span.width() + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 {
@@ -233,7 +210,6 @@ impl Side<'_> {
             k -= 1;
         }
         steep = steep * reach + bound;
-        // Rounding may not bring it beyond.
         most *= 1.0 + 1.0 / (1 << 20) as f64;
         if !(most > 0.0 && most < f64::MAX) {
             return Octave::NONE;
@@ -243,75 +219,90 @@ impl Side<'_> {
         if exponent - self.unit > 30 {
             return Octave::NONE;
         }
-        let (scale, unit) = (power_of_two(exponent), power_of_two(self.unit));
+        let per_scale = power_of_two(-exponent);
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
-        let (mut q, mut k) = ([0.0; DEGREE], 0);
+        let (mut rounded, mut k) = ([0.0; DEGREE], 0);
         while k < DEGREE {
-            let rounded = round(c[k + 1] / scale);
-            octave.c[DEGREE - 1 - k] = rounded;
-            q[k] = rounded as f64;
+            let c = round(c[k + 1] * per_scale);
+            octave.c[DEGREE - 1 - k] = c;
+            rounded[k] = c as f64;
             k += 1;
         }
-        let middle = (c[0] / unit - TRUNCATED * factor as f64) as i64;
+        let middle = (c[0] * power_of_two(-self.unit) - TRUNCATED * factor as f64) as i64;
         let start = fixed(self.exposure.start(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
 
-        let fitted = Fitted { q, middle: middle as f64 * unit, scale, steep: steep / scale };
+        let polynomial = Polynomial {
+            c: rounded,
+            middle: middle as f64 * power_of_two(self.unit),
+            scale: power_of_two(exponent),
+            steep: steep * per_scale,
+        };
         let is_joined = if ramp == self.side { last >= 1.0 } else { first <= 0.0 };
-        if !self.is_certain(&fitted, span, along, ramp, is_joined) {
-            return Octave::NONE;
+        if self.is_certain(&polynomial, span, along, noise, ramp, is_joined) {
+            octave
+        } else {
+            Octave::NONE
         }
-        octave
     }
 
-    /// Does a polynomial keep the promise on a stretch of a ramp? `is_joined` says whether the stretch reaches the ramp's
+    /// Does a polynomial keep the promise along a stretch of a ramp? `is_joined` says whether it comes to the ramp's
     /// inner end.
     #[inline(never)]
     const fn is_certain(
         &self,
-        polynomial: &Fitted,
+        polynomial: &Polynomial,
         span: &Span,
-        mut along: Stretch,
+        mut along: Path,
+        noise: f64,
         ramp: usize,
         is_joined: bool,
     ) -> bool {
-        let Fitted { ref q, middle, scale, steep } = *polynomial;
-        let (exposure, side) = (self.exposure, self.side);
-        let [t0, t1, t2, t3] = along.elapsed;
-        let ends = [t0 - t1 + t2 - t3, t0 + t1 + t2 + t3];
-        // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below each
-        // line between two of its points.
-        let sizes = [exposure.size_of_time(side, ends[0]), exposure.size_of_time(side, ends[1])];
-        let roots = [sqrt(sizes[0]), sqrt(sizes[1])];
-        let between = ends[0] + (ends[1] - ends[0]) * (roots[0] / (roots[0] + roots[1]));
-        let size = exposure.size_of_time(side, between);
-        let early = line(&along.elapsed, [ends[0], between], [1.0 / sizes[0], 1.0 / size]);
-        let late = line(&along.elapsed, [between, ends[1]], [1.0 / size, 1.0 / sizes[1]]);
-        let weights = [along.openness, early, late];
-
-        // From here on in the unit of the coefficients.
-        along.elapsed = [(t0 - middle) / scale - TRUNCATED, t1 / scale, t2 / scale, t3 / scale];
+        let Polynomial { ref c, middle, scale: unit, steep } = *polynomial;
+        let exposure = self.exposure;
         let joins = JOIN[0] + JOIN[1] * span.to;
-        let rounding = TRUNCATION
-            + steep * (along.noise + joins / span.width())
-            + ends[1] / scale / (1u64 << 48) as f64;
+        let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
+        let interval = exposure.start(1) as f64 - exposure.start(0) as f64;
+        // What an error may be is 1 in each of these units.
+        let per_tick = unit / (TICK_ERROR * interval);
+        let per_light = unit / ((ULP_ERROR * span.ulp - joins) * exposure.area);
+        let per_size = [
+            unit / (FORWARD_ERROR * exposure.size_of_time(self.side, ends[0])),
+            unit / (FORWARD_ERROR * exposure.size_of_time(self.side, ends[1])),
+        ];
+        let openness = scaled(&along.openness, per_light);
+        // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below the
+        // line between two of its points.
+        let slope = (per_size[1] - per_size[0]) / (ends[1] - ends[0]);
+        let mut size = scaled(&along.elapsed, slope);
+        size[0] = (per_size[0] + slope * (along.elapsed[0] - ends[0])) as f32;
+        let beyond = if is_joined { self.greatest_beyond(ramp, unit / per_tick) * per_light } else { 0.0 };
+
+        // In the unit of the coefficients.
+        along.elapsed[0] -= middle;
+        scale(&mut along.elapsed, 1.0 / unit, 1.0);
+        along.elapsed[0] -= TRUNCATED;
         let limits = Limits {
-            rounding,
-            lost: steep * (2u64 << span.finer) as f64 / WORD,
-            relative: FORWARD_ERROR / scale
-                - rounding / if sizes[0] < sizes[1] { sizes[0] } else { sizes[1] },
-            tick: TICK_ERROR * (exposure.start(1) as f64 - exposure.start(0) as f64) / scale,
-            light: (ULP_ERROR * span.ulp - joins) * exposure.area / scale,
+            rounding: (TRUNCATION
+                + steep * (noise + joins / span.width())
+                + ends[1] / unit / (1u64 << 48) as f64) as f32,
+            lost: (steep * (2u64 << span.finer) as f64 / WORD) as f32,
+            per_tick: per_tick as f32,
+            per_size: (if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] }) as f32,
+            beyond: beyond as f32,
+            elapsed: scaled(&along.elapsed, 1.0),
+            openness,
         };
+        let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
         let mut way = 0;
         while way < WAYS {
-            let errors = errors(q, &along, &weights, way);
-            if !self.keeps(&errors.seen, &limits, &along, ramp, is_joined, scale) {
+            let errors = errors(c, &along, &weights, way);
+            if !limits.keep(&errors.seen) {
                 return false;
             }
-            if self.keeps(&errors.bound, &limits, &along, ramp, is_joined, scale) {
+            if limits.keep(&errors.bound) {
                 return true;
             }
             way += 1;
@@ -319,75 +310,86 @@ impl Side<'_> {
         false
     }
 
-    /// Are errors within the limits?
-    const fn keeps(
-        &self,
-        &[time, light, early, late]: &[f64; 4],
-        limits: &Limits,
-        along: &Stretch,
-        ramp: usize,
-        is_joined: bool,
-        scale: f64,
-    ) -> bool {
-        let error = time + limits.rounding;
-        // Written so that a NaN fails.
-        if !(early <= limits.relative
-            && late <= limits.relative
-            && error + limits.lost <= limits.tick)
-        {
-            return false;
-        }
-        // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
-        // never falls rises at least as fast as around a point where it stands still.
-        let [_, t1, t2, t3] = along.elapsed;
-        let slowest =
-            quadratic_min([t1 - 2.0 * t2 + 3.0 * t3, t1 - 3.0 * t3, t1 + 2.0 * t2 + 3.0 * t3]);
-        let mut way = error / (t1.abs() + t2.abs() + t3.abs());
-        while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
-            way *= 2.0;
-        }
-        let [_, f1, f2, f3] = along.openness;
-        let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        let light = light + limits.rounding * absolute(&along.openness, 1.0) + error * way * bends;
-        let beyond = if is_joined { self.greatest_beyond(ramp, error * scale) } else { 0.0 };
-        light <= limits.light && error * beyond <= limits.light
-    }
-
     /// The greatest openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
+    #[inline(never)]
     const fn greatest_beyond(&self, ramp: usize, time: f64) -> f64 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
-        let shape = if ramp == 1 { self.shapes[0].reversed() } else { self.shapes[1] };
-        let (f, t) = (shape.openness(), shape.elapsed());
+        let other = if ramp == 1 { self.shapes[0].reversed() } else { self.shapes[1] };
+        let (f, t) = (other.openness(), other.elapsed());
         let mut p = 1.0 / (1 << 30) as f64;
         while p < 1.0 && p * value(&t.c, p) < time {
             p *= 2.0;
         }
-        f.value.abs() + p * absolute(&f.c, p)
+        f.value.abs() + p * (f.c[0].abs() + f.c[1].abs() + f.c[2].abs())
     }
 }
 
-/// The line through two points, as a polynomial of what a cubic is one of.
-const fn line(c: &[f64; 4], [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> [f64; 4] {
-    let slope = (y1 - y0) / (x1 - x0);
-    [y0 + slope * (c[0] - x0), slope * c[1], slope * c[2], slope * c[3]]
+/// What an error is held against, in single precision. An error of 1 is the greatest that is allowed.
+struct Limits {
+    /// What rounding adds to the error in time.
+    rounding: f32,
+    /// What a tick's fraction loses in 32 bits, in time.
+    lost: f32,
+    per_tick: f32,
+    /// The greater one of both ends'.
+    per_size: f32,
+    /// The light in a unit of time beyond the ramp's inner end.
+    beyond: f32,
+    elapsed: [f32; 4],
+    openness: [f32; 4],
+}
+
+impl Limits {
+    /// Are errors in time, in light, and relative to the time as small as they have to be?
+    #[inline(never)]
+    const fn keep(&self, &[time, light, relative]: &[f32; 3]) -> bool {
+        let error = time + self.rounding;
+        // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
+        // never falls rises at least as fast as around a point where it stands still.
+        let [_, t1, t2, t3] = self.elapsed;
+        let (first, last) = (t1 - 2.0 * t2 + 3.0 * t3, t1 + 2.0 * t2 + 3.0 * t3);
+        let slowest = quadratic_min([first as f64, (t1 - 3.0 * t3) as f64, last as f64]) as f32;
+        let mut way = error / (t1.abs() + t2.abs() + t3.abs());
+        while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
+            way *= 2.0;
+        }
+        let [_, f1, f2, f3] = self.openness;
+        let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
+        let light = light + self.rounding * absolute(&self.openness, 1.0) + error * way * bends;
+        // Written so that a NaN fails.
+        relative + self.rounding * self.per_size <= CERTAIN
+            && (error + self.lost) * self.per_tick <= CERTAIN
+            && light <= CERTAIN
+            && error * self.beyond <= CERTAIN
+    }
+}
+
+/// 1, but for what single precision rounds.
+const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
+
+/// A cubic times a factor, in single precision.
+const fn scaled(&[c0, c1, c2, c3]: &[f64; 4], factor: f64) -> [f32; 4] {
+    [(c0 * factor) as f32, (c1 * factor) as f32, (c2 * factor) as f32, (c3 * factor) as f32]
 }
 
 /// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
 #[inline(never)]
-const fn interpolated(along: &Stretch) -> [f64; DEGREE + 1] {
+const fn interpolated(along: &Path) -> [f64; DEGREE + 1] {
     let [first, last] = [value(&along.fraction, -1.0), value(&along.fraction, 1.0)];
+    let (mut single, mut k) = ([0.0; 7], 0);
+    while k < 7 {
+        single[k] = along.fraction[k] as f32;
+        k += 1;
+    }
+    let (middle, half) = ((0.5 * (first + last)) as f32, (0.5 * (last - first)) as f32);
     let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
     let mut i = 0;
     while i <= DEGREE {
-        let s = place(
-            &along.fraction,
-            0.5 * (first + last) + 0.5 * (last - first) * NODES[i],
-            NODES[i],
-        );
-        x[i] = value(&along.fraction, s);
-        d[i] = value(&along.elapsed, s);
+        let place = node(&single, middle + half * NODES[i], NODES[i]);
+        x[i] = value(&along.fraction, place);
+        d[i] = value(&along.elapsed, place);
         i += 1;
     }
     // Newton's divided differences ...
@@ -406,20 +408,20 @@ const fn interpolated(along: &Stretch) -> [f64; DEGREE + 1] {
     c
 }
 
-/// Where the fraction is nearly `x`, from a first guess on. A polynomial interpolates wherever its nodes are; they need
-/// only be near Chebyshev's for its error to be small. So single precision is enough, and no step is checked.
+/// Where an offset is nearly `x`, from a first guess on. A polynomial interpolates wherever its nodes are; they need only
+/// be near Chebyshev's for its error to be small. So single precision is enough, and no step is checked.
 #[inline(never)]
-const fn place(fraction: &[f64; 7], x: f64, guess: f64) -> f64 {
-    let mut s = guess as f32;
-    let mut steps = 0;
+const fn node(offset: &[f32; 7], x: f32, guess: f32) -> f64 {
+    let (mut s, mut steps) = (guess, 0);
     while steps < 4 {
-        let (mut value, mut slope, mut k) = (0.0, 0.0, 7);
-        while k > 0 {
-            k -= 1;
+        let (mut value, mut slope) = (0.0, 0.0);
+        let mut c: &[f32] = offset;
+        while let [lower @ .., highest] = c {
             slope = slope * s + value;
-            value = value * s + fraction[k] as f32;
+            value = value * s + *highest;
+            c = lower;
         }
-        let next = s - (value - x as f32) / slope;
+        let next = s - (value - x) / slope;
         s = if next > 1.0 {
             1.0
         } else if next < -1.0 {
@@ -479,7 +481,7 @@ mod tests {
     /// The nodes are its roots.
     #[test]
     fn nodes_are_those_of_chebyshev() {
-        assert!(NODES.iter().all(|node| chebyshev(*node).abs() < 1e-13));
+        assert!(NODES.iter().all(|node| chebyshev(f64::from(*node)).abs() < 1e-5));
         assert!(NODES.is_sorted_by(|a, b| a < b));
     }
 }

@@ -12,10 +12,11 @@ use crate::trace::{Call, Key, Selection, trace};
 
 pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let name = |f: Function| f.symbol().trim_start_matches("measured_");
-    // The baselines have rows and hard inputs of their own.
+    // The baselines have rows and hard inputs of their own, and building has but one row.
+    let has = |f: Function, row| series().any(|(s, i)| (s, i) == (f, Inputs::Row(row)));
     let functions: Vec<Function> = Function::ALL
         .into_iter()
-        .filter(|f| series().any(|(s, i)| (s, i) == (*f, Inputs::Row(1))))
+        .filter(|f| has(*f, 1) || *f == Function::Construct)
         .collect();
     let names: Vec<&str> = functions.iter().map(|f| name(*f)).collect();
     let called = functions.iter().copied().find(|f| name(*f) == function);
@@ -28,7 +29,7 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let elf = build(M4F, "cost", Flavour::fast(seed))?;
     let code = Disassembly::of(M4F, &elf)?;
     let mut selection = Selection { cells: vec![cells], functions: vec![called], inputs: ON_ROWS };
-    for (row, (name, data)) in ROWS.iter().enumerate() {
+    for (row, (name, data)) in ROWS.iter().enumerate().filter(|(row, _)| has(called, *row)) {
         let inputs = Inputs::Row(row);
         let key = Key { function: called, cells, inputs, curve: Curve::index(data) };
         // The row has the listing; all that is not of a row is run but once.
