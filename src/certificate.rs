@@ -12,15 +12,18 @@
 //! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
 //! on is enough, and for `R f` that times `Σ |f_k| A^k`.
 //!
-//! What is a difference of nearly equal numbers is computed in `f64`; the rest in `f32`, whose rounding [`SLACK`] makes up
-//! for. docs/proofs.md leads from this to what an answer is off by.
+//! Each sample goes the answer's own way, from the position of a fraction to the polynomial's value in 32 bits, so that
+//! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between them.
+//! All else may be in `f32`, whose rounding [`SLACK`] makes up for.
+//!
+//! docs/proofs.md leads from this to what an answer is off by.
 
-use crate::octave::DEGREE;
+use crate::octave::{DEGREE, Octave};
 use crate::path::{Path, value};
 
-/// Numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
+/// Even numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
 const POINTS: [(usize, f64); 3] = [
-    (16, 0.9807852804032304),
+    (24, 0.9914448613738104),
     (48, 0.9978589232386035),
     (96, 0.9994645874763657),
 ];
@@ -49,34 +52,47 @@ const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 /// The products of the error with cubics: 1 first, which is the error itself.
 pub(crate) const KINDS: usize = 3;
 
-/// The greatest errors at the points, and bounds for all places between.
+/// The greatest errors: what they are at least, by the samples, and at most.
 pub(crate) struct Errors {
-    pub(crate) seen: [f32; KINDS],
-    pub(crate) bound: [f32; KINDS],
+    pub(crate) least: [f32; KINDS],
+    pub(crate) most: [f32; KINDS],
 }
 
-/// The errors of the polynomial `q[0] x + q[1] x² + ...` along a stretch whose fraction is counted in offsets, and
-/// whose time in the unit of `q`.
+/// The errors of an octave's polynomial along a stretch, whose fraction counts as a position does, and whose time in
+/// the unit of the coefficients. Samples are wrong by at most `noise`. For the tails the offset `x` by powers of `s`, in
+/// single precision.
 #[inline(never)]
 pub(crate) const fn errors(
-    q: &[f64; DEGREE],
+    octave: &Octave,
     along: &Path,
+    x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
+    noise: f32,
     way: usize,
 ) -> Errors {
     let (points, cosine) = POINTS[way % WAYS];
+    let [u0, u1, u2, u3, u4, u5, u6] = along.fraction;
+    let [t0, t1, t2, t3] = along.elapsed;
     // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
     let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
     let (mut s, mut last, mut i) = (1.0, cosine, 0);
-    while i <= points {
-        let x = value(&along.fraction, s);
-        let error = (value(q, x) * x - value(&along.elapsed, s)).abs() as f32;
-        let mut kind = 0;
-        while kind < KINDS {
-            let error = error * single(&weights[kind], s as f32).abs();
-            // Written so that a NaN stays.
-            seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
-            kind += 1;
+    while i <= points / 2 {
+        // At s and -s: even powers first, then the odd ones.
+        let square = s * s;
+        let position = [value(&[u0, u2, u4, u6], square), s * value(&[u1, u3, u5], square)];
+        let time = [t0 + t2 * square, s * (t1 + t3 * square)];
+        let mut sign = 1.0;
+        while sign >= -1.0 {
+            let rest = octave.rest(octave.ahead_of_center(nearest(position[0] + sign * position[1])));
+            let error = (rest as f64 - (time[0] + sign * time[1])).abs() as f32;
+            let mut kind = 0;
+            while kind < KINDS {
+                let error = error * single(&weights[kind], (sign * s) as f32).abs();
+                // Written so that a NaN stays.
+                seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
+                kind += 1;
+            }
+            sign -= 2.0;
         }
         let half = i.wrapping_sub(HALF_DEGREE);
         if half < DEGREES {
@@ -85,19 +101,26 @@ pub(crate) const fn errors(
         (s, last) = (2.0 * cosine * s - last, s);
         i += 1;
     }
-    let (mut bound, mut i) = ([f32::INFINITY; KINDS], 0);
+    let (mut least, mut most, mut kind) = (seen, [f32::INFINITY; KINDS], 0);
+    while kind < KINDS {
+        let noise = noise * absolute(&weights[kind], 1.0);
+        least[kind] -= noise;
+        seen[kind] = SLACK * (seen[kind] + noise);
+        kind += 1;
+    }
+    let mut i = 0;
     while i < ELLIPSES.len() {
         let [axis, square, first] = ELLIPSES[i];
-        let beyond = first * bends(q, &along.fraction, axis);
+        let beyond = SLACK * first * bends(octave, x, axis);
         let mut kind = 0;
         while kind < KINDS {
-            let mut tail = SLACK * beyond * absolute(&weights[kind], axis);
+            let mut tail = beyond * absolute(&weights[kind], axis);
             let mut half = 0;
             while half < DEGREES {
                 // A share of 0 or less is that of no degree below the number of points.
-                let most = (SLACK * seen[kind] + tail) / shares[half] + tail;
-                if shares[half] > 0.0 && most < bound[kind] {
-                    bound[kind] = most;
+                let bound = (seen[kind] + tail) / shares[half] + tail;
+                if shares[half] > 0.0 && bound < most[kind] {
+                    most[kind] = bound;
                 }
                 tail *= square;
                 half += 1;
@@ -106,17 +129,17 @@ pub(crate) const fn errors(
         }
         i += 1;
     }
-    Errors { seen, bound }
+    Errors { least, most }
 }
 
 /// `Σ |c_k| (Y^k - Y₁^k)`: how far `Q(x)` may be from `Q(x₀ + x₁ s)` on an ellipse, but for the term `c₁ x`.
 #[inline(never)]
-const fn bends(q: &[f64; DEGREE], [x0, x1, curved @ ..]: &[f64; 7], axis: f32) -> f32 {
-    let linear = x0.abs() as f32 + x1.abs() as f32 * axis;
+const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
+    let linear = x0.abs() + x1.abs() * axis;
     let (mut curve, mut k) = (0.0, curved.len());
     while k > 0 {
         k -= 1;
-        curve = (curve + curved[k].abs() as f32) * axis;
+        curve = (curve + curved[k].abs()) * axis;
     }
     // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
     let (mut power, mut more, mut sum, mut k) = (linear, curve * axis, 0.0, 1);
@@ -124,10 +147,15 @@ const fn bends(q: &[f64; DEGREE], [x0, x1, curved @ ..]: &[f64; 7], axis: f32) -
     while k < DEGREE {
         more = (linear + curve) * more + curve * power;
         power *= linear;
-        sum += q[k].abs() as f32 * more;
+        sum += octave.c[DEGREE - 1 - k].unsigned_abs() as f32 * more;
         k += 1;
     }
     sum
+}
+
+/// The nearest integer, nearly, in 32 bits, which wraps as positions do.
+const fn nearest(x: f64) -> i32 {
+    (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i64 as i32
 }
 
 /// The value at `x` of a cubic by its coefficients, from the constant one up.

@@ -15,21 +15,21 @@ const NODES: [f32; DEGREE + 1] = [
 ];
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
-const FORWARD_ERROR: f64 = 1.5 / (1u32 << 27) as f64;
+const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
 /// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
-const TICK_ERROR: f64 = 0.9 / (1u32 << 26) as f64;
+const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
 /// The error in `u` that it may have, in ulp. Neighbouring `u` are an ulp apart, so below 1/2 their times cannot change
 /// places, also not where one octave follows another.
-const ULP_ERROR: f64 = 0.49;
+const ULP_ERROR: f32 = 0.49;
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
 /// (proofs/octave.py). A polynomial's middle makes up for the middle of that.
-const TRUNCATION: f64 = 1.328;
+const TRUNCATION: f32 = 1.328;
 const TRUNCATED: f64 = -0.664;
 
 /// An octave's ramp is looked up by joins that are rounded by this and by this share of them.
-const JOIN: [f64; 2] = [1.0 / (1u64 << 54) as f64, 1.0 / (1u64 << 43) as f64];
+const JOIN: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 43) as f32];
 
 const WORD: f64 = 4294967296.0;
 
@@ -163,32 +163,51 @@ impl Span {
         self.octave / (1 << self.finer) as f64
     }
 
-    /// The stretch of a path between two places, its fractions counted as offsets from the center; and how far rounding
-    /// takes such an offset.
-    const fn counted(&self, path: &Path, first: f64, last: f64) -> (Path, f64) {
-        let (mut along, noise) = path.stretch(first, last);
-        along.fraction[0] -= self.center() as f64 / WORD * self.octave;
-        let per_width = 1.0 / self.width();
-        scale(&mut along.fraction, per_width, 1.0);
-        (along, noise * per_width)
+    /// The fractions of a stretch as offsets from the center.
+    const fn offsets(&self, along: &Path) -> [f32; 7] {
+        let (mut offsets, per_width) = ([0.0; 7], 1.0 / self.width());
+        let mut k = 0;
+        while k < 7 {
+            let center = if k == 0 { self.center() as f64 / WORD * self.octave } else { 0.0 };
+            offsets[k] = ((along.fraction[k] - center) * per_width) as f32;
+            k += 1;
+        }
+        offsets
     }
 
     /// The middle's significand, nearly, doubled; and the shift in its lowest bits.
     const fn center(&self) -> u64 {
         (self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
     }
-}
 
-/// A polynomial in the unit of its coefficients, as an octave evaluates it.
-struct Polynomial {
-    /// From that of `x` up.
-    c: [f64; DEGREE],
-    /// The time from the side's start that its value is added to.
-    middle: f64,
-    /// The unit of its value, in time.
-    scale: f64,
-    /// A bound of its slope.
-    steep: f64,
+    /// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
+    #[inline(never)]
+    const fn interpolated(&self, along: &Path) -> [f64; DEGREE + 1] {
+        let offsets = self.offsets(along);
+        let (center, per_width) = (self.center() as f64 / WORD * self.octave, 1.0 / self.width());
+        let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let mut i = 0;
+        while i <= DEGREE {
+            let place = node(&offsets, NODES[i]);
+            x[i] = (value(&along.fraction, place) - center) * per_width;
+            d[i] = value(&along.elapsed, place);
+            i += 1;
+        }
+        // Newton's divided differences ...
+        let (mut newton, mut order) = ([d[0]; DEGREE + 1], 1);
+        while order <= DEGREE {
+            divided_differences(&mut d, &x, order);
+            newton[order] = d[0];
+            order += 1;
+        }
+        // ... multiplied out into powers of x.
+        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
+        while i > 0 {
+            i -= 1;
+            multiply(&mut c, x[i], newton[i]);
+        }
+        c
+    }
 }
 
 impl Side<'_> {
@@ -197,55 +216,43 @@ impl Side<'_> {
     const fn fitted(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
         let first = path.place(span.middle - span.half, false);
         let last = path.place(span.middle + span.half, true);
-        let (along, noise) = span.counted(path, first, last);
-        let c = interpolated(&along);
+        let (stretch, noise) = path.stretch(first, last);
+        let c = span.interpolated(&stretch);
 
         // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
-        let reach = span.half / span.width() + 0.01;
+        let reach = (span.half / span.width()) as f32 + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 {
             steep = steep * reach + bound;
-            bound = c[k].abs() + bound * reach;
+            bound = c[k].abs() as f32 + bound * reach;
             most = if bound > most { bound } else { most };
             k -= 1;
         }
         steep = steep * reach + bound;
-        most *= 1.0 + 1.0 / (1 << 20) as f64;
-        if !(most > 0.0 && most < f64::MAX) {
+        most *= 1.0 + 1.0 / (1 << 16) as f32;
+        if !(most > 0.0 && most < f32::MAX) {
             return Octave::NONE;
         }
-        let exponent = (most.to_bits() >> 52) as i32 - 1023 - 30;
+        let exponent = exponent(most) - 30;
         let exponent = if exponent < self.unit { self.unit } else { exponent };
         if exponent - self.unit > 30 {
             return Octave::NONE;
         }
-        let per_scale = power_of_two(-exponent);
+        let per_unit = power_of_two(-exponent);
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
-        let (mut rounded, mut k) = ([0.0; DEGREE], 0);
+        let mut k = 0;
         while k < DEGREE {
-            let c = round(c[k + 1] * per_scale);
-            octave.c[DEGREE - 1 - k] = c;
-            rounded[k] = c as f64;
+            octave.c[DEGREE - 1 - k] = round(c[k + 1] * per_unit);
             k += 1;
         }
         let middle = (c[0] * power_of_two(-self.unit) - TRUNCATED * factor as f64) as i64;
         let start = fixed(self.exposure.start(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-
-        let polynomial = Polynomial {
-            c: rounded,
-            middle: middle as f64 * power_of_two(self.unit),
-            scale: power_of_two(exponent),
-            steep: steep * per_scale,
-        };
+        let served = Served { octave, middle: middle as f64 * power_of_two(self.unit), unit: power_of_two(exponent), steep: steep * per_unit as f32, noise };
         let is_joined = if ramp == self.side { last >= 1.0 } else { first <= 0.0 };
-        if self.is_certain(&polynomial, span, along, noise, ramp, is_joined) {
-            octave
-        } else {
-            Octave::NONE
-        }
+        if self.is_certain(&served, span, stretch, ramp, is_joined) { octave } else { Octave::NONE }
     }
 
     /// Does a polynomial keep the promise along a stretch of a ramp? `is_joined` says whether it comes to the ramp's
@@ -253,57 +260,57 @@ impl Side<'_> {
     #[inline(never)]
     const fn is_certain(
         &self,
-        polynomial: &Polynomial,
+        served: &Served,
         span: &Span,
         mut along: Path,
-        noise: f64,
         ramp: usize,
         is_joined: bool,
     ) -> bool {
-        let Polynomial { ref c, middle, scale: unit, steep } = *polynomial;
-        let exposure = self.exposure;
-        let joins = JOIN[0] + JOIN[1] * span.to;
+        let Served { ref octave, middle, unit, steep, noise } = *served;
+        let (exposure, side) = (self.exposure, self.side);
+        let x = span.offsets(&along);
         let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
-        let interval = exposure.start(1) as f64 - exposure.start(0) as f64;
         // What an error may be is 1 in each of these units.
-        let per_tick = unit / (TICK_ERROR * interval);
-        let per_light = unit / ((ULP_ERROR * span.ulp - joins) * exposure.area);
+        let (single, joins) = (unit as f32, JOIN[0] + JOIN[1] * span.to as f32);
+        let per_tick = single / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
+        let per_light = single / (exposure.area as f32) / (ULP_ERROR * span.ulp as f32 - joins);
         let per_size = [
-            unit / (FORWARD_ERROR * exposure.size_of_time(self.side, ends[0])),
-            unit / (FORWARD_ERROR * exposure.size_of_time(self.side, ends[1])),
+            single / (exposure.size_of_time(side, ends[0]) as f32) / FORWARD_ERROR,
+            single / (exposure.size_of_time(side, ends[1]) as f32) / FORWARD_ERROR,
         ];
-        let openness = scaled(&along.openness, per_light);
-        // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below the
-        // line between two of its points.
-        let slope = (per_size[1] - per_size[0]) / (ends[1] - ends[0]);
-        let mut size = scaled(&along.elapsed, slope);
-        size[0] = (per_size[0] + slope * (along.elapsed[0] - ends[0])) as f32;
-        let beyond = if is_joined { self.greatest_beyond(ramp, unit / per_tick) * per_light } else { 0.0 };
 
-        // In the unit of the coefficients.
+        // In the unit of the coefficients, and as positions count.
         along.elapsed[0] -= middle;
         scale(&mut along.elapsed, 1.0 / unit, 1.0);
-        along.elapsed[0] -= TRUNCATED;
+        along.fraction[0] -= span.octave;
+        scale(&mut along.fraction, WORD / span.octave, 1.0);
+        let elapsed = singles(&along.elapsed, 1.0);
+        let openness = singles(&along.openness, per_light);
+        // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below the
+        // line between two of its points.
+        let [_, t1, t2, t3] = elapsed;
+        let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
+        let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];
         let limits = Limits {
-            rounding: (TRUNCATION
-                + steep * (noise + joins / span.width())
-                + ends[1] / unit / (1u64 << 48) as f64) as f32,
-            lost: (steep * (2u64 << span.finer) as f64 / WORD) as f32,
-            per_tick: per_tick as f32,
-            per_size: (if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] }) as f32,
-            beyond: beyond as f32,
-            elapsed: scaled(&along.elapsed, 1.0),
+            rounding: TRUNCATION
+                + steep * (noise as f32 + joins) / span.width() as f32
+                + (ends[1] / unit) as f32 / (1u64 << 48) as f32,
+            lost: steep * (2u64 << span.finer) as f32 / WORD as f32,
+            per_tick,
+            per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
+            beyond: if is_joined { self.greatest_beyond(ramp, single / per_tick) * per_light } else { 0.0 },
+            elapsed,
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
         let mut way = 0;
         while way < WAYS {
-            let errors = errors(c, &along, &weights, way);
-            if !limits.keep(&errors.seen) {
-                return false;
-            }
-            if limits.keep(&errors.bound) {
+            let errors = errors(octave, &along, &x, &weights, limits.rounding + limits.lost, way);
+            if limits.keep(&errors.most) {
                 return true;
+            }
+            if !limits.keep(&errors.least) {
+                return false;
             }
             way += 1;
         }
@@ -312,18 +319,35 @@ impl Side<'_> {
 
     /// The greatest openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
     #[inline(never)]
-    const fn greatest_beyond(&self, ramp: usize, time: f64) -> f64 {
+    const fn greatest_beyond(&self, ramp: usize, time: f32) -> f32 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
-        let other = if ramp == 1 { self.shapes[0].reversed() } else { self.shapes[1] };
-        let (f, t) = (other.openness(), other.elapsed());
-        let mut p = 1.0 / (1 << 30) as f64;
-        while p < 1.0 && p * value(&t.c, p) < time {
+        // Seen from there.
+        let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
+        let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
+        let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
+        let mut p = 1.0 / (1 << 30) as f32;
+        while p < 1.0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time {
             p *= 2.0;
         }
-        f.value.abs() + p * (f.c[0].abs() + f.c[1].abs() + f.c[2].abs())
+        // f' is three times the differences, or between.
+        let [e0, e1, e2] = [(f1 - f0).abs(), (f2 - f1).abs(), (f3 - f2).abs()];
+        f0 + 3.0 * p * (e0 + e1 + e2)
     }
+}
+
+/// A polynomial as it is held against the exact time.
+struct Served {
+    octave: Octave,
+    /// The time from the side's start that its value is added to.
+    middle: f64,
+    /// The unit of its value, in time.
+    unit: f64,
+    /// A bound of its slope.
+    steep: f32,
+    /// How far rounding takes a fraction.
+    noise: f64,
 }
 
 /// What an error is held against, in single precision. An error of 1 is the greatest that is allowed.
@@ -369,59 +393,28 @@ impl Limits {
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
-/// A cubic times a factor, in single precision.
-const fn scaled(&[c0, c1, c2, c3]: &[f64; 4], factor: f64) -> [f32; 4] {
-    [(c0 * factor) as f32, (c1 * factor) as f32, (c2 * factor) as f32, (c3 * factor) as f32]
+/// A cubic in single precision, times a factor.
+const fn singles(&[c0, c1, c2, c3]: &[f64; 4], factor: f32) -> [f32; 4] {
+    [c0 as f32 * factor, c1 as f32 * factor, c2 as f32 * factor, c3 as f32 * factor]
 }
 
-/// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
+/// Where the offset is nearly as far between those of both ends as a `node` is between -1 and 1. A polynomial
+/// interpolates wherever its nodes are; they need only be near Chebyshev's for its error to be small. So single
+/// precision is enough, and no step is checked.
 #[inline(never)]
-const fn interpolated(along: &Path) -> [f64; DEGREE + 1] {
-    let [first, last] = [value(&along.fraction, -1.0), value(&along.fraction, 1.0)];
-    let (mut single, mut k) = ([0.0; 7], 0);
-    while k < 7 {
-        single[k] = along.fraction[k] as f32;
-        k += 1;
-    }
-    let (middle, half) = ((0.5 * (first + last)) as f32, (0.5 * (last - first)) as f32);
-    let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
-    let mut i = 0;
-    while i <= DEGREE {
-        let place = node(&single, middle + half * NODES[i], NODES[i]);
-        x[i] = value(&along.fraction, place);
-        d[i] = value(&along.elapsed, place);
-        i += 1;
-    }
-    // Newton's divided differences ...
-    let (mut newton, mut order) = ([d[0]; DEGREE + 1], 1);
-    while order <= DEGREE {
-        divided_differences(&mut d, &x, order);
-        newton[order] = d[0];
-        order += 1;
-    }
-    // ... multiplied out into powers of x.
-    let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
-    while i > 0 {
-        i -= 1;
-        multiply(&mut c, x[i], newton[i]);
-    }
-    c
-}
-
-/// Where an offset is nearly `x`, from a first guess on. A polynomial interpolates wherever its nodes are; they need only
-/// be near Chebyshev's for its error to be small. So single precision is enough, and no step is checked.
-#[inline(never)]
-const fn node(offset: &[f32; 7], x: f32, guess: f32) -> f64 {
-    let (mut s, mut steps) = (guess, 0);
+const fn node(offsets: &[f32; 7], node: f32) -> f64 {
+    let [x0, x1, x2, x3, x4, x5, x6] = *offsets;
+    let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
+    let (mut s, mut steps) = (node, 0);
     while steps < 4 {
         let (mut value, mut slope) = (0.0, 0.0);
-        let mut c: &[f32] = offset;
+        let mut c: &[f32] = offsets;
         while let [lower @ .., highest] = c {
             slope = slope * s + value;
             value = value * s + *highest;
             c = lower;
         }
-        let next = s - (value - x) / slope;
+        let next = s - (value - (even + odd * node)) / slope;
         s = if next > 1.0 {
             1.0
         } else if next < -1.0 {

@@ -85,9 +85,15 @@ impl Octave {
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         let ahead = position & !(position >> 31);
-        // The difference fits the word, even if one of the numbers does not.
-        let x = position.wrapping_add(ahead).wrapping_sub(self.center as i32);
-        x << (self.center & FINER)
+        self.ahead_of_center(position.wrapping_add(ahead))
+    }
+
+    /// The `x` of a position that is doubled where it has to be.
+    ///
+    /// The difference and its multiple fit the word, even if one of the numbers does not ([`fit`](crate::fit)).
+    #[inline(always)]
+    pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
+        doubled.wrapping_sub(self.center as i32) << (self.center & FINER)
     }
 
     /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one

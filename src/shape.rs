@@ -30,6 +30,11 @@ impl Shape {
         Cubic::new(self.f[0] as f64, differences(widened(self.f)))
     }
 
+    /// The differences of the control points' times, in single precision.
+    pub(crate) const fn differences(&self) -> [f32; 3] {
+        [self.d[0] as f32, self.d[1] as f32, self.d[2] as f32]
+    }
+
     /// The time passed since the end.
     pub(crate) const fn elapsed(&self) -> Cubic {
         Cubic::new(0.0, self.d)
