@@ -19,7 +19,7 @@
 //! docs/proofs.md leads from this to what an answer is off by.
 
 use crate::octave::{DEGREE, Octave};
-use crate::path::{Path, value};
+use crate::path::{Path, absolute, unknown, value};
 
 /// Even numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
 const POINTS: [(usize, f64); 3] = [
@@ -71,28 +71,19 @@ pub(crate) const fn errors(
     way: usize,
 ) -> Errors {
     let (points, cosine) = POINTS[way % WAYS];
-    let [u0, u1, u2, u3, u4, u5, u6] = along.fraction;
-    let [t0, t1, t2, t3] = along.elapsed;
     // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
     let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
     let (mut s, mut last, mut i) = (1.0, cosine, 0);
-    while i <= points / 2 {
-        // At s and -s: even powers first, then the odd ones.
-        let square = s * s;
-        let position = [value(&[u0, u2, u4, u6], square), s * value(&[u1, u3, u5], square)];
-        let time = [t0 + t2 * square, s * (t1 + t3 * square)];
-        let mut sign = 1.0;
-        while sign >= -1.0 {
-            let rest = octave.rest(octave.ahead_of_center(nearest(position[0] + sign * position[1])));
-            let error = (rest as f64 - (time[0] + sign * time[1])).abs() as f32;
-            let mut kind = 0;
-            while kind < KINDS {
-                let error = error * single(&weights[kind], (sign * s) as f32).abs();
-                // Written so that a NaN stays.
-                seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
-                kind += 1;
-            }
-            sign -= 2.0;
+    while i <= points {
+        let position = nearest(value(&along.fraction, s));
+        let rest = octave.rest(octave.ahead_of_center(position));
+        let error = (rest as f64 - value(&along.elapsed, s)).abs() as f32;
+        let (mut kind, kinds) = (0, unknown(KINDS));
+        while kind < kinds && kind < KINDS {
+            let error = error * single(&weights[kind], s as f32).abs();
+            // Written so that a NaN stays.
+            seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
+            kind += 1;
         }
         let half = i.wrapping_sub(HALF_DEGREE);
         if half < DEGREES {
@@ -101,56 +92,58 @@ pub(crate) const fn errors(
         (s, last) = (2.0 * cosine * s - last, s);
         i += 1;
     }
-    let (mut least, mut most, mut kind) = (seen, [f32::INFINITY; KINDS], 0);
-    while kind < KINDS {
+    let (mut errors, mut kind, kinds) = (Errors { least: seen, most: seen }, 0, unknown(KINDS));
+    while kind < kinds && kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
-        least[kind] -= noise;
-        seen[kind] = SLACK * (seen[kind] + noise);
+        errors.least[kind] -= noise;
+        errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);
         kind += 1;
     }
-    let mut i = 0;
-    while i < ELLIPSES.len() {
+    errors
+}
+
+/// The bound that follows from the greatest sample, by the best ellipse and degree.
+#[inline(never)]
+const fn bound(
+    octave: &Octave,
+    x: &[f32; 7],
+    weight: &[f32; 4],
+    seen: f32,
+    shares: &[f32; DEGREES],
+) -> f32 {
+    let (mut least, mut i, ellipses) = (f32::INFINITY, 0, unknown(ELLIPSES.len()));
+    while i < ellipses && i < ELLIPSES.len() {
         let [axis, square, first] = ELLIPSES[i];
-        let beyond = SLACK * first * bends(octave, x, axis);
-        let mut kind = 0;
-        while kind < KINDS {
-            let mut tail = beyond * absolute(&weights[kind], axis);
-            let mut half = 0;
-            while half < DEGREES {
-                // A share of 0 or less is that of no degree below the number of points.
-                let bound = (seen[kind] + tail) / shares[half] + tail;
-                if shares[half] > 0.0 && bound < most[kind] {
-                    most[kind] = bound;
-                }
-                tail *= square;
-                half += 1;
-            }
-            kind += 1;
+        let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis);
+        let (mut half, degrees) = (0, unknown(DEGREES));
+        // A share of 0 or less is that of no degree below the number of points.
+        while half < degrees && half < DEGREES && shares[half] > 0.0 {
+            let bound = (seen + tail) / shares[half] + tail;
+            least = if bound < least { bound } else { least };
+            tail *= square;
+            half += 1;
         }
         i += 1;
     }
-    Errors { least, most }
+    least
 }
 
 /// `Σ |c_k| (Y^k - Y₁^k)`: how far `Q(x)` may be from `Q(x₀ + x₁ s)` on an ellipse, but for the term `c₁ x`.
 #[inline(never)]
 const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
     let linear = x0.abs() + x1.abs() * axis;
-    let (mut curve, mut k) = (0.0, curved.len());
-    while k > 0 {
-        k -= 1;
-        curve = (curve + curved[k].abs()) * axis;
-    }
+    let curve = absolute(curved, axis) * axis * axis;
     // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
-    let (mut power, mut more, mut sum, mut k) = (linear, curve * axis, 0.0, 1);
-    let curve = more;
-    while k < DEGREE {
+    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, unknown(DEGREE - 1));
+    loop {
+        k = k.wrapping_sub(1);
+        if k >= DEGREE {
+            return sum;
+        }
         more = (linear + curve) * more + curve * power;
         power *= linear;
-        sum += octave.c[DEGREE - 1 - k].unsigned_abs() as f32 * more;
-        k += 1;
+        sum += octave.c[k].unsigned_abs() as f32 * more;
     }
-    sum
 }
 
 /// The nearest integer, nearly, in 32 bits, which wraps as positions do.
@@ -161,9 +154,4 @@ const fn nearest(x: f64) -> i32 {
 /// The value at `x` of a cubic by its coefficients, from the constant one up.
 const fn single(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
     c0 + x * (c1 + x * (c2 + x * c3))
-}
-
-/// The value of the coefficients without their signs: a bound of all values within `x` of 0.
-pub(crate) const fn absolute(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
-    single(&[c0.abs(), c1.abs(), c2.abs(), c3.abs()], x)
 }

@@ -1,12 +1,11 @@
 //! How the octaves of a side are fitted, when a curve is built: the polynomial through the exact times at a few nodes,
 //! which is kept if a certificate says that it keeps the promise.
 
-use crate::certificate::{WAYS, absolute, errors};
-use crate::cubic::quadratic_min;
+use crate::certificate::{KINDS, WAYS, errors};
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, FINE, FINER, LEAST, Octave, STEP, below, floor_bits, range};
-use crate::pair::{exponent, fixed};
-use crate::path::{Path, scale, value};
+use crate::pair::{exponent, fixed, power_of_two};
+use crate::path::{Path, absolute, root, scale, singles, unknown, value};
 use crate::shape::Shape;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
@@ -28,15 +27,18 @@ const ULP_ERROR: f32 = 0.49;
 const TRUNCATION: f32 = 1.328;
 const TRUNCATED: f64 = -0.664;
 
-/// An octave's ramp is looked up by joins that are rounded by this and by this share of them.
-const JOIN: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 43) as f32];
+/// How far off a fraction may be, by this and by this share of it: where an octave's ramp is looked up, for joins are
+/// rounded, and on a path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
+/// The same of a time.
+const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
 
-const WORD: f64 = 4294967296.0;
+const WORD: f32 = 4294967296.0;
 
 /// Part of an octave is counted in finer units as long as its half is less than this share of the octave's width, which
 /// the next finer unit doubles. What the offsets leave of the word, 0.02 · 2³², is more than a center's lowest bits
 /// come to, 2⁵, at the finest unit.
-const FILLED: f64 = 0.24;
+const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 20;
 
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
@@ -75,7 +77,7 @@ pub(crate) const fn fit(
         let far = exposure.joins(side)[1];
         let hidden = if far < FINE as f64 { far } else { FINE as f64 };
         let (mut highest, mut end, mut stretch) = (stretched([0.0, hidden], 0), first, 0);
-        let path = Path::new(exposure, &shapes[ramp & 1], side, ramp);
+        let path = this.path(ramp);
         while stretch < STRETCHES.len() && range[0] < range[1] {
             highest = stretched(range, STRETCHES[stretch]);
             stretch += 1;
@@ -122,30 +124,30 @@ const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
 pub(crate) struct Span {
     /// Where it begins, and where it ends.
     pub(crate) from: f64,
-    to: f64,
-    /// The least ulp of `a` in it.
-    ulp: f64,
-    /// The middle, and how far the polynomial reaches from there: an ulp beyond what it serves.
-    middle: f64,
-    half: f64,
-    /// The power of two that is in the octave, or at its end; an octave's offsets count 2⁻³² of it, ...
-    octave: f64,
-    /// ... and those of a part 2 to minus this of that.
+    to: f32,
+    /// The middle, and how far the polynomial reaches from there: some ulp beyond what it serves.
+    middle: f32,
+    half: f32,
+    /// The power of two that is in the octave, or at its end: what positions count 2⁻³² of.
+    octave: f32,
+    /// What offsets count 2⁻³² of: 2 to minus `finer` of that.
+    width: f32,
     finer: u32,
 }
 
 impl Span {
     /// Of the octave below the bits of its `top`; none where it holds nothing of the range.
     pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {
-        let high = f32::from_bits(top) as f64;
-        let from = if range[0] > 0.5 * high { range[0] } else { 0.5 * high };
-        let to = if range[1] < high { range[1] } else { high };
+        let high = f32::from_bits(top);
+        let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
+        let to = if range[1] < high as f64 { range[1] } else { high as f64 };
         if top < LEAST || from >= to {
             return None;
         }
-        let ulp = power_of_two(exponent(from as f32) - 23);
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from) + ulp);
-        let octave = power_of_two(exponent(high as f32));
+        let to = to as f32;
+        let octave = power_of_two(exponent(high));
+        let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave;
+        let middle = 0.5 * (from as f32 + to);
         // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it: the
         // center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift. At
         // a quarter of the width, a half of exactly this left the word, and the polynomial gave the time of its other
@@ -155,74 +157,90 @@ impl Span {
             width *= 0.5;
             finer += 1;
         }
-        Some(Self { from, to, ulp, middle, half, octave, finer })
+        Some(Self { from, to, middle, half, octave, width, finer })
     }
 
-    /// The `a` that counts as an offset of 1, or 2³² of the offset's units.
-    const fn width(&self) -> f64 {
-        self.octave / (1 << self.finer) as f64
-    }
-
-    /// The fractions of a stretch as offsets from the center.
-    const fn offsets(&self, along: &Path) -> [f32; 7] {
-        let (mut offsets, per_width) = ([0.0; 7], 1.0 / self.width());
-        let mut k = 0;
-        while k < 7 {
-            let center = if k == 0 { self.center() as f64 / WORD * self.octave } else { 0.0 };
-            offsets[k] = ((along.fraction[k] - center) * per_width) as f32;
-            k += 1;
-        }
-        offsets
-    }
-
-    /// The middle's significand, nearly, doubled; and the shift in its lowest bits.
+    /// The middle's position, nearly, with the shift in its lowest bits; in 33 bits, as it counts from 0.
     const fn center(&self) -> u64 {
         (self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
+    }
+
+    /// A stretch, its fractions counted as positions are, from the power of two on.
+    const fn counted(&self, mut stretch: Path) -> Path {
+        stretch.fraction[0] -= self.octave as f64;
+        scale(&mut stretch.fraction, (WORD / self.octave) as f64, 1.0);
+        stretch
+    }
+
+    /// The center as a position, and the offset of a position.
+    const fn offsets(&self) -> (f64, f64) {
+        (self.center() as f64 - WORD as f64, (self.octave / self.width / WORD) as f64)
     }
 
     /// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
     #[inline(never)]
     const fn interpolated(&self, along: &Path) -> [f64; DEGREE + 1] {
-        let offsets = self.offsets(along);
-        let (center, per_width) = (self.center() as f64 / WORD * self.octave, 1.0 / self.width());
-        let (mut x, mut d) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
-        let mut i = 0;
-        while i <= DEGREE {
-            let place = node(&offsets, NODES[i]);
-            x[i] = (value(&along.fraction, place) - center) * per_width;
+        let (center, per_position) = self.offsets();
+        let mut offset = singles(&along.fraction, center, per_position);
+        let [x0, x1, x2, x3, x4, x5, x6] = offset;
+        let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
+        // Divided differences ...
+        let (mut x, mut d, mut i, nodes) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0, unknown(DEGREE + 1));
+        while i < nodes && i <= DEGREE {
+            // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
+            // other, for its error to be small; so single precision is enough.
+            offset[0] = x0 - (even + odd * NODES[i]);
+            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
+            let place = place as f64;
+            x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.elapsed, place);
             i += 1;
         }
-        // Newton's divided differences ...
-        let (mut newton, mut order) = ([d[0]; DEGREE + 1], 1);
-        while order <= DEGREE {
+        let mut order = 1;
+        while order < nodes {
             divided_differences(&mut d, &x, order);
-            newton[order] = d[0];
             order += 1;
         }
-        // ... multiplied out into powers of x.
-        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
-        while i > 0 {
-            i -= 1;
-            multiply(&mut c, x[i], newton[i]);
+        // ... multiplied out into powers of x, from the highest order on.
+        let (mut c, mut i) = ([0.0; DEGREE + 1], nodes);
+        loop {
+            i = i.wrapping_sub(1);
+            if i > DEGREE {
+                return c;
+            }
+            multiply(&mut c, x[i], d[i]);
         }
-        c
     }
 }
 
+/// A polynomial as it is held against the exact time.
+struct Served {
+    octave: Octave,
+    /// The time from the side's start that its value is added to.
+    middle: f64,
+    /// The unit of its value, in time.
+    unit: f64,
+    /// A bound of its slope.
+    steep: f32,
+}
+
 impl Side<'_> {
+    const fn path(&self, ramp: usize) -> Path {
+        Path::new(self.exposure, &self.shapes[ramp & 1], self.side, ramp)
+    }
+
     /// The octave of a part of a ramp, with a polynomial where one keeps the promise.
     #[inline(never)]
     const fn fitted(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
-        let first = path.place(span.middle - span.half, false);
-        let last = path.place(span.middle + span.half, true);
-        let (stretch, noise) = path.stretch(first, last);
+        let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
+        let places = [path.place(ends[0], false), path.place(ends[1], true)];
+        let stretch = span.counted(path.stretch(places));
         let c = span.interpolated(&stretch);
 
         // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
-        let reach = (span.half / span.width()) as f32 + 0.01;
-        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
-        while k > 0 {
+        let reach = span.half / span.width + 0.01;
+        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, unknown(DEGREE));
+        while k > 0 && k <= DEGREE {
             steep = steep * reach + bound;
             bound = c[k].abs() as f32 + bound * reach;
             most = if bound > most { bound } else { most };
@@ -238,25 +256,37 @@ impl Side<'_> {
         if exponent - self.unit > 30 {
             return Octave::NONE;
         }
-        let per_unit = power_of_two(-exponent);
+        let (unit, per_unit) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
-        let mut k = 0;
-        while k < DEGREE {
-            octave.c[DEGREE - 1 - k] = round(c[k + 1] * per_unit);
-            k += 1;
+        let mut k = unknown(DEGREE);
+        while k > 0 && k <= DEGREE {
+            octave.c[DEGREE - k] = round(c[k] * per_unit);
+            k -= 1;
         }
-        let middle = (c[0] * power_of_two(-self.unit) - TRUNCATED * factor as f64) as i64;
+        let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;
         let start = fixed(self.exposure.start(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        let served = Served { octave, middle: middle as f64 * power_of_two(self.unit), unit: power_of_two(exponent), steep: steep * per_unit as f32, noise };
-        let is_joined = if ramp == self.side { last >= 1.0 } else { first <= 0.0 };
-        if self.is_certain(&served, span, stretch, ramp, is_joined) { octave } else { Octave::NONE }
+        let served = Served {
+            octave,
+            middle: middle as f64 * power_of_two_f64(self.unit),
+            unit,
+            steep: steep * per_unit as f32,
+        };
+        let mut is_certain = self.is_certain(&served, span, stretch, ramp, places);
+        // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
+        // what is beyond the join, too.
+        if ramp == self.side && !self.exposure.has_plateau() && ends[1] > self.exposure.exact_joins(ramp)[0] {
+            let path = self.path(ramp ^ 1);
+            let places = [0.0, path.place(ends[1], true)];
+            let stretch = span.counted(path.stretch(places));
+            is_certain = is_certain && self.is_certain(&served, span, stretch, ramp ^ 1, places);
+        }
+        if is_certain { octave } else { Octave::NONE }
     }
 
-    /// Does a polynomial keep the promise along a stretch of a ramp? `is_joined` says whether it comes to the ramp's
-    /// inner end.
+    /// Does a polynomial keep the promise along a stretch of a ramp between two places?
     #[inline(never)]
     const fn is_certain(
         &self,
@@ -264,48 +294,49 @@ impl Side<'_> {
         span: &Span,
         mut along: Path,
         ramp: usize,
-        is_joined: bool,
+        [first, last]: [f64; 2],
     ) -> bool {
-        let Served { ref octave, middle, unit, steep, noise } = *served;
+        let Served { ref octave, middle, unit, steep } = *served;
         let (exposure, side) = (self.exposure, self.side);
-        let x = span.offsets(&along);
-        let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
         // What an error may be is 1 in each of these units.
-        let (single, joins) = (unit as f32, JOIN[0] + JOIN[1] * span.to as f32);
-        let per_tick = single / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
-        let per_light = single / (exposure.area as f32) / (ULP_ERROR * span.ulp as f32 - joins);
+        let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
+        let (off, ulp) = (OFF[0] + OFF[1] * span.to, power_of_two(exponent(span.from as f32) - 23));
+        let per = unit as f32;
+        let per_tick = per / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
+        let per_light = per / (exposure.area as f32) / (ULP_ERROR * ulp - off);
         let per_size = [
-            single / (exposure.size_of_time(side, ends[0]) as f32) / FORWARD_ERROR,
-            single / (exposure.size_of_time(side, ends[1]) as f32) / FORWARD_ERROR,
+            per / (exposure.size_of_time(side, ends[0]) as f32) / FORWARD_ERROR,
+            per / (exposure.size_of_time(side, ends[1]) as f32) / FORWARD_ERROR,
         ];
-
-        // In the unit of the coefficients, and as positions count.
+        // In the unit of the coefficients.
         along.elapsed[0] -= middle;
         scale(&mut along.elapsed, 1.0 / unit, 1.0);
-        along.fraction[0] -= span.octave;
-        scale(&mut along.fraction, WORD / span.octave, 1.0);
-        let elapsed = singles(&along.elapsed, 1.0);
-        let openness = singles(&along.openness, per_light);
+        let elapsed = singles(&along.elapsed, 0.0, 1.0);
+        let openness = singles(&along.openness, 0.0, per_light as f64);
         // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below the
         // line between two of its points.
         let [_, t1, t2, t3] = elapsed;
         let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
         let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];
+        let (center, per_position) = span.offsets();
+        let offset = singles(&along.fraction, center, per_position);
+        let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
             rounding: TRUNCATION
-                + steep * (noise as f32 + joins) / span.width() as f32
-                + (ends[1] / unit) as f32 / (1u64 << 48) as f32,
-            lost: steep * (2u64 << span.finer) as f32 / WORD as f32,
+                + steep * off / span.width
+                + (ends[1] / unit) as f32 * ROUNDED,
+            lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
-            beyond: if is_joined { self.greatest_beyond(ramp, single / per_tick) * per_light } else { 0.0 },
+            beyond: if is_joined { self.greatest_beyond(ramp, per / per_tick) * per_light } else { 0.0 },
             elapsed,
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
+        let noise = limits.rounding + 0.25 * limits.lost;
         let mut way = 0;
         while way < WAYS {
-            let errors = errors(octave, &along, &x, &weights, limits.rounding + limits.lost, way);
+            let errors = errors(octave, &along, &offset, &weights, noise, way);
             if limits.keep(&errors.most) {
                 return true;
             }
@@ -327,27 +358,14 @@ impl Side<'_> {
         let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
         let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
-        let mut p = 1.0 / (1 << 30) as f32;
-        while p < 1.0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time {
+        let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, unknown(30));
+        while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time {
             p *= 2.0;
+            doublings -= 1;
         }
         // f' is three times the differences, or between.
-        let [e0, e1, e2] = [(f1 - f0).abs(), (f2 - f1).abs(), (f3 - f2).abs()];
-        f0 + 3.0 * p * (e0 + e1 + e2)
+        f0 + 3.0 * p * ((f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs())
     }
-}
-
-/// A polynomial as it is held against the exact time.
-struct Served {
-    octave: Octave,
-    /// The time from the side's start that its value is added to.
-    middle: f64,
-    /// The unit of its value, in time.
-    unit: f64,
-    /// A bound of its slope.
-    steep: f32,
-    /// How far rounding takes a fraction.
-    noise: f64,
 }
 
 /// What an error is held against, in single precision. An error of 1 is the greatest that is allowed.
@@ -368,14 +386,15 @@ struct Limits {
 impl Limits {
     /// Are errors in time, in light, and relative to the time as small as they have to be?
     #[inline(never)]
-    const fn keep(&self, &[time, light, relative]: &[f32; 3]) -> bool {
+    const fn keep(&self, &[time, light, relative]: &[f32; KINDS]) -> bool {
         let error = time + self.rounding;
         // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
         // never falls rises at least as fast as around a point where it stands still.
         let [_, t1, t2, t3] = self.elapsed;
-        let (first, last) = (t1 - 2.0 * t2 + 3.0 * t3, t1 + 2.0 * t2 + 3.0 * t3);
-        let slowest = quadratic_min([first as f64, (t1 - 3.0 * t3) as f64, last as f64]) as f32;
-        let mut way = error / (t1.abs() + t2.abs() + t3.abs());
+        let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+        let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
+        let slowest = slowest - most / (1 << 20) as f32;
+        let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;
         }
@@ -393,64 +412,30 @@ impl Limits {
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
-/// A cubic in single precision, times a factor.
-const fn singles(&[c0, c1, c2, c3]: &[f64; 4], factor: f32) -> [f32; 4] {
-    [c0 as f32 * factor, c1 as f32 * factor, c2 as f32 * factor, c3 as f32 * factor]
-}
-
-/// Where the offset is nearly as far between those of both ends as a `node` is between -1 and 1. A polynomial
-/// interpolates wherever its nodes are; they need only be near Chebyshev's for its error to be small. So single
-/// precision is enough, and no step is checked.
-#[inline(never)]
-const fn node(offsets: &[f32; 7], node: f32) -> f64 {
-    let [x0, x1, x2, x3, x4, x5, x6] = *offsets;
-    let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
-    let (mut s, mut steps) = (node, 0);
-    while steps < 4 {
-        let (mut value, mut slope) = (0.0, 0.0);
-        let mut c: &[f32] = offsets;
-        while let [lower @ .., highest] = c {
-            slope = slope * s + value;
-            value = value * s + *highest;
-            c = lower;
-        }
-        let next = s - (value - (even + odd * node)) / slope;
-        s = if next > 1.0 {
-            1.0
-        } else if next < -1.0 {
-            -1.0
-        } else {
-            next
-        };
-        steps += 1;
-    }
-    s as f64
-}
-
-/// The divided differences of the next order. Out of line, as the next function, because loops that the compiler
-/// unrolls in each place cost kilobytes.
+/// The divided differences of the next order, in the places from it on. Out of line, as the next function, because loops
+/// that the compiler unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
-    let mut i = 0;
-    // The first condition follows from the second. With it the compiler drops the checks of bounds.
-    while i < DEGREE && i + order <= DEGREE {
-        d[i] = (d[i + 1] - d[i]) / (x[i + order] - x[i]);
-        i += 1;
+    let mut i = unknown(DEGREE);
+    // The other conditions follow from the first one. With them the compiler drops the checks of bounds.
+    while i >= order && i >= 1 && i <= DEGREE {
+        d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order]);
+        i -= 1;
     }
 }
 
 /// A polynomial times `x - root`, and a constant added.
 #[inline(never)]
 const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
-    let mut k = DEGREE;
-    while k > 0 {
+    let mut k = unknown(DEGREE);
+    while k > 0 && k <= DEGREE {
         c[k] = c[k - 1] - c[k] * root;
         k -= 1;
     }
     c[0] = constant - c[0] * root;
 }
 
-const fn power_of_two(exponent: i32) -> f64 {
+const fn power_of_two_f64(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 

@@ -36,20 +36,13 @@ impl Path {
     /// but not the closest.
     #[inline(never)]
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
-        // Newton's steps inside a bracket, which a step that leaves it halves.
-        let (mut low, mut high) = (0.0, 1.0);
-        let (mut p, mut i) = (0.5, 0);
-        while i < MOST_STEPS {
-            let missing = u - value(&self.fraction, p);
-            *(if missing > 0.0 { &mut low } else { &mut high }) = p;
-            let next = p + missing / slope(&self.fraction, p);
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-            let is_there = (next - p).abs() <= p * CLOSE;
-            p = next;
-            i = if is_there { MOST_STEPS } else { i + 1 };
-        }
+        let mut single = singles(&self.fraction, 0.0, 1.0);
+        single[0] = (self.fraction[0] - u) as f32;
+        let [p, slope] = root(&single, [0.0, 1.0], 0.5);
+        let (mut p, slope) = (p as f64, slope as f64);
+        p += (u - value(&self.fraction, p)) / slope;
         // Outwards until it is certain.
-        let mut step = if up { p * CLOSE } else { -p * CLOSE };
+        let mut step = if up { p * CLOSER } else { -p * CLOSER };
         loop {
             p += step;
             if !(p > 0.0 && p < 1.0) {
@@ -63,33 +56,30 @@ impl Path {
         }
     }
 
-    /// The stretch between two places, by powers of a place that runs from -1 to 1 on it; and a bound of what rounding
-    /// makes of a fraction there.
+    /// The stretch between two places, by powers of a place that runs from -1 to 1 on it.
     #[inline(never)]
-    pub(crate) const fn stretch(&self, first: f64, last: f64) -> (Self, f64) {
+    pub(crate) const fn stretch(&self, [first, last]: [f64; 2]) -> Self {
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
         let mut stretch = *self;
-        let noise = absolute(&self.fraction, last) * NOISE;
         recentred(&mut stretch.openness, middle, half);
         recentred(&mut stretch.elapsed, middle, half);
         recentred(&mut stretch.fraction, middle, half);
-        (stretch, noise)
+        stretch
     }
 }
 
-/// A step of Newton's below this share of its place is the last one.
-const CLOSE: f64 = 1.0 / (1 << 20) as f64;
+/// As close as single precision comes: a step of Newton's below this share of its place is the last one. One more step
+/// in `f64` comes closer.
+const CLOSE: f32 = 1.0 / (1 << 20) as f32;
+const CLOSER: f64 = 1.0 / (1u64 << 36) as f64;
 /// Bisections alone would come as close.
-const MOST_STEPS: u32 = 60;
-/// More than 60 roundings of an `f64` make of the sum of a fraction's terms, of which the shift to another middle takes
-/// 21 and a value 12.
-const NOISE: f64 = 1.0 / (1u64 << 47) as f64;
-
+const MOST_STEPS: usize = 40;
 /// The coefficients of a polynomial by powers of `x` as those by powers of `x / unit`, times `factor`.
 #[inline(never)]
 pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
     let (mut factor, mut k) = (factor, 0);
-    while k < c.len() {
+    let count = unknown(c.len());
+    while k < count && k < c.len() {
         c[k] *= factor;
         factor *= unit;
         k += 1;
@@ -100,9 +90,9 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
 /// coefficient.
 #[inline(never)]
 const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
-    let mut k = 0;
-    while k < c.len() {
-        let mut j = c.len() - 1;
+    let (mut k, count) = (0, unknown(c.len()));
+    while k < count {
+        let mut j = count - 1;
         // The second condition always holds. With it the compiler drops the checks of bounds.
         while j > k && j < c.len() {
             let above = c[j];
@@ -116,34 +106,69 @@ const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
 
 /// The value at `x` of a polynomial by its coefficients, from the constant one up.
 #[inline(never)]
-pub(crate) const fn value(mut c: &[f64], x: f64) -> f64 {
-    let mut value = 0.0;
-    while let [lower @ .., highest] = c {
-        value = value * x + *highest;
-        c = lower;
+pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
+    let (mut value, mut k) = (0.0, unknown(c.len()));
+    loop {
+        k = k.wrapping_sub(1);
+        if k >= c.len() {
+            return value;
+        }
+        value = value * x + c[k];
     }
-    value
 }
 
-/// The slope there.
+/// In single precision, less `shift` and times `factor`.
 #[inline(never)]
-const fn slope(mut c: &[f64], x: f64) -> f64 {
-    let (mut value, mut slope) = (0.0, 0.0);
-    while let [lower @ .., highest] = c {
-        slope = slope * x + value;
-        value = value * x + *highest;
-        c = lower;
+pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f64) -> [f32; N] {
+    let (mut single, mut k, count) = ([0.0; N], 0, unknown(N));
+    while k < count && k < N {
+        let c = if k == 0 { c[k] - shift } else { c[k] };
+        single[k] = (c * factor) as f32;
+        k += 1;
     }
-    slope
+    single
 }
 
-/// The value of the coefficients without their signs: a bound of all values within `x` of 0.
+/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside a bracket, which a step that
+/// leaves it halves.
 #[inline(never)]
-pub(crate) const fn absolute(mut c: &[f64], x: f64) -> f64 {
-    let mut value = 0.0;
-    while let [lower @ .., highest] = c {
-        value = value * x + highest.abs();
-        c = lower;
+pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
+    let (mut x, mut last, mut steps) = (guess, 0.0, 0);
+    while steps < MOST_STEPS {
+        let (mut value, mut slope, mut k) = (0.0, 0.0, unknown(7));
+        loop {
+            k = k.wrapping_sub(1);
+            if k >= c.len() {
+                break;
+            }
+            slope = slope * x + value;
+            value = value * x + c[k];
+        }
+        *(if value < 0.0 { &mut low } else { &mut high }) = x;
+        let next = x - value / slope;
+        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let is_there = (next - x).abs() <= CLOSE * x.abs();
+        (x, last) = (next, slope);
+        steps = if is_there { MOST_STEPS } else { steps + 1 };
     }
-    value
+    [x, last]
+}
+
+/// A bound of all values within `x` of 0, by the coefficients without their signs.
+#[inline(never)]
+pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
+    let (mut value, mut k) = (0.0, unknown(c.len()));
+    loop {
+        k = k.wrapping_sub(1);
+        if k >= c.len() {
+            return value;
+        }
+        value = value * x + c[k].abs();
+    }
+}
+
+/// The same number, unknown to the compiler, which would unroll a loop to several times its bytes.
+#[inline(always)]
+pub(crate) const fn unknown(n: usize) -> usize {
+    core::hint::black_box(n)
 }
