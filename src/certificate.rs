@@ -78,12 +78,15 @@ pub(crate) const fn errors(
         let position = nearest(value(&along.fraction, s));
         let rest = octave.rest(octave.ahead_of_center(position));
         let error = (rest as f64 - value(&along.elapsed, s)).abs() as f32;
-        let (mut kind, kinds) = (0, unknown(KINDS));
-        while kind < kinds && kind < KINDS {
+        let mut kind = KINDS;
+        loop {
+            kind = unknown(kind).wrapping_sub(1);
+            if kind >= KINDS {
+                break;
+            }
             let error = error * single(&weights[kind], s as f32).abs();
             // Written so that a NaN stays.
             seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
-            kind += 1;
         }
         let half = i.wrapping_sub(HALF_DEGREE);
         if half < DEGREES {
@@ -92,14 +95,16 @@ pub(crate) const fn errors(
         (s, last) = (2.0 * cosine * s - last, s);
         i += 1;
     }
-    let (mut errors, mut kind, kinds) = (Errors { least: seen, most: seen }, 0, unknown(KINDS));
-    while kind < kinds && kind < KINDS {
+    let (mut errors, mut kind) = (Errors { least: seen, most: seen }, KINDS);
+    loop {
+        kind = unknown(kind).wrapping_sub(1);
+        if kind >= KINDS {
+            return errors;
+        }
         let noise = noise * absolute(&weights[kind], 1.0);
         errors.least[kind] -= noise;
         errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);
-        kind += 1;
     }
-    errors
 }
 
 /// The bound that follows from the greatest sample, by the best ellipse and degree.
@@ -111,19 +116,19 @@ const fn bound(
     seen: f32,
     shares: &[f32; DEGREES],
 ) -> f32 {
-    let (mut least, mut i, ellipses) = (f32::INFINITY, 0, unknown(ELLIPSES.len()));
-    while i < ellipses && i < ELLIPSES.len() {
+    let (mut least, mut i) = (f32::INFINITY, 0);
+    while i < ELLIPSES.len() {
         let [axis, square, first] = ELLIPSES[i];
         let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis);
-        let (mut half, degrees) = (0, unknown(DEGREES));
+        let mut half = 0;
         // A share of 0 or less is that of no degree below the number of points.
-        while half < degrees && half < DEGREES && shares[half] > 0.0 {
+        while half < DEGREES && shares[half] > 0.0 {
             let bound = (seen + tail) / shares[half] + tail;
             least = if bound < least { bound } else { least };
             tail *= square;
-            half += 1;
+            half = unknown(half + 1);
         }
-        i += 1;
+        i = unknown(i + 1);
     }
     least
 }
@@ -134,9 +139,9 @@ const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> 
     let linear = x0.abs() + x1.abs() * axis;
     let curve = absolute(curved, axis) * axis * axis;
     // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
-    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, unknown(DEGREE - 1));
+    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
     loop {
-        k = k.wrapping_sub(1);
+        k = unknown(k).wrapping_sub(1);
         if k >= DEGREE {
             return sum;
         }

@@ -199,11 +199,12 @@ impl Exposure {
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
     /// at most the interval, since ticks are counted from its start.
-    pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f64 {
-        let (start, end) = (self.start(0) as f64, self.start(1) as f64);
-        let time = if side == 0 { start + elapsed } else { end - elapsed };
+    #[inline(never)]
+    pub(crate) const fn size_of_time(&self, side: usize, elapsed: f64) -> f32 {
+        let [start, end] = [self.start(0), self.start(1)];
+        let time = if side == 0 { start as f64 + elapsed } else { end as f64 - elapsed };
         let size = if !(start < 0.0 && end > 0.0) {
-            time.abs()
+            (time as f32).abs()
         } else if end > -start {
             end
         } else {

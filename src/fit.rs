@@ -185,8 +185,12 @@ impl Span {
         let [x0, x1, x2, x3, x4, x5, x6] = offset;
         let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
         // Divided differences ...
-        let (mut x, mut d, mut i, nodes) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0, unknown(DEGREE + 1));
-        while i < nodes && i <= DEGREE {
+        let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], DEGREE + 1);
+        loop {
+            i = unknown(i).wrapping_sub(1);
+            if i > DEGREE {
+                break;
+            }
             // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
             // other, for its error to be small; so single precision is enough.
             offset[0] = x0 - (even + odd * NODES[i]);
@@ -194,17 +198,16 @@ impl Span {
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.elapsed, place);
-            i += 1;
         }
         let mut order = 1;
-        while order < nodes {
+        while order <= DEGREE {
             divided_differences(&mut d, &x, order);
-            order += 1;
+            order = unknown(order + 1);
         }
         // ... multiplied out into powers of x, from the highest order on.
-        let (mut c, mut i) = ([0.0; DEGREE + 1], nodes);
+        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
         loop {
-            i = i.wrapping_sub(1);
+            i = unknown(i).wrapping_sub(1);
             if i > DEGREE {
                 return c;
             }
@@ -239,12 +242,12 @@ impl Side<'_> {
 
         // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
-        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, unknown(DEGREE));
+        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 && k <= DEGREE {
             steep = steep * reach + bound;
             bound = c[k].abs() as f32 + bound * reach;
             most = if bound > most { bound } else { most };
-            k -= 1;
+            k = unknown(k - 1);
         }
         steep = steep * reach + bound;
         most *= 1.0 + 1.0 / (1 << 16) as f32;
@@ -259,10 +262,10 @@ impl Side<'_> {
         let (unit, per_unit) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
-        let mut k = unknown(DEGREE);
+        let mut k = DEGREE;
         while k > 0 && k <= DEGREE {
             octave.c[DEGREE - k] = round(c[k] * per_unit);
-            k -= 1;
+            k = unknown(k - 1);
         }
         let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;
         let start = fixed(self.exposure.start(self.side), self.unit);
@@ -305,8 +308,8 @@ impl Side<'_> {
         let per_tick = per / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
         let per_light = per / (exposure.area as f32) / (ULP_ERROR * ulp - off);
         let per_size = [
-            per / (exposure.size_of_time(side, ends[0]) as f32) / FORWARD_ERROR,
-            per / (exposure.size_of_time(side, ends[1]) as f32) / FORWARD_ERROR,
+            per / (exposure.size_of_time(side, ends[0])) / FORWARD_ERROR,
+            per / (exposure.size_of_time(side, ends[1])) / FORWARD_ERROR,
         ];
         // In the unit of the coefficients.
         along.elapsed[0] -= middle;
@@ -358,10 +361,10 @@ impl Side<'_> {
         let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
         let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
-        let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, unknown(30));
+        let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
         while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time {
             p *= 2.0;
-            doublings -= 1;
+            doublings = unknown(doublings - 1);
         }
         // f' is three times the differences, or between.
         f0 + 3.0 * p * ((f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs())
@@ -416,21 +419,21 @@ const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 /// that the compiler unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
-    let mut i = unknown(DEGREE);
+    let mut i = DEGREE;
     // The other conditions follow from the first one. With them the compiler drops the checks of bounds.
     while i >= order && i >= 1 && i <= DEGREE {
         d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order]);
-        i -= 1;
+        i = unknown(i - 1);
     }
 }
 
 /// A polynomial times `x - root`, and a constant added.
 #[inline(never)]
 const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
-    let mut k = unknown(DEGREE);
+    let mut k = DEGREE;
     while k > 0 && k <= DEGREE {
         c[k] = c[k - 1] - c[k] * root;
-        k -= 1;
+        k = unknown(k - 1);
     }
     c[0] = constant - c[0] * root;
 }

@@ -78,11 +78,10 @@ const MOST_STEPS: usize = 40;
 #[inline(never)]
 pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
     let (mut factor, mut k) = (factor, 0);
-    let count = unknown(c.len());
-    while k < count && k < c.len() {
+    while k < c.len() {
         c[k] *= factor;
         factor *= unit;
-        k += 1;
+        k = unknown(k + 1);
     }
 }
 
@@ -90,14 +89,14 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
 /// coefficient.
 #[inline(never)]
 const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
-    let (mut k, count) = (0, unknown(c.len()));
-    while k < count {
-        let mut j = count - 1;
+    let mut k = 0;
+    while k < c.len() {
+        let mut j = c.len() - 1;
         // The second condition always holds. With it the compiler drops the checks of bounds.
         while j > k && j < c.len() {
             let above = c[j];
-            j -= 1;
-            c[j] += middle * above;
+            c[j - 1] += middle * above;
+            j = unknown(j - 1);
         }
         k += 1;
     }
@@ -107,9 +106,9 @@ const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
 /// The value at `x` of a polynomial by its coefficients, from the constant one up.
 #[inline(never)]
 pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
-    let (mut value, mut k) = (0.0, unknown(c.len()));
+    let (mut value, mut k) = (0.0, c.len());
     loop {
-        k = k.wrapping_sub(1);
+        k = unknown(k).wrapping_sub(1);
         if k >= c.len() {
             return value;
         }
@@ -120,11 +119,11 @@ pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
 /// In single precision, less `shift` and times `factor`.
 #[inline(never)]
 pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f64) -> [f32; N] {
-    let (mut single, mut k, count) = ([0.0; N], 0, unknown(N));
-    while k < count && k < N {
+    let (mut single, mut k) = ([0.0; N], 0);
+    while k < N {
         let c = if k == 0 { c[k] - shift } else { c[k] };
         single[k] = (c * factor) as f32;
-        k += 1;
+        k = unknown(k + 1);
     }
     single
 }
@@ -135,9 +134,9 @@ pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f6
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
     while steps < MOST_STEPS {
-        let (mut value, mut slope, mut k) = (0.0, 0.0, unknown(7));
+        let (mut value, mut slope, mut k) = (0.0, 0.0, 7);
         loop {
-            k = k.wrapping_sub(1);
+            k = unknown(k).wrapping_sub(1);
             if k >= c.len() {
                 break;
             }
@@ -157,9 +156,9 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
 /// A bound of all values within `x` of 0, by the coefficients without their signs.
 #[inline(never)]
 pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
-    let (mut value, mut k) = (0.0, unknown(c.len()));
+    let (mut value, mut k) = (0.0, c.len());
     loop {
-        k = k.wrapping_sub(1);
+        k = unknown(k).wrapping_sub(1);
         if k >= c.len() {
             return value;
         }
@@ -167,7 +166,7 @@ pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
     }
 }
 
-/// The same number, unknown to the compiler, which would unroll a loop to several times its bytes.
+/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes.
 #[inline(always)]
 pub(crate) const fn unknown(n: usize) -> usize {
     core::hint::black_box(n)
