@@ -9,7 +9,8 @@
 mod cubic;
 mod support;
 
-use support::aimed::aimed_us;
+use shutter_curve::{BezierPdf, CubicBezier};
+use support::aimed::{aimed_ts, aimed_us};
 use support::cases::shutter;
 use support::curves::{Rng, hard_openness, hard_times, is_valid};
 use support::oracle::lift::{Lifted, range};
@@ -403,4 +404,48 @@ fn neighbouring_subnormal_times_are_in_order() {
     }
     println!("subnormal neighbours: {worst:.3} ulp at most; {plateaus} plateaus end next to 0");
     assert!(plateaus > 500);
+}
+
+/// Openness of which some or all control values are subnormal, over as long a time as makes up for it.
+#[test]
+fn subnormal_openness_keeps_every_promise() {
+    let (mut curves, mut lifted) = (0u32, 0u32);
+    let mut worst = [0f64; 3];
+    for index in 0..6000 {
+        let mut rng = Rng::new(SEED, index);
+        let family = rng.below(FAMILIES.len() as u64) as usize;
+        let (times, f) = FAMILIES[family].1(&mut rng);
+        let (long, faint) = (exp2(rng.below(64) as i32), exp2(-(118 + rng.below(31) as i32)));
+        let points = std::array::from_fn(|i| ((times[i] * long) as f32, (f[i] * faint) as f32));
+        let curve = Curve::single(points);
+        if !is_valid(&curve) {
+            continue;
+        }
+        let (exact, ours) = (Exact::new(&curve), BezierPdf::new(CubicBezier::new(points)).unwrap());
+        let mut last = f32::NEG_INFINITY;
+        for u in aimed_us(&exact, &mut rng) {
+            let t = ours.inverse_cdf(u);
+            let errors = exact.judge(u, t);
+            assert!(
+                t >= last && errors.backward <= BACKWARD,
+                "{t:e} at {u:e}, {errors:?}: {curve:?}"
+            );
+            (last, worst[0]) = (t, worst[0].max(errors.backward));
+        }
+        let mut last = 0.0;
+        for t in aimed_ts(&exact, &mut rng) {
+            let [cdf, pdf] = [ours.cdf(t), ours.pdf(t)];
+            let errors = [exact.cdf_ulp(cdf, t, CDF_FLOOR), exact.pdf_ulp(pdf, t)];
+            assert!(
+                cdf >= last && errors.iter().all(|e| *e <= VALUE),
+                "{errors:?} at {t:e}: {curve:?}"
+            );
+            (last, worst[1], worst[2]) = (cdf, worst[1].max(errors[0]), worst[2].max(errors[1]));
+        }
+        (curves, lifted) = (curves + 1, lifted + u32::from(exact.is_lifted()));
+    }
+    println!(
+        "subnormal openness: {worst:.3?} ulp of u, of the cdf and of the density; {lifted} of {curves} curves lifted"
+    );
+    assert!(curves > 2000 && lifted > 300);
 }
