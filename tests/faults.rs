@@ -422,3 +422,11 @@ fn the_cdf_on_a_plateau_at_subnormal_times() {
         assert!(exact.cdf_ulp(value, t, 0.0) <= VALUE, "{value:e} at {t:e}");
     }
 }
+
+/// A sum of which rounding saw the wrong sign was rounded twice: the time between two right ones stepped back.
+#[test]
+fn a_ramp_that_ends_a_subnormal_step_before_0() {
+    let opening =
+        [(-1.2298783e-38, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)];
+    judge_inverse(&Curve::shutter(opening, instant(1.1641532e-10, 1.0)), around(2.3047462e-29, 40));
+}
