@@ -12,7 +12,7 @@ a multiple of (1-p)² or p². Since p - T is linear in T', and T(1) = 1, it is g
 T = ((p-s)³ + s³) / ((1-s)³ + s³); t - p is the same seen from the other end.
 
 Openness. Let the greatest openness be 1 (all is in proportion), and `stays` in [1/2, 1]. Pressed by r, f becomes f +
-(stays - f) r / (stays + r), and its control values are rounded up, each by less than 2⁻²³ of itself. A cubic between 0
+(stays - f) r / (stays + r), up by at most r (1 - f) and down by less than r, and its control values are rounded up, each by less than 2⁻²³ of itself. A cubic between 0
 and 1 is fixed by its values at 0, 1/4, 3/4 and 1, all between 0 and 1, and the bound is convex in these, so it is
 greatest where each of them is 0 or 1.
 """
@@ -113,7 +113,9 @@ def is_within(most):
 TIMES = F(469, 1000)
 exact = F(4689, 10000)
 claim(f"p - T is at most {float(exact)}, for each T with T' >= 0", is_within(exact))
-# (|ac| + b²) / (a - 2b + c) is at most 1 + GRAZE where it counts: there b < 0, and ac >= b² - GRAZE/3 (a - 2b + c).
+# What the trace is a share of, (|ac| + b²) / (a - 2b + c), is below 2: the least being between -GRAZE/3 and 0, b < 0, and
+# b² is ac but for GRAZE/3 of the divisor. So it is ac times 2 over the divisor but for that, at most (a + c) / 2; and as
+# a + c = 1 - b, where -b is at most (a + c) / 2 but for that, a + c is at most 2 but for that.
 raised = 3 * (GRAZE / 3 + 2 * SLOPE) * (1 + ROUNDING) + ROUNDING * GRAZE
 claim(f"times move by at most {float(TIMES)} * GRAZE of the ramp", raised * exact <= TIMES * GRAZE)
 claim("... but p - T is not always within 0.4688", not is_within(F(4688, 10000)))
