@@ -114,7 +114,7 @@ impl CubicBezier {
         let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
         let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
         let leaves = first < -slack || last > t[3] - t[0] + slack;
-        if leaves || quadratic_min(differences(t)) < -GRAZE / 3.0 * (t[3] - t[0]) {
+        if leaves || quadratic_min(differences(t)).0 < -GRAZE / 3.0 * (t[3] - t[0]) {
             return Err(CurveError::TimeTurnsBack(ramp));
         }
         let (low, high) = cubic_range(widened(self.opennesses()));

@@ -65,12 +65,19 @@ pub(crate) const fn differences(v: [f64; 4]) -> [f64; 3] {
     [v[1] - v[0], v[2] - v[1], v[3] - v[2]]
 }
 
-/// The least value on [0, 1] of a quadratic given in the Bernstein basis.
-pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> f64 {
+/// The least value on [0, 1] of a quadratic given in the Bernstein basis, and a trace that is more than rounding takes
+/// from it, none if it is at an end.
+///
+/// The vertex is inside just where the middle coefficient `b` is below both ends; there the quadratic is `(ac - b²) / (a -
+/// 2b + c)`, and both parts of the divisor are positive. Of `(|ac| + b²) / (a - 2b + c)`, the size of the terms there,
+/// this loses 6 · 2⁻⁵³ at most, and 8 · 2⁻⁵³ are lost where the coefficients are raised and scaled. The trace is 16 · 2⁻⁵³.
+pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> (f64, f64) {
     let ends = if a < c { a } else { c };
-    // The vertex is inside just where the middle coefficient is below both ends; there
-    // min = (ac - b²) / (a - 2b + c), and both parts of the divisor are positive.
-    if b < ends { b + (a - b) * (c - b) / ((a - b) + (c - b)) } else { ends }
+    if b >= ends {
+        return (ends, 0.0);
+    }
+    let (outer, inner, divisor) = (a * c, b * b, (a - b) + (c - b));
+    ((outer - inner) / divisor, (outer.abs() + inner) / divisor / (1u64 << 49) as f64)
 }
 
 /// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. An extremum inside that is within
@@ -117,18 +124,25 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
     (low, high)
 }
 
-/// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁵⁰ for the
-/// rounding of that, each to the next `f32` above. A Bezier moves with its control values.
+/// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁴⁸ of its size for
+/// the rounding of that, less and less towards the greater end, which stays. So an opening that dips below 0 still
+/// reaches the plateau at 1. Each is rounded to the next `f32` above. A Bezier moves with its control values.
+///
+/// Where the greater end has less than half of the greatest value, that value stays, so that nothing moves by more than
+/// the raise. An end at 0 has to move even if only the inside dips: to lift that alone, with the slope there, could take
+/// 2⁻¹¹, because a cubic that starts at 0 with the slope `-3 · 2⁻¹¹` dips by no more than 2⁻²².
 pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     let (low, high) = cubic_range(widened(v));
     if low >= 0.0 {
         return v;
     }
-    let size = if -low > high { -low } else { high };
-    let raise = -low + size / (1u64 << 50) as f64;
+    let raise = -low + high / (1u64 << 48) as f64;
+    let end = if v[0] < v[3] { v[3] } else { v[0] } as f64;
+    let stays = if 2.0 * end < high { high } else { end };
+    let share = raise / (stays + raise);
     let mut i = 0;
     while i < 4 {
-        let exact = v[i] as f64 + raise;
+        let exact = v[i] as f64 + (stays - v[i] as f64) * share;
         let near = exact as f32;
         v[i] = if (near as f64) < exact { near.next_up() } else { near };
         i += 1;
@@ -136,18 +150,20 @@ pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     v
 }
 
-/// The differences of the control times of a ramp, whose slope may graze 0 from below, so that it does not.
+/// The differences of the control times of a ramp, whose slope may graze 0 from below, so that it does not: all three
+/// raised by what the slope is below 0 and by its rounding, and scaled, so that the ramp keeps its length.
 ///
-/// A quadratic with the Bernstein coefficients `d` is at least 0 where both ends are and the middle is at least
-/// `-sqrt(d0 d2)`. Scaled, it keeps that, and the ramp its length.
+/// A constant added to the slope adds a multiple of `p` to the time, and scaling takes as much away at the end: no time
+/// moves by more than 0.469 of the ramp's length times the 2⁻²² that are accepted (`proofs/lifting.py`). The slope of
+/// the result is nowhere below 0, as its three numbers stand. Of a ramp that is not lifted it may be, by rounding, but
+/// by less than what its coefficients lose as pairs.
 pub(crate) const fn forward(d: [f64; 3], length: f64) -> [f64; 3] {
-    let [d0, d1, d2] =
-        [if d[0] < 0.0 { 0.0 } else { d[0] }, d[1], if d[2] < 0.0 { 0.0 } else { d[2] }];
-    let turns = d1 < 0.0 && d1 * d1 > d0 * d2;
-    if !turns && d[0] >= 0.0 && d[2] >= 0.0 {
+    let (least, noise) = quadratic_min(d);
+    if least >= 0.0 {
         return d;
     }
-    let d1 = if turns { -sqrt(d0 * d2) } else { d1 };
+    let raise = noise - least;
+    let [d0, d1, d2] = [d[0] + raise, d[1] + raise, d[2] + raise];
     let scale = length / ((d0 + d2) + d1);
     [d0 * scale, d1 * scale, d2 * scale]
 }

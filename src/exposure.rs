@@ -261,9 +261,9 @@ impl Exposure {
             }
             At::Plateau => {
                 let (area, exponent) = significand(self.area);
-                let way = Pair::sum(t, -self.plateau_start(0)).over(area);
-                let way = way.shifted(WHOLE_EXPONENT - exponent);
-                self.nearest(t, self.ramps[0].share.plus(way), 0.0, None)
+                // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
+                let way = Pair::sum(t, -self.plateau_start(0)).shifted(WHOLE_EXPONENT - exponent);
+                self.nearest(t, self.ramps[0].share.plus(way.over(area)), 0.0, None)
             }
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
         }

@@ -1,11 +1,12 @@
-//! Faults of version 0.1.0, each with the input that showed it.
+//! Faults of versions 0.1.0 and 0.2.0, each with the input that showed it.
 
 mod support;
 
 use shutter_curve::{BezierPdf, CubicBezier, ScheduleError};
 use support::cases::shutter;
+use support::oracle::lift::Lifted;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{BACKWARD, EVALUATIONS, TICKS, tick_error};
+use support::promise::{BACKWARD, EVALUATIONS, TICKS, VALUE, tick_error};
 
 /// A ramp without length.
 const fn instant(t: f32, f: f32) -> Points {
@@ -366,4 +367,86 @@ fn no_typical_frame_is_searched_for() {
             }
         }
     }
+}
+
+// Found after 0.2.0.
+
+/// Lifting t' moved times by 140 · 2⁻²² of the ramp where it may move them by half of 2⁻²².
+#[test]
+fn lifted_times_stay_where_they_were() {
+    let times = [0, 0x347de048, 0xba132015, 0x3f7fdb38].map(f32::from_bits);
+    for f in [[0.0, 0.0, 1.0, 1.0], [0.0, 0.5, 0.75, 1.0], [1.0, 0.25, 0.25, 0.0]] {
+        let opening = std::array::from_fn(|i| (times[i], f[i]));
+        let curve = Curve::shutter(opening, instant(times[3], 1.0));
+        judge_inverse(&curve, (1..1000).map(|i| i as f32 / 1000.0));
+        let (as_given, ours) = (Exact::as_given(&curve), shutter::<8>(&curve));
+        for i in 1..1000 {
+            // A time of the curve that was asked for, and what it has within half of 2⁻²² of the ramp and an ulp.
+            let p = f64::from(i) / 1000.0;
+            let blend = |[a, b, c, d]: [f32; 4]| {
+                let r = 1.0 - p;
+                let [a, b, c, d] = [a, b, c, d].map(f64::from);
+                r * r * r * a + 3.0 * r * r * p * b + 3.0 * r * p * p * c + p * p * p * d
+            };
+            let (t, openness) = (blend(times), f64::from(ours.opening(blend(times) as f32)));
+            let reach = f64::from(times[3]) * exp2(-23) + exp2(-24);
+            let near = [t - reach, t + reach]
+                .map(|t| Dd::from(t.clamp(0.0, f64::from(times[3]))))
+                .map(|t| as_given.openness_dd(t).hi);
+            let [low, high] = [near[0].min(near[1]), near[0].max(near[1])];
+            let ulp = exp2(-24);
+            assert!(
+                openness >= low - ulp && openness <= high + ulp,
+                "{openness} at {t}, outside {low} to {high}: {f:?}"
+            );
+        }
+    }
+}
+
+/// A dip below 0 at the start moved the openness at the other end, which joins the plateau, to more than 1.
+#[test]
+fn a_lifted_opening_joins_the_plateau() {
+    let faint = -exp2(-23) as f32;
+    let inside = [1.0 / 9.0, (-5.0f32 / 27.0).next_down(), 1.0 / 9.0, 1.0];
+    for f in [[faint, 0.25, 0.75, 1.0], [faint, 0.0, 1.0, 1.0], inside] {
+        let [a, b, c, d] = f;
+        let opening = [(0.0, a), (0.3, b), (0.7, c), (1.0, d)];
+        let curve = Curve::shutter(opening, instant(1.0, 1.0));
+        let lifted = Lifted::new(curve.opening);
+        assert!(lifted.is_lifted, "{f:?}");
+        assert_eq!(lifted.openness[3], 1.0, "{f:?}");
+        judge_inverse(&curve, around(0.5, 40).chain(around(0.999999, 8)));
+        let single = BezierPdf::new(CubicBezier::new(opening)).unwrap();
+        let at_end = single.pdf(1.0) / single.normalization();
+        assert!((at_end - 1.0).abs() <= 1.5 * f32::EPSILON, "{at_end}: {f:?}");
+    }
+}
+
+/// A division before its scaling had a subnormal quotient, whose products lose all they have.
+#[test]
+fn the_cdf_on_a_plateau_at_subnormal_times() {
+    let bits = |points: [[u32; 2]; 4]| points.map(|[t, f]| (f32::from_bits(t), f32::from_bits(f)));
+    let opening = bits([[0xbe2f69c6, 0], [0xbcad511c, 1], [0xbe19bfa2, 0], [0, 1]]);
+    let closing = bits([
+        [1, 0x3e9fe97f],
+        [0x3ed21182, 0x3e5f3099],
+        [0x3ea4153a, 0xb8f2e130],
+        [0x3edddf78, 0x3d04d40f],
+    ]);
+    let curve = Curve::shutter(opening, closing);
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    let values = [0, 1, 2, 3, 4, 5].map(|bits| ours.cdf(f32::from_bits(bits)));
+    assert!(values.is_sorted(), "{values:?}");
+    for (bits, value) in values.into_iter().enumerate() {
+        let t = f32::from_bits(bits as u32);
+        assert!(exact.cdf_ulp(value, t, 0.0) <= VALUE, "{value:e} at {t:e}");
+    }
+}
+
+/// A sum of which rounding saw the wrong sign was rounded twice: the time between two right ones stepped back.
+#[test]
+fn a_ramp_that_ends_a_subnormal_step_before_0() {
+    let opening =
+        [(-1.2298783e-38, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)];
+    judge_inverse(&Curve::shutter(opening, instant(1.1641532e-10, 1.0)), around(2.3047462e-29, 40));
 }

@@ -53,28 +53,45 @@ fn differences(t: [f32; 4]) -> [Dd; 3] {
     [0, 1, 2].map(|i| Dd::from(t[i + 1]) - Dd::from(t[i]))
 }
 
-/// `t'` is three times a quadratic with these differences as its Bernstein coefficients. It is nowhere below 0
-/// where the outer ones are not, and the middle one is not below `-sqrt(d0 d2)`.
+/// `t'` is three times a quadratic with these differences as its Bernstein coefficients. Each rises by what that dips
+/// below 0 and a trace more, and is stretched so that the last time is kept.
+///
+/// The differences that rise are rounded to `f64`, and so is the rise, to the bit as the library has it: where time
+/// nearly stands still at an end, what is left of a difference may be 2⁻⁴⁸ of the ramp. From there on nothing cancels.
 fn lifted_steps(t: [f32; 4]) -> Option<[Dd; 3]> {
+    let steps = differences(t).map(Dd::to_f64);
+    let by = rise_of_slope(steps)?;
+    let raised = steps.map(|d| Dd::from(d) + Dd::from(by));
     let length = Dd::from(t[3]) - Dd::from(t[0]);
-    let [d0, d1, d2] = differences(t);
-    let turns_back = d1 < Dd::ZERO && d0 * d2 < d1 * d1;
-    if length.hi == 0.0 || !(d0 < Dd::ZERO || d2 < Dd::ZERO || turns_back) {
-        return None;
-    }
-    let (first, last) = (d0.max(Dd::ZERO), d2.max(Dd::ZERO));
-    let middle = d1.max(-(first * last).sqrt());
-    // The last time is kept.
-    let stretch = length / (first + middle + last);
-    Some([first, middle, last].map(|d| d * stretch))
+    let stretch = length / raised.into_iter().fold(Dd::ZERO, |sum, d| sum + d);
+    Some(raised.map(|d| d * stretch))
 }
 
-/// The control values rise alike, as a Bezier curve is affine in them, by what the curve dips below 0 and a trace more:
-/// then by what rounds them up to `f32`.
+/// By how much a quadratic has to rise for it not to be below 0 on [0, 1].
+fn rise_of_slope(steps: [f64; 3]) -> Option<f64> {
+    let [first, middle, last] = steps;
+    let is_vertex_inside = middle < first && middle < last;
+    let (least, trace) = if is_vertex_inside {
+        let bend = (first - middle) + (last - middle);
+        let [ends, square] = [first * last, middle * middle];
+        ((ends - square) / bend, (ends.abs() + square) / bend * exp2(-49))
+    } else {
+        (first.min(last), 0.0)
+    };
+    (least < 0.0).then_some(trace - least)
+}
+
+/// The curve is pressed towards the openness of its brighter end, which is kept, until what dips below 0 and a trace
+/// more does so no longer: as a Bezier curve is affine in its control values, these are pressed alike. Then each is
+/// rounded up to `f32`. Of ends with less than half of the greatest openness none is kept, but that is.
 fn lifted_openness(f: [f32; 4]) -> Option<[f32; 4]> {
     let [low, high] = range(f.map(f64::from));
-    let by = high.max(-low) * exp2(-50) - low;
-    (low < 0.0).then(|| f.map(|value| rounded_up(value as f64 + by)))
+    let brighter = f64::from(f[0].max(f[3]));
+    let kept = if brighter < 0.5 * high { high } else { brighter };
+    let dip = high * exp2(-48) - low;
+    let part = dip / (kept + dip);
+    let pressed = |value: f64| value + part * (kept - value);
+    (low < 0.0).then(|| f.map(|value| rounded_up(pressed(value as f64))))
 }
 
 /// The least `f32` that is not below `x`.
