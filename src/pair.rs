@@ -1,6 +1,7 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
-//! The second number is at most a few ulp of the first. The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
+//! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
+//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
 //! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good
 //! as each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to
 //! that.
@@ -99,14 +100,15 @@ impl Pair {
         self.scaled(power_of_two(half)).scaled(power_of_two(n - half))
     }
 
-    /// `self · x`, to 2⁻⁴⁶ (Dekker).
+    /// `self · x`, to 2⁻⁴⁵ (Dekker).
     #[inline(always)]
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
-    /// `self / x`, to 2⁻⁴⁵: what the quotient's product with `x` lacks of `self` tells the rest.
+    /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp: what the quotient's product with `x` lacks of
+    /// `self` tells the rest.
     #[inline(always)]
     pub(crate) const fn over(self, x: Self) -> Self {
         let inverse = 1.0 / x.hi;
