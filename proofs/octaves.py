@@ -1,21 +1,7 @@
 """src/octave.rs, plan.rs: that the answer's path computes the `x` at which a polynomial was judged, by z3; and what
 Horner's rule in integers truncates, by Gappa."""
 
-from z3 import *
-
-from common import *
-
-
-def valid(claim, formula, *but_not):
-    """z3 proves the formula; and finds an exception to each of those that say a little more."""
-    solver = Solver()
-    solver.add(Not(formula))
-    require(solver.check() == unsat, f"{claim}: {solver}"[:400])
-    for more in but_not:
-        solver = Solver()
-        solver.add(Not(more))
-        require(solver.check() == sat, f"{claim}: more than this holds")
-    proven(claim)
+from solver import *
 
 
 code("octave.rs", "pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead = position & !(position >> 31);
