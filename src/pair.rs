@@ -177,6 +177,9 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
 /// [-252, 22].
+///
+/// Where the two cancel, so that the way's second number is more than 3/8 ulp of the sum, that holds except next to a
+/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of one (`proofs/rounding.py`).
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     // The power of two by halves, for it may not be a normal number itself.
