@@ -30,7 +30,7 @@ fi
 export python
 
 # The slowest first.
-scripts=(octaves words solve rounding pairs series fractions ticks seeds markov)
+scripts=(rounding words pairs ticks octaves shares series solve seeds markov)
 [ $# -eq 0 ] || scripts=("$@")
 
 log=$(mktemp)

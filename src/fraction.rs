@@ -24,7 +24,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of
-    /// these.
+    /// these, and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
+    /// (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         let middle = self.share.wrapping_mul(odd as u64);
@@ -32,7 +33,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
-    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵.
+    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁶ pulses that nearly touch, the first end to 2⁻³⁹
+    /// (`proofs/shares.py`).
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) =

@@ -179,7 +179,7 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
 /// [-252, 22].
 ///
 /// Where the two cancel, so that the way's second number is more than 3/8 ulp of the sum, that holds except next to a
-/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of one (`proofs/rounding.py`).
+/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of what is added (`proofs/rounding.py`).
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     // The power of two by halves, for it may not be a normal number itself.
