@@ -64,6 +64,19 @@ def proven(claim):
     count, started = count + 1, now
 
 
+def tested(claim):
+    """The same for what was tried on many words, but not proven."""
+    global started
+    now = time.monotonic()
+    print(f"tested {now - started:7.2f} s  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+    started = now
+
+
+def open_point(claim):
+    """What is not proven, so that no run hides it."""
+    print(f"open              {Path(sys.argv[0]).stem}: {claim}", flush=True)
+
+
 def require(condition, claim):
     if not condition:
         print(f"FAILED  {Path(sys.argv[0]).stem}: {claim}", flush=True)

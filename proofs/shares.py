@@ -1,6 +1,7 @@
 """src/fraction.rs: shares of the exposure in 64 and 96 bits. By z3 on whole numbers, and a transcription by exact rationals."""
 
 from solver import *
+from transcribed import Fractions, cases
 
 code("fraction.rs", "pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
     let remainder = (1 << 63) - share * divisor; Self { n, share, rest: ((remainder * share) >> 31) as u32 } }""")
@@ -53,80 +54,40 @@ valid(
 )
 
 
-# The whole of it, transcribed, against exact fractions.
-class Fractions:
-    def __init__(self, n):
-        self.n = n
-        divisor = n or 1
-        self.share = 2**63 // divisor
-        self.rest = ((2**63 - self.share * divisor) * self.share) >> 31
-
-    def edges(self, duty):
-        """`duty` as a significand of 24 bits and an exponent: significand 2^(biased - 150)."""
-        significand, biased = duty
-        return ((self.share << 32 | self.rest) * significand) >> (150 - biased)
-
-    def in_u64(self, odd, half, is_off):
-        middle = self.share * odd
-        return (middle + (half >> 32) if is_off else middle - (half >> 32)) % 2**64
-
-    def exactly(self, odd, half, is_off):
-        """The side, and the two numbers of 24 bits with the unit's exponent, 0 being the whole."""
-        n = self.n
-        side, near = (0, odd) if odd < n or odd == n and not is_off else (1, 2 * n - odd)
-        total = near * (self.share << 32 | self.rest)
-        total = total + half if is_off == (side == 0) else max(total - half, 0)
-        require(total < 2**96, "96 bits")
-        words, low, down = total >> 32, total % 2**32, 0
-        if words >> 32 == 0:
-            words, low, down = (words << 32 | low) % 2**64, 0, 32
-        zeros = (64 - words.bit_length()) & 63
-        bits = (words << zeros) % 2**64 | ((low << zeros) % 2**64) >> 32
-        return side, bits >> 40, bits >> 16 & 0xFFFFFF, -24 - down - zeros
+# The whole of it, transcribed, against exact fractions, on edges and random numbers.
+worst_64 = worst = least = Fraction(0)
+relative = {}
+for n, odd, duty, is_off in cases():
+    f = Fractions(n)
+    half = f.edges(duty) if duty else 0
+    width = Fraction(duty[0]) * Fraction(2) ** (duty[1] - 150) if duty else Fraction(0)
+    exact = Fraction(odd, 2 * n) + (width if is_off else -width) / (2 * n)
+    short = exact - Fraction(f.in_u64(odd, half, is_off), 2**64)
+    if exact < 1:
+        # The share is too small by less than a unit for each odd, half of a pulse by less than two.
+        require(-2 < short * 2**64 < odd + 2, f"in_u64 {n} {odd} {duty}")
+        worst_64 = max(worst_64, abs(short * 2**64) / (odd + 1))
+    side, hi, lo, unit = f.exactly(odd, half, is_off)
+    near = exact if side == 0 else 1 - exact
+    found = (hi + Fraction(lo, 2**24)) * Fraction(2) ** unit
+    error = abs(found - near)
+    require(error <= near / 2**45 or error < Fraction(near.denominator and 3 * min(odd, 2 * n - odd) + 4, 2**96), f"exactly {n} {odd} {duty} {is_off}")
+    if near:
+        key = n <= 2**26
+        relative[key] = max(relative.get(key, 0), error / near)
+        absolute = error * 2**96
+require(relative[True] <= Fraction(1, 2**45), "exactly, 2^26 pulses")
+tested(f"in_u64: too low by at most odd * 2^-64, and two for half of a pulse (seen: {float(worst_64):.3f} of that)")
+tested(f"exactly: to 2^{log2(relative[True]):.1f} up to 2^26 pulses, to 2^{log2(relative[False]):.1f} up to 2^32")
 
 
-def cases():
-    import random
-
-    random.seed(1)
-    counts = [1, 2, 3, 5, 7, 100, 4096, 65537, 2**22, 2**26 - 5, 2**31 - 1, 2**31, 2**32 - 2, 2**32 - 1]
-    counts += [random.getrandbits(32) | 1 for _ in range(40)]
-    duties = [(2**23, 127), (2**24 - 1, 126), (2**23, 126), (2**23 + 1, 126), (2**24 - 1, 100), (2**23, 40)]
-    duties += [(random.getrandbits(23) | 2**23, random.choice([126, 125, 120])) for _ in range(6)]
-    for n in counts:
-        for odd in sorted({1, n - 1 | 1, n | 1, 2 * n - 1, 2 * random.randrange(n) + 1} & set(range(1, 2 * n + 1, 2)) if n < 2**16
-                          else {1, n | 1, 2 * n - 1, (n - 1) | 1, 2 * random.randrange(n) + 1}):
-            if odd > 2 * n - 1:
-                continue
-            for duty in [None, *duties]:
-                for is_off in (False, True):
-                    if duty is None and is_off:
-                        continue
-                    yield n, odd, duty, is_off
+def exactness(n):
+    """48 bits of the answer; three units for each odd; and one for half of a pulse, of which an end leaves at least 2^-24 / 2n."""
+    return Fraction(1, 2**47) + Fraction(6 * n, 2**96) + 2 * n * Fraction(2**24, 2**96)
 
 
-if __name__ == "__main__":
-    worst_64 = worst = least = Fraction(0)
-    relative = {}
-    for n, odd, duty, is_off in cases():
-        f = Fractions(n)
-        half = f.edges(duty) if duty else 0
-        width = Fraction(duty[0]) * Fraction(2) ** (duty[1] - 150) if duty else Fraction(0)
-        exact = Fraction(odd, 2 * n) + (width if is_off else -width) / (2 * n)
-        short = exact - Fraction(f.in_u64(odd, half, is_off), 2**64)
-        if exact < 1:
-            # The share is too small by less than a unit for each odd, half of a pulse by less than two.
-            require(-2 < short * 2**64 < odd + 2, f"in_u64 {n} {odd} {duty}")
-            worst_64 = max(worst_64, abs(short * 2**64) / (odd + 1))
-        side, hi, lo, unit = f.exactly(odd, half, is_off)
-        near = exact if side == 0 else 1 - exact
-        found = (hi + Fraction(lo, 2**24)) * Fraction(2) ** unit
-        error = abs(found - near)
-        require(error <= near / 2**45 or error < Fraction(near.denominator and 3 * min(odd, 2 * n - odd) + 4, 2**96), f"exactly {n} {odd} {duty} {is_off}")
-        if near:
-            key = n <= 2**26
-            relative[key] = max(relative.get(key, 0), error / near)
-            absolute = error * 2**96
-    require(relative[True] <= Fraction(1, 2**45), "exactly, 2^26 pulses")
-    proven(f"in_u64: too low by at most odd * 2^-64, and two for half of a pulse (seen: {float(worst_64):.3f} of that); on sampled n, odd and duty")
-    proven(f"exactly: to 2^{log2(relative[True]):.1f} up to 2^26 pulses, 2^{log2(relative[False]):.1f} up to 2^32; on sampled n, odd and duty")
+frame = source("fraction.rs", r"to 2⁻⁴⁵; in frames of more than 2([²³⁵]+) pulses")
+frame = int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in frame))
+require(exactness(2**frame) <= Fraction(1, 2**45) < exactness(2 ** (frame + 1)), "exactly")
+require(exactness(2**32) <= Fraction(101, 100) * Fraction(1, 2**39), "exactly, all frames")
+proven(f"exactly: to 2^-45 in frames of up to 2^{frame} pulses, for every duty; to 2^{log2(exactness(2**32)):.2f} in all")

@@ -98,8 +98,8 @@ far = near + BENDS * Fraction(1001, 1000)
 inside = near + 2 * BENDS * Fraction(1001, 1000) + 1 + BENDS * 4 * Fraction(1001, 1000)
 for name, needed in (("the other end", far), ("a minimum inside", inside)):
     share = Fraction(3, 4) * max(Fraction(1), needed / budget)
-    print(f"open                {Path(sys.argv[0]).stem}: a search from {name} may take {float(needed):.1f} roundings, not {float(budget):.1f}: "
-          f"what is left is then at most {float(share):.2f} of the error that is asked for, not 0.75", flush=True)
+    open_point(f"a search from {name} may take {float(needed):.1f} roundings, not {float(budget):.1f}: "
+               f"what is left is then at most {float(share):.2f} of the error that is asked for, not 0.75")
 require(far > budget and inside > budget, "an open point has been closed: say so")
 require(far / budget * Fraction(3, 4) < 1, "the other end keeps to the error that is asked for")
 proven("a search from the other end leaves less than the error that is asked for, with a sixteenth for measuring")

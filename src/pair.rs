@@ -228,3 +228,48 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
     let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
     f32::from_bits(if up { bits + 1 } else { bits - 1 })
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// The rows of a file of `proofs/vectors`: hexadecimal words.
+    pub(crate) fn rows<const N: usize>(csv: &str) -> impl Iterator<Item = [u64; N]> {
+        csv.lines().map(|line| {
+            let mut words = line.split(',').map(|word| u64::from_str_radix(word, 16).unwrap());
+            let row = core::array::from_fn(|_| words.next().unwrap());
+            assert!(words.next().is_none());
+            row
+        })
+    }
+
+    /// The same, of which all are `f32` by their bits.
+    pub(crate) fn numbers<const N: usize>(csv: &str) -> impl Iterator<Item = [f32; N]> {
+        rows::<N>(csv).map(|row| row.map(|word| f32::from_bits(word as u32)))
+    }
+
+    /// What `proofs/pairs.py` takes for these functions is what they are.
+    #[test]
+    fn pairs_are_as_transcribed() {
+        let pair = |hi, lo| Pair { hi, lo };
+        for row in numbers(include_str!("../proofs/vectors/pairs.csv")) {
+            let [a, al, b, bl, s, sl, m, ml, t, tl, q, ql, difference] = row;
+            let (a, b) = (pair(a, al), pair(b, bl));
+            assert_eq!(a.plus(b), pair(s, sl));
+            assert_eq!(a.minus_loose(b), pair(m, ml));
+            assert_eq!(a.times(b), pair(t, tl));
+            assert_eq!(a.over(b), pair(q, ql));
+            assert_eq!(a.difference(b), difference);
+        }
+    }
+
+    /// Sums are the exact ones, rounded once: the expected ones are computed with fractions.
+    #[test]
+    fn sums_are_rounded_once() {
+        for [base, hi, lo, unit, back, sum] in rows(include_str!("../proofs/vectors/rounded.csv")) {
+            let [base, hi, lo, sum] = [base, hi, lo, sum].map(|word| f32::from_bits(word as u32));
+            let found = rounded_sum(base, Pair { hi, lo }, unit as i32, back == 1);
+            assert_eq!(found, sum, "{base:e} {hi:e} {lo:e} {unit} {back}");
+        }
+    }
+}

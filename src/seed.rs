@@ -95,3 +95,17 @@ fn square_root(x: f32) -> f32 {
 fn square_root(x: f32) -> f32 {
     micromath::F32Ext::sqrt(x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::tests::rows;
+
+    /// What `proofs/seeds.py` takes for the quotient is it.
+    #[test]
+    fn quotients_are_as_transcribed() {
+        for [x, k, quotient] in rows(include_str!("../proofs/vectors/seeds.csv")) {
+            assert_eq!(divided(x as i32, k as i32), quotient as i32);
+        }
+    }
+}

@@ -52,3 +52,25 @@ impl Series<'_> {
         slope
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::tests::numbers;
+    use crate::solve::Offset;
+
+    /// What `proofs/series.py` takes for these functions is what they are.
+    #[test]
+    fn series_are_as_transcribed() {
+        for row in numbers::<18>(include_str!("../proofs/vectors/series.csv")) {
+            let c: [Pair; 6] =
+                core::array::from_fn(|k| Pair { hi: row[2 * k], lo: row[2 * k + 1] });
+            let [.., x, rest, hi, lo, slope, with_rest] = row;
+            let series = Series { c: &c[..5], last: c[5] };
+            assert_eq!(series.at(x), Pair { hi, lo });
+            assert_eq!(series.slope(x), slope);
+            let offset = Offset { x, rest, evaluations: 0 };
+            assert_eq!(offset.value(series), Pair { hi, lo: with_rest });
+        }
+    }
+}

@@ -306,4 +306,16 @@ mod tests {
             );
         }
     }
+
+    /// What `proofs/solve.py` takes for the slopes and the bound is what they are.
+    #[test]
+    fn the_bound_is_as_transcribed() {
+        for row in crate::pair::tests::numbers(include_str!("../proofs/vectors/left.csv")) {
+            let [c1, c2, c3, c4, c5, c6, x, moved, missing, s, d1, d2, bound] = row;
+            let c = [c1, c2, c3, c4, c5, c6];
+            let local = Taylor::new(&c, x);
+            assert_eq!([local.d1, local.d2], [d1, d2]);
+            assert_eq!(left(&c, [x, moved], &local, missing, s), bound);
+        }
+    }
 }

@@ -177,3 +177,20 @@ impl TickScale {
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::tests::rows;
+
+    /// What `proofs/ticks.py` takes for a tick is one.
+    #[test]
+    fn ticks_are_as_transcribed() {
+        for [start, length, hz, unit, time, tick] in
+            rows(include_str!("../proofs/vectors/ticks.csv"))
+        {
+            let scale = TickScale::new(start as i64, length, hz as u32, unit as i32);
+            assert_eq!(scale.tick(time as i64), tick as u32);
+        }
+    }
+}
