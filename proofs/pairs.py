@@ -31,7 +31,7 @@ def halves(k):
 
 def exponent_of(function):
     """The n of "to 2^-n" in a function's comment."""
-    digits = source("pair.rs", rf"///[^\n]*to 2⁻([⁰¹²³⁴-⁹]+)[^\n]*\n(?:    ///[^\n]*\n)*    #\[inline\(always\)\]\n    pub\(crate\) const fn {function}\(")
+    digits = source("pair.rs", rf"///[^\n]*to 2⁻([⁰¹²³⁴-⁹]+)[^\n]*\n(?:    //[^\n]*\n)*    #\[inline\(always\)\]\n    pub\(crate\) const fn {function}\(")
     return int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in digits))
 
 

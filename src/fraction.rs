@@ -14,7 +14,9 @@ pub(crate) struct Fractions {
 }
 
 impl Fractions {
-    /// A 64-bit division is slow on a small processor, so there is only this one.
+    /// A 64-bit division is slow on a small processor, so there is only this one. `1 / 2n` is too small by at most
+    /// 3 · 2⁻⁹⁶.
+    // proofs/shares.py: Fractions::new
     pub(crate) fn new(n: u32) -> Self {
         let divisor = n as u64 | (n == 0) as u64;
         let share = (1 << 63) / divisor;
@@ -33,8 +35,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
-    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to 2⁻³⁹
-    /// (`proofs/shares.py`).
+    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
+    /// 2⁻³⁸ (`proofs/shares.py`).
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) =

@@ -1,10 +1,10 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
 //! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
-//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
-//! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good
-//! as each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to
-//! that.
+//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). The
+//! classic algorithms (Knuth 1969, Dekker 1971) in plain sums and products, without fused operations, so that the bits
+//! are the same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes
+//! subnormal; who calls them scales by powers of two to see to that.
 
 /// `hi + lo`
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,8 @@ impl Pair {
         Self { hi: x, lo: 0.0 }
     }
 
-    /// The nearest pair.
+    /// The nearest pair, to 2⁻⁴⁹.
+    // proofs/pairs.py: from_f64
     pub(crate) const fn from_f64(x: f64) -> Self {
         let hi = x as f32;
         Self { hi, lo: (x - hi as f64) as f32 }
@@ -45,6 +46,7 @@ impl Pair {
     }
 
     /// `self + other`, to 2⁻⁴⁶ of the greater one.
+    // proofs/pairs.py: plus
     #[inline(always)]
     pub(crate) const fn plus(self, other: Self) -> Self {
         let sum = Self::sum(self.hi, other.hi);
@@ -52,6 +54,7 @@ impl Pair {
     }
 
     /// `self - other`, to 2⁻⁴⁶ of the greater one.
+    // proofs/pairs.py: minus
     #[inline(always)]
     pub(crate) const fn minus(self, other: Self) -> Self {
         self.plus(other.negated())
@@ -101,6 +104,7 @@ impl Pair {
     }
 
     /// `self · x`, to 2⁻⁴⁵ (Dekker).
+    // proofs/pairs.py: times
     #[inline(always)]
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
@@ -109,6 +113,7 @@ impl Pair {
 
     /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp: what the quotient's product with `x` lacks of
     /// `self` tells the rest.
+    // proofs/pairs.py: over
     #[inline(always)]
     pub(crate) const fn over(self, x: Self) -> Self {
         let inverse = 1.0 / x.hi;
@@ -141,6 +146,7 @@ const fn lost(product: f32, a: f32, b: f32) -> f32 {
 }
 
 /// The upper 12 of 24 bits. The product of two such halves is exact.
+// proofs/words.py: upper
 #[inline(always)]
 pub(crate) const fn upper(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0xFFFF_F000)
@@ -159,6 +165,7 @@ pub(crate) const fn exponent(x: f32) -> i32 {
 }
 
 /// `x` in units of `2^e`, rounded towards 0; below 2⁶³ of them.
+// proofs/words.py: fixed
 pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     let (bits, exponent) = (x.to_bits(), exponent(x));
     let significand = (bits & 0x7F_FFFF) as i64;
@@ -198,6 +205,7 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
 }
 
 /// `base + way first second`, where rounding takes more care.
+// proofs/rounding.py: careful_sum
 #[cold]
 #[inline(never)]
 const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
@@ -263,7 +271,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Sums are the exact ones, rounded once: the expected ones are computed with fractions.
+    /// Sums are the exact ones, rounded once: those expected are computed with fractions. The last one is the
+    /// exception.
     #[test]
     fn sums_are_rounded_once() {
         for [base, hi, lo, unit, back, sum] in rows(include_str!("../proofs/vectors/rounded.csv")) {

@@ -166,6 +166,8 @@ impl TickScale {
         Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
     }
 
+    /// The tick of a time: exact but for what is cut off the delay and the factor, at most 2⁻⁶ of one.
+    // proofs/ticks.py: tick
     #[inline(always)]
     fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
