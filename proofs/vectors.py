@@ -43,6 +43,20 @@ def two_sum(a, b):
     return hi, (a - (hi - added)) + (b - added)
 
 
+def exactly(pair):
+    return Fraction(float(pair[0])) + Fraction(float(pair[1]))
+
+
+seen = {}
+
+
+def within(name, error, bound):
+    """An error is within its proven bound, in 2^-48, but for terms of second order."""
+    share = abs(error) * 2**48 / bound
+    require(share <= 1 + Fraction(1, 2**20), f"{name} errs by {float(share)} of its bound")
+    seen[name] = max(seen.get(name, 0), share)
+
+
 def lost(product, a, b):
     """Exactly, as is known of Dekker's product."""
     return f(Fraction(float(a)) * Fraction(float(b)) - Fraction(float(product)))
@@ -79,7 +93,15 @@ def pairs():
     for _ in range(80):
         a, b = pair(0, 3), pair(0, 3, 2)
         if random.random() < 0.3:
-            b = (f(a[0] * f(1 + random.choice([0, 1, -1, 3]) * 2.0**-22)), b[1] * f(0.1))
+            near = f(a[0] * f(1 + random.choice([0, 1, -1, 3]) * 2.0**-22))
+            b = (near, abs(near) * f(random.uniform(-0.9, 0.9) * 2.0**-24))
+        x, y = exactly(a), exactly(b)
+        # The bounds that pairs.py proves, for second numbers of half an ulp and an ulp.
+        greater = max(abs(x), abs(y))
+        within("plus", exactly(plus(a, b)) - (x + y), 6 * greater)
+        within("minus_loose", exactly(loose(a, b)) - (x - y), 6 * greater)
+        within("times", exactly(times(a, b)) - x * y, 11 * abs(x * y))
+        within("over", exactly(over(a, b)) - x / y, Fraction(301, 10) * abs(x / y))
         yield [bits(x) for x in (*a, *b, *plus(a, b), *loose(a, b), *times(a, b), *over(a, b), difference(a, b))]
 
 
@@ -106,6 +128,10 @@ def series():
         c, x = [pair(-2 * k, 4) for k in range(6)], abs(number(2, 2))
         rest = x * f(random.uniform(-1, 1) * 2.0**-25)
         hi, lo = at(c, x)
+        place, along = Fraction(float(x)), Fraction(float(x)) + Fraction(float(rest))
+        terms = sum(abs(exactly(p)) * place**k for k, p in enumerate(c, 1))
+        within("Series::at", exactly((hi, lo)) - sum(exactly(p) * place**k for k, p in enumerate(c, 1)), 118 * terms)
+        within("Offset::value", exactly((hi, lo + slope(c, x) * rest)) - sum(exactly(p) * along**k for k, p in enumerate(c, 1)), 229 * terms)
         yield [bits(v) for v in (*(n for p in c for n in p), x, rest, hi, lo, slope(c, x), lo + slope(c, x) * rest)]
 
 
@@ -215,3 +241,5 @@ if __name__ == "__main__":
             path.write_text(text)
         require(path.read_text() == text, f"vectors/{name}.csv is not what the transcription gives: vectors.py write")
         tested(f"vectors/{name}.csv are the transcription's {text.count(chr(10))} answers; a unit test holds the Rust function to them")
+    require(len(seen) == 6 and all(share > Fraction(1, 20) for share in seen.values()), f"errors are seen: {seen}")
+    tested("on these words, the errors are up to " + ", ".join(f"{float(share):.2f} of the bound of {name}" for name, share in seen.items()))

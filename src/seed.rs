@@ -23,7 +23,7 @@ const MEAN: i32 = (0.043 * LOG_ONE as f32) as i32;
 /// 2³⁰ over `k`, rounded up.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
-/// `x / k` for `k` up to 6, within 4/3, where `x` is the difference of any two logarithms: without a division, which the
+/// `x / k` for `k` up to 6, within 4/3, where `x` is the difference of two logarithms: without a division, which the
 /// compiler would check.
 #[inline(always)]
 const fn divided(x: i32, k: i32) -> i32 {

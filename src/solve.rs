@@ -110,8 +110,8 @@ pub(crate) struct Offset {
 }
 
 impl Offset {
-    /// The series' value there. The second term is at most N · 2⁻²⁴ of the sum of the series' terms without their signs,
-    /// so single precision is enough for it: the value is within 2⁻⁴⁰ of that sum (`proofs/series.py`).
+    /// The series' value there. The second term is at most N · 2⁻²⁴ of the sum of the series' terms without their
+    /// signs, so single precision is enough for it: the value is within 2⁻⁴⁰ of that sum (`proofs/series.py`).
     #[inline(always)]
     pub(crate) const fn value(&self, series: Series) -> Pair {
         let Pair { hi, lo } = series.at(self.x);
