@@ -83,11 +83,13 @@ def wrong(p, halves, careful, most=(3, 8)):
     return found
 
 
-for p, halves in ((5, 1), (6, 1), (6, 2)):
+for p, halves in ((5, 1), (6, 2), (6, 4)):
     require(wrong(p, halves, True) == 0, "careful_sum")
     require(wrong(p, halves, False) == 0, "rounded_sum")
     require(wrong(p, halves, False, most=(4, 8)) > 0, "a greater second number matters")
-proven("careful_sum rounds once, where nothing is subnormal: for all sums of 5 bits, and of 6 with second numbers up to an ulp")
+# A rest of four ulp needs a bit more below a quarter of an ulp.
+require(wrong(7, 8, True) == 0 and wrong(6, 8, True) > 0, "careful_sum with second numbers of four ulp")
+proven("careful_sum rounds once, where nothing is subnormal: for all sums of 6 bits with second numbers up to two ulp, of 7 up to four")
 proven("rounded_sum's short way rounds once where the second number is at most 3/8 of an ulp of the sum")
 
 

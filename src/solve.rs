@@ -32,7 +32,7 @@
 //! All of that is checked by `proofs/solve.py` and `proofs/markov.py`, for searches from the end that faces the side.
 //! From the other end the distance is rounded once more than the bound knows, which may leave 0.89 of the error that is
 //! asked for instead of 0.75. From a minimum inside it is rounded twice, and `c_5` is a difference of greater numbers:
-//! 2.11 of the error is proven there, and that less than all of it is left is measured.
+//! 2.11 of the error is all that is proven there.
 //!
 //! **The end.** After `FREE` evaluations each measured place halves a bracket of certain signs. When that is as narrow
 //! as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r`
