@@ -14,7 +14,9 @@ pub(crate) struct Fractions {
 }
 
 impl Fractions {
-    /// A 64-bit division is slow on a small processor, so there is only this one.
+    /// A 64-bit division is slow on a small processor, so there is only this one. `1 / 2n` is too small by at most
+    /// 3 · 2⁻⁹⁶.
+    // proofs/shares.py: Fractions::new
     pub(crate) fn new(n: u32) -> Self {
         let divisor = n as u64 | (n == 0) as u64;
         let share = (1 << 63) / divisor;
@@ -24,7 +26,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of
-    /// these.
+    /// these, and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
+    /// (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         let middle = self.share.wrapping_mul(odd as u64);
@@ -32,7 +35,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
-    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵.
+    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
+    /// 2⁻³⁸ (`proofs/shares.py`).
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
         let (side, near) =
@@ -83,4 +87,24 @@ pub(crate) struct Edge {
 
 impl Edge {
     pub(crate) const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::tests::rows;
+
+    /// What `proofs/shares.py` takes for these functions is what they are.
+    #[test]
+    fn fractions_are_as_transcribed() {
+        for [n, odd, duty, is_off, word, side, hi, lo] in
+            rows(include_str!("../proofs/vectors/shares.csv"))
+        {
+            let fractions = Fractions::new(n as u32);
+            let edge = fractions.edges(f32::from_bits(duty as u32))[is_off as usize];
+            assert_eq!(fractions.in_u64(odd as u32, &edge), word);
+            let [hi, lo] = [hi, lo].map(|half| f32::from_bits(half as u32));
+            assert_eq!(fractions.exactly(odd, &edge), (side as usize, Pair { hi, lo }));
+        }
+    }
 }

@@ -1,9 +1,10 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
-//! The second number is at most a few ulp of the first. The classic algorithms (Knuth 1969, Dekker 1971) in plain sums
-//! and products, without fused operations, so that the bits are the same on every machine. They are exact, or as good
-//! as each says, as long as nothing overflows or becomes subnormal; who calls them scales by powers of two to see to
-//! that.
+//! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
+//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). The
+//! classic algorithms (Knuth 1969, Dekker 1971) in plain sums and products, without fused operations, so that the bits
+//! are the same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes
+//! subnormal; who calls them scales by powers of two to see to that.
 
 /// `hi + lo`
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +21,8 @@ impl Pair {
         Self { hi: x, lo: 0.0 }
     }
 
-    /// The nearest pair.
+    /// The nearest pair, to 2⁻⁴⁹.
+    // proofs/pairs.py: from_f64
     pub(crate) const fn from_f64(x: f64) -> Self {
         let hi = x as f32;
         Self { hi, lo: (x - hi as f64) as f32 }
@@ -44,6 +46,7 @@ impl Pair {
     }
 
     /// `self + other`, to 2⁻⁴⁶ of the greater one.
+    // proofs/pairs.py: plus
     #[inline(always)]
     pub(crate) const fn plus(self, other: Self) -> Self {
         let sum = Self::sum(self.hi, other.hi);
@@ -51,6 +54,7 @@ impl Pair {
     }
 
     /// `self - other`, to 2⁻⁴⁶ of the greater one.
+    // proofs/pairs.py: minus
     #[inline(always)]
     pub(crate) const fn minus(self, other: Self) -> Self {
         self.plus(other.negated())
@@ -99,14 +103,17 @@ impl Pair {
         self.scaled(power_of_two(half)).scaled(power_of_two(n - half))
     }
 
-    /// `self · x`, to 2⁻⁴⁶ (Dekker).
+    /// `self · x`, to 2⁻⁴⁵ (Dekker).
+    // proofs/pairs.py: times
     #[inline(always)]
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
-    /// `self / x`, to 2⁻⁴⁵: what the quotient's product with `x` lacks of `self` tells the rest.
+    /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp: what the quotient's product with `x` lacks of
+    /// `self` tells the rest.
+    // proofs/pairs.py: over
     #[inline(always)]
     pub(crate) const fn over(self, x: Self) -> Self {
         let inverse = 1.0 / x.hi;
@@ -139,6 +146,7 @@ const fn lost(product: f32, a: f32, b: f32) -> f32 {
 }
 
 /// The upper 12 of 24 bits. The product of two such halves is exact.
+// proofs/words.py: upper
 #[inline(always)]
 pub(crate) const fn upper(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0xFFFF_F000)
@@ -157,6 +165,7 @@ pub(crate) const fn exponent(x: f32) -> i32 {
 }
 
 /// `x` in units of `2^e`, rounded towards 0; below 2⁶³ of them.
+// proofs/words.py: fixed
 pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     let (bits, exponent) = (x.to_bits(), exponent(x));
     let significand = (bits & 0x7F_FFFF) as i64;
@@ -175,6 +184,9 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
 /// [-252, 22].
+///
+/// Where the two cancel, so that the way's second number is more than 3/8 ulp of the sum, that holds except next to a
+/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of what is added (`proofs/rounding.py`).
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
     // The power of two by halves, for it may not be a normal number itself.
@@ -193,6 +205,7 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
 }
 
 /// `base + way first second`, where rounding takes more care.
+// proofs/rounding.py: careful_sum
 #[cold]
 #[inline(never)]
 const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
@@ -222,4 +235,50 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
     // Away from 0 where both have the same sign.
     let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
     f32::from_bits(if up { bits + 1 } else { bits - 1 })
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// The rows of a file of `proofs/vectors`: hexadecimal words.
+    pub(crate) fn rows<const N: usize>(csv: &str) -> impl Iterator<Item = [u64; N]> {
+        csv.lines().map(|line| {
+            let mut words = line.split(',').map(|word| u64::from_str_radix(word, 16).unwrap());
+            let row = core::array::from_fn(|_| words.next().unwrap());
+            assert!(words.next().is_none());
+            row
+        })
+    }
+
+    /// The same, of which all are `f32` by their bits.
+    pub(crate) fn numbers<const N: usize>(csv: &str) -> impl Iterator<Item = [f32; N]> {
+        rows::<N>(csv).map(|row| row.map(|word| f32::from_bits(word as u32)))
+    }
+
+    /// What `proofs/pairs.py` takes for these functions is what they are.
+    #[test]
+    fn pairs_are_as_transcribed() {
+        let pair = |hi, lo| Pair { hi, lo };
+        for row in numbers(include_str!("../proofs/vectors/pairs.csv")) {
+            let [a, al, b, bl, s, sl, m, ml, t, tl, q, ql, difference] = row;
+            let (a, b) = (pair(a, al), pair(b, bl));
+            assert_eq!(a.plus(b), pair(s, sl));
+            assert_eq!(a.minus_loose(b), pair(m, ml));
+            assert_eq!(a.times(b), pair(t, tl));
+            assert_eq!(a.over(b), pair(q, ql));
+            assert_eq!(a.difference(b), difference);
+        }
+    }
+
+    /// Sums are the exact ones, rounded once: those expected are computed with fractions. The last one is the
+    /// exception.
+    #[test]
+    fn sums_are_rounded_once() {
+        for [base, hi, lo, unit, back, sum] in rows(include_str!("../proofs/vectors/rounded.csv")) {
+            let [base, hi, lo, sum] = [base, hi, lo, sum].map(|word| f32::from_bits(word as u32));
+            let found = rounded_sum(base, Pair { hi, lo }, unit as i32, back == 1);
+            assert_eq!(found, sum, "{base:e} {hi:e} {lo:e} {unit} {back}");
+        }
+    }
 }

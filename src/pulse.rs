@@ -119,6 +119,7 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
     /// Ends that are half a share apart or more are in order, as triggers are. Those that are closer, or at one
     /// fraction, may not be: a search is exact to its error, and 1/2 is counted from either side. Then the later end
     /// takes the tick of the earlier one, which is within the promise for both.
+    // proofs/ticks.py: pulses
     fn at(&self, i: u32) -> (u32, u32) {
         let [on, off] = &self.edges;
         let mut start = self.ticks.edge(i, on);

@@ -20,12 +20,14 @@ const fn rough_log(x: f32) -> i32 {
 /// By how much a logarithm is above the linear one on average.
 const MEAN: i32 = (0.043 * LOG_ONE as f32) as i32;
 
-/// 2³⁰ over `k`.
+/// 2³⁰ over `k`, rounded up.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
-/// `x / k` for `k` up to 6, nearly, without a division, which the compiler would check.
+/// `x / k` for `k` up to 6, within 4/3, where `x` is the difference of two logarithms: without a division, which the
+/// compiler would check.
 #[inline(always)]
 const fn divided(x: i32, k: i32) -> i32 {
+    // proofs/seeds.py: divided
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
@@ -88,4 +90,18 @@ fn square_root(x: f32) -> f32 {
 #[cfg(all(feature = "micromath", not(feature = "libm")))]
 fn square_root(x: f32) -> f32 {
     micromath::F32Ext::sqrt(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::tests::rows;
+
+    /// What `proofs/seeds.py` takes for the quotient is it.
+    #[test]
+    fn quotients_are_as_transcribed() {
+        for [x, k, quotient] in rows(include_str!("../proofs/vectors/seeds.csv")) {
+            assert_eq!(divided(x as i32, k as i32), quotient as i32);
+        }
+    }
 }

@@ -1,0 +1,100 @@
+"""What all scripts here share: the source's constants, the tools, and one printed line for each claim."""
+
+import re
+import subprocess
+import sys
+import time
+from fractions import Fraction
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SRC = HERE.parent / "src"
+
+# Half the distance between the f32 around 1, and the greatest relative error of one rounding.
+U = Fraction(1, 2**24)
+
+
+def source(file, pattern):
+    """The groups of the only match of `pattern` in a file of src/: a constant that moved or changed its form is a failure."""
+    found = re.findall(pattern, (SRC / file).read_text())
+    if len(found) != 1:
+        sys.exit(f"src/{file}: {len(found)} matches of {pattern!r}, not 1: read the constant anew")
+    return found[0]
+
+
+def code(file, start, text):
+    """Fails unless the item of src/`file` that begins with `start` reads as the transcription was made from it.
+
+    Whitespace and comments do not count.
+    """
+    def plain(rust):
+        return re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", rust))
+
+    whole = plain((SRC / file).read_text())
+    if whole.count(plain(start)) != 1 or plain(start + text) not in whole:
+        sys.exit(f"src/{file}: `{start.strip()}` has changed: compare the transcription with it, then the text here")
+
+
+def exactly(number):
+    """A number as Gappa reads it, rounded down to 60 bits where it has more."""
+    number, places = Fraction(number), 0
+    while number.denominator != 1 and number * 2**places < 2**60:
+        places += 1
+        if (number * 2**places).denominator == 1:
+            break
+    return f"{int(number * 2**places)}b-{places}"
+
+
+def log2(x):
+    import math
+
+    x = Fraction(x)
+    return math.log2(x.numerator) - math.log2(x.denominator)
+
+
+count = 0
+started = time.monotonic()
+
+
+def proven(claim):
+    """Prints a claim that has just been checked, with the time since the last one."""
+    global count, started
+    now = time.monotonic()
+    print(f"proven {now - started:7.2f} s  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+    count, started = count + 1, now
+
+
+def tested(claim):
+    """The same for what was tried on many words, but not proven."""
+    global started
+    now = time.monotonic()
+    print(f"tested {now - started:7.2f} s  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+    started = now
+
+
+def open_point(claim):
+    """What is not proven, so that no run hides it."""
+    print(f"open              {Path(sys.argv[0]).stem}: {claim}", flush=True)
+
+
+def require(condition, claim):
+    if not condition:
+        print(f"FAILED  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+        sys.exit(1)
+
+
+def gappa(script):
+    """Does Gappa prove it?"""
+    run = subprocess.run(["gappa"], input=script, text=True, capture_output=True, timeout=30)
+    said = run.stdout + run.stderr
+    if run.returncode != 0 and not re.search("were not satisfied|contradiction", said):
+        sys.exit(f"gappa does not say what it did not prove:\n{said}\n{script}")
+    return run.returncode == 0
+
+
+def gappa_claim(claim, script, bound, slack=Fraction(1, 50), tight=True):
+    """Gappa proves `script(bound)`, and does not prove it for a bound that is less by the share `slack`."""
+    require(gappa(script(Fraction(bound))), claim)
+    if tight:
+        require(not gappa(script(Fraction(bound) * (1 - slack))), f"{claim}: a tighter bound is proven, too: say that one")
+    proven(claim)

@@ -1,0 +1,154 @@
+"""src/pair.rs: how exact the sums, products and quotients of pairs are, by Gappa.
+
+Numbers are scaled so that the greater first number is in [1, 2]: rounding commutes with powers of two as long as nothing
+overflows or is subnormal, which the callers see to. A second number is given in half ulps of the first: `k` of them are
+`k` times 2^-24 here. Two theorems are taken as known: what Knuth's two-sum and Dekker's product keep as the rest is the
+rounding error exactly (Boldo and Melquiond 2017), and a difference of numbers within a factor of two is exact (Sterbenz).
+"""
+
+from common import *
+
+code("pair.rs", "pub(crate) const fn sum(a: f32, b: f32) -> Self {", "let hi = a + b; let added = hi - a; Self { hi, lo: (a - (hi - added)) + (b - added) } }")
+code("pair.rs", "pub(crate) const fn plus(self, other: Self) -> Self {", "let sum = Self::sum(self.hi, other.hi); Self::sum(sum.hi, sum.lo + (self.lo + other.lo)) }")
+code("pair.rs", "pub(crate) const fn minus(self, other: Self) -> Self {", "self.plus(other.negated()) }")
+code("pair.rs", "pub(crate) const fn minus_loose(self, other: Self) -> Self {", "let Self { hi, lo } = Self::sum(self.hi, -other.hi); Self { hi, lo: lo + (self.lo - other.lo) } }")
+code("pair.rs", "pub(crate) const fn difference(self, other: Self) -> f32 {", "(self.hi - other.hi) + (self.lo - other.lo) }")
+code("pair.rs", "pub(crate) const fn thrice(self) -> Self {", "let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi); Self { hi, lo: lo + 3.0 * self.lo } }")
+code("pair.rs", "pub(crate) const fn times(self, x: Self) -> Self {", "let hi = self.hi * x.hi; Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) } }")
+code("pair.rs", "pub(crate) const fn over(self, x: Self) -> Self {", """let inverse = 1.0 / x.hi; let hi = self.hi * inverse; let product = hi * x.hi;
+    let lacks = (self.hi - product) - lost(product, hi, x.hi); Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse } }""")
+code("pair.rs", "const fn lost(product: f32, a: f32, b: f32) -> f32 {", """let (a_high, b_high) = (upper(a), upper(b)); let (a_low, b_low) = (a - a_high, b - b_high);
+    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low }""")
+code("pair.rs", "pub(crate) const fn from_f64(x: f64) -> Self {", "let hi = x as f32; Self { hi, lo: (x - hi as f64) as f32 } }")
+
+ROUNDED = "@rnd = float<24,-1000,ne>;\n"
+PAIRS = ROUNDED + "ah = rnd(Ah); bh = rnd(Bh); al = rnd(Al); bl = rnd(Bl);\n"
+
+
+def halves(k):
+    return exactly(k * U)
+
+
+def exponent_of(function):
+    """The n of "to 2^-n" in a function's comment."""
+    digits = source("pair.rs", rf"///[^\n]*to 2⁻([⁰¹²³⁴-⁹]+)[^\n]*\n(?:    //[^\n]*\n)*    #\[inline\(always\)\]\n    pub\(crate\) const fn {function}\(")
+    return int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in digits))
+
+
+def plus(ka, kb):
+    return lambda bound: PAIRS + f"""
+s = rnd(ah + bh); e = (ah + bh) - s; v = rnd(al + bl); w = rnd(e + v);
+error = (s + w) - ((ah + al) + (bh + bl));
+{{ ah in [1,2] /\\ |bh| <= 2 /\\ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)} -> |error| <= {exactly(bound)} }}
+error -> (w - (e + v)) + (v - (al + bl));
+"""
+
+
+def times(ka, kb):
+    return lambda bound: PAIRS + f"""
+hi = rnd(ah * bh); lost = ah * bh - hi; t = rnd(rnd(ah * bl) + rnd(al * bh)); lo = rnd(lost + t);
+error = (lo - (lost + t)) + (t - (rnd(ah * bl) + rnd(al * bh))) + (rnd(ah * bl) - ah * bl) + (rnd(al * bh) - al * bh) - al * bl;
+share = error / (ah * bh);
+{{ ah in [1,2] /\\ bh in [1,2] /\\ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)} -> |share| <= {exactly(bound)} }}
+$ ah in 8, bh in 8;
+"""
+
+
+def times_rest(ka, kb):
+    return lambda bound: PAIRS + f"""
+hi = rnd(ah * bh); lost = ah * bh - hi; t = rnd(rnd(ah * bl) + rnd(al * bh)); lo = rnd(lost + t); share = lo / (ah * bh);
+{{ ah in [1,2] /\\ bh in [1,2] /\\ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)} -> |share| <= {exactly(bound)} }}
+$ ah in 8, bh in 8;
+"""
+
+
+# The reciprocal errs by one rounding, `io`; the quotient's first number by two, `th`. What its product with the divisor
+# lacks, -ah th, is exact before its own rounding, by Sterbenz and Dekker.
+def over(ka, kb):
+    return lambda bound: ROUNDED + f"""
+rho = -ah * th; lacks = rnd(rho); hi = (ah / bh) * (1 + th); i = (1 + io) / bh;
+m = rnd(hi * bl); n = rnd(al - m); q = rnd(lacks + n); lo = rnd(q * i);
+error = (lo - q * i) * bh + ((q - (lacks + n)) + (lacks - rho) + (n - (al - m)) - (m - hi * bl)) * (1 + io)
+    + (rho + (al - hi * bl)) * (io + bl / (bh + bl));
+share = error / ah;
+{{ ah in [1,2] /\\ bh in [1,2] /\\ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)}
+   /\\ |th| <= {exactly(2 * U + U * U)} /\\ |io| <= {exactly(U)} -> |share| <= {exactly(bound)} }}
+$ ah in 16, bh in 16;
+"""
+
+
+def loose(ka, kb):
+    return lambda bound: PAIRS + f"""
+s = rnd(ah - bh); e = (ah - bh) - s; v = rnd(al - bl); lo = rnd(e + v);
+error = (s + lo) - ((ah + al) - (bh + bl));
+{{ ah in [1,2] /\\ |bh| <= 2 /\\ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)} -> |error| <= {exactly(bound)} }}
+error -> (lo - (e + v)) + (v - (al - bl));
+"""
+
+
+# Near numbers: the difference of the first ones is exact, so the error is one rounding of the answer, which is left
+# out here, and this one.
+def difference_near(ka, kb):
+    return lambda bound: PAIRS + f"""
+error = rnd(al - bl) - (al - bl);
+{{ |al| <= {halves(ka)} /\\ |bl| <= {halves(kb)} -> |error| <= {exactly(bound)} }}
+"""
+
+
+# A double in [1, 2] as a pair.
+def from_f64(bound):
+    return f"""@rnd = float<24,-1000,ne>; @double = float<53,-2000,ne>;
+x = double(X); hi = rnd(x); rest = double(x - hi); lo = rnd(rest); error = (hi + lo) - x;
+{{ x in [1,2] -> |error| <= {exactly(bound)} /\\ |lo| <= 1b-24 }}
+error -> (lo - rest) + (rest - (x - hi));
+"""
+
+
+# `thrice`: the first numbers are added exactly, with a rest `e` of at most half an ulp of their sum, which is below 8.
+def thrice(k):
+    return lambda bound: PAIRS + f"""
+e = rnd(E); t = rnd(3 * al); lo = rnd(e + t); error = (lo - (e + t)) + (t - 3 * al);
+{{ |e| <= 1b-22 /\\ |al| <= {halves(k)} -> |error| <= {exactly(bound)} }}
+"""
+
+
+LAST = U * U  # 2^-48
+names = {1: "half an ulp", 2: "an ulp", 8: "four ulp"}
+
+# What the comment promises is proven, and half of it is not.
+for name, script, k in (("plus", plus, (1, 1)), ("minus", plus, (1, 1)), ("times", times, (1, 1)), ("over", over, (1, 2))):
+    stated = exponent_of(name)
+    gappa_claim(
+        f"{name} errs by at most 2^-{stated}, as its comment says; second numbers of {names[k[0]]} and {names[k[1]]}",
+        script(*k), Fraction(1, 2**stated), slack=Fraction(1, 2),
+    )
+
+# The same as exactly as Gappa has it, in 2^-48.
+for name, script, k, bound in (
+    ("plus", plus, (1, 1), 3),
+    ("plus", plus, (2, 2), 6),
+    ("plus", plus, (1, 8), 16),
+    ("minus_loose", loose, (1, 1), 3),
+    ("minus_loose", loose, (2, 2), 6),
+    ("times", times, (1, 1), 7),
+    ("times", times, (1, 2), 11),
+    ("times", times, (2, 2), 16),
+    ("over", over, (1, 1), Fraction(217, 10)),
+    ("over", over, (1, 2), Fraction(301, 10)),
+    ("over", over, (2, 2), Fraction(351, 10)),
+    ("difference of near numbers, before its last rounding,", difference_near, (1, 1), 1),
+    ("difference of near numbers, before its last rounding,", difference_near, (2, 2), 2),
+):
+    bound = Fraction(bound)
+    gappa_claim(
+        f"{name} errs by at most {float(bound):g} * 2^-48 = 2^{log2(bound * LAST):.2f}; second numbers of {names[k[0]]} and {names[k[1]]}",
+        script(*k), bound * LAST,
+    )
+
+gappa_claim("thrice errs by at most 6 * 2^-48 of the first number; second number of half an ulp", thrice(1), 6 * LAST)
+for k, bound in (((1, 1), 3), ((1, 2), 4)):
+    gappa_claim(
+        f"a product's second number is at most {float(bound):g} * 2^-24 of it; second numbers of {names[k[0]]} and {names[k[1]]}",
+        times_rest(*k), bound * U,
+    )
+gappa_claim("from_f64 errs by at most 2^-49 of the number, and its second number is at most half an ulp", from_f64, LAST / 2)

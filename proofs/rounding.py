@@ -1,0 +1,110 @@
+"""src/pair.rs: `rounded_sum` and `careful_sum` round once. By all values of short numbers.
+
+What decides is where the rest of a sum lies relative to the middles next to the sum, and that depends on the number of bits
+only through how far the words reach below those middles. So numbers of a few bits have every case that those of 24 have, as
+long as a rest of some ulp still has bits below a quarter of an ulp. All numbers here are integers: multiples of a unit that
+is small enough.
+"""
+
+import numpy as np
+
+from common import *
+
+code("pair.rs", "let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo * first * second;
+    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 { return careful_sum(base, way, first, second); }
+    sum.hi + rest }""")
+code("pair.rs", "const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
+    if sum.lo == 0.0 || bits & 1 == 1 { return sum.hi; } let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
+    f32::from_bits(if up { bits + 1 } else { bits - 1 }) }""")
+code("pair.rs", "let near = Pair::sum(base, hi);", """let sum = Pair::sum(places, near.hi);
+    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up) }""")
+
+
+def shift_of(v, p):
+    """By how many bits a number is too long."""
+    return np.maximum(np.frexp(np.abs(v).astype(np.float64))[1].astype(np.int64) - p, 0)
+
+
+def rounded(v, p):
+    """To p bits, to even in the middle."""
+    shift = shift_of(v, p)
+    size, unit = np.abs(v), np.int64(1) << shift
+    down = (size >> shift) << shift
+    rest = 2 * (size - down)
+    up = (rest > unit) | ((rest == unit) & (((size >> shift) & 1) == 1))
+    return np.sign(v) * (down + np.where(up & (shift > 0), unit, 0))
+
+
+def odd_sum(a, b, p):
+    """As the code has it: to the nearest, and from there one towards what is left, if that is even."""
+    exact = a + b
+    near = rounded(exact, p)
+    left = exact - near
+    # The last place of the neighbour towards what is left: half as long below a power of two.
+    shift = shift_of(near, p)
+    # A number that has fewer bits than p is even unless it fills them.
+    even = (np.abs(near) >> shift) % 2 == 0
+    is_power = (np.abs(near) & (np.abs(near) - 1)) == 0
+    inward = (left != 0) & (np.sign(left) != np.sign(near)) & is_power
+    step = (np.int64(1) << shift) >> inward.astype(np.int64)
+    return np.where((left != 0) & even, near + np.sign(left) * step, near)
+
+
+def numbers(p, exponents):
+    m = np.arange(2 ** (p - 1), 2**p, dtype=np.int64)
+    return np.concatenate([sign * (m << e) for e in exponents for sign in (1, -1)])
+
+
+def wrong(p, halves, careful, most=(3, 8)):
+    """How many sums of a base and a pair are not rounded once: of those that take the short way, or by the careful one.
+
+    The pair's second number is at most so many half ulps of its first; and at most a share of an ulp of the sum, if that is asked.
+    """
+    unit = 2 * p + 1
+    bases = np.concatenate([numbers(p, range(unit - p - 1, unit + p + 2)), [0]])
+    los = numbers(p, range(0, unit + 1))
+    found = 0
+    for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
+        # Half an ulp is 2^(unit - 1).
+        lo = np.concatenate([los[np.abs(los) <= halves << (unit - 1)], [0]])
+        base, lo = np.meshgrid(bases, lo, indexing="ij")
+        total = rounded(base + hi, p)
+        left = base + hi - total
+        if careful:
+            answer, taken = rounded(total + odd_sum(left, lo, p), p), True
+        else:
+            rest = rounded(left + lo, p)
+            size = np.abs(rest)
+            answer, taken = rounded(total + rest, p), (size & (size - 1)) != 0
+            if most:
+                ulp = np.where(total == 0, 0, np.int64(1) << shift_of(total, p))
+                taken &= (most[1] * np.abs(lo) <= most[0] * ulp) | (left == 0)
+        found += int((taken & (answer != rounded(base + hi + lo, p))).sum())
+    return found
+
+
+for p, halves in ((5, 1), (6, 2), (6, 4)):
+    require(wrong(p, halves, True) == 0, "careful_sum")
+    require(wrong(p, halves, False) == 0, "rounded_sum")
+    require(wrong(p, halves, False, most=(4, 8)) > 0, "a greater second number matters")
+# A rest of four ulp needs a bit more below a quarter of an ulp.
+require(wrong(7, 8, True) == 0 and wrong(6, 8, True) > 0, "careful_sum with second numbers of four ulp")
+proven("careful_sum rounds once, where nothing is subnormal: for all sums of 6 bits with second numbers up to two ulp, of 7 up to four")
+proven("rounded_sum's short way rounds once where the second number is at most 3/8 of an ulp of the sum")
+
+
+# Is the rounding to odd needed, and seen to be?
+odd, odd_sum = odd_sum, lambda a, b, p: rounded(a + b, p)
+require(wrong(5, 1, True) > 0, "rounding to nearest twice would do")
+odd_sum = odd
+
+# What remains: a sum across 0, far nearer to 0 than the base. The exact sum is then next to a middle by less than the
+# rounding of the rest, 2^-24 of it, so the answer errs by half an ulp and that.
+base, hi, lo = np.float32(-10445573 / 4), np.float32(11000001), np.float32(-(2**24 - 1) / 2**25)
+total = base + hi
+left = np.float32(Fraction(float(base)) + Fraction(float(hi)) - Fraction(float(total)))
+answer = total + (left + lo)
+exact = Fraction(float(base)) + Fraction(float(hi)) + Fraction(float(lo))
+error = abs(Fraction(float(answer)) - exact) / Fraction(1, 2)
+require(Fraction(1, 2) < error < Fraction(1, 2) + Fraction(1, 2**22), "the exception")
+tested("an exception across 0, in f32: -2611393.25 + (11000001 - 0.49999997) errs by 0.50000006 ulp")

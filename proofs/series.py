@@ -1,0 +1,102 @@
+"""src/series.rs: how exact a series' value is; solve.rs: `Offset::value`; ramp.rs: `noise`. By exact rational arithmetic.
+
+Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|^k. Two-sum and Dekker's product are exact.
+"""
+
+from majorant import *
+
+code("series.rs", "pub(crate) const fn at(self, x: f32) -> Pair {", """let x_high = upper(x); let x_low = x - x_high; let Pair { mut hi, mut lo } = self.last;
+    let mut k = core::hint::black_box(self.c.len());
+    loop { let product = hi * x; let high = upper(hi); let low = hi - high;
+    let lost = ((high * x_high - product) + high * x_low + low * x_high) + low * x_low;
+    lo = lo * x + lost; k = k.wrapping_sub(1); if k >= self.c.len() { return Pair { hi: product, lo }; }
+    let sum = Pair::sum(self.c[k].hi, product); hi = sum.hi; lo += self.c[k].lo + sum.lo; } }""")
+code("series.rs", "pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; let mut slope = (c.len() + 1) as f32 * self.last.hi;
+    while let [lower @ .., highest] = c { slope = slope * x + c.len() as f32 * highest.hi; c = lower; } slope }""")
+code("solve.rs", "pub(crate) const fn value(&self, series: Series) -> Pair {", """let Pair { hi, lo } = series.at(self.x);
+    Pair { hi, lo: lo + series.slope(self.x) * self.rest } }""")
+code("ramp.rs", "pub(crate) fn noise(&self) -> f32 {", """let c = self.ramp.single(self.side);
+    let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
+    size * per_unit_of_mass(self.ramp.share) / (1u64 << 40) as f32 }""")
+
+
+def first(j, k):
+    """The bound of a coefficient's first number, if the second is at most k half ulps of it: |hi| <= |c| / (1 - k u)."""
+    return {(j, 0, 0): 1 / (1 - k * U)}
+
+
+def at(n, k=1):
+    """`Series::at` for degree n: the bounds of its second number, and of its error."""
+    hi = first(n, k)
+    lo, error = scale(hi, k * U), {}
+    for j in range(n - 1, -1, -1):
+        product = by(hi, 1)
+        lost = scale(product, U)
+        product = scale(product, 1 + U)
+        carried = by(lo, 1)
+        error = add(by(error, 1), scale(carried, U))
+        carried = add(scale(carried, 1 + U), lost)
+        error = add(error, scale(carried, U))
+        lo = scale(carried, 1 + U)
+        if j == 0:
+            return lo, error
+        total = add(first(j, k), product)
+        rest = add(scale(first(j, k), k * U), scale(total, U))
+        error = add(error, scale(rest, U))
+        total_lo = add(lo, scale(rest, 1 + U))
+        error = add(error, scale(total_lo, U))
+        hi, lo = scale(total, 1 + U), scale(total_lo, 1 + U)
+
+
+def sizes(n):
+    return {(j, j, 0): Fraction(1) for j in range(1, n + 1)}
+
+
+places = U * U
+comment = source("series.rs", r"It is within 2⁻(\S+) Σ")
+stated = int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in comment))
+for n in (3, 6):
+    lo, error = at(n)
+    worst, second = ratio(error, sizes(n)), ratio(lo, sizes(n))
+    require(worst <= Fraction(1, 2**stated), f"Series::at of degree {n} is within 2^-{stated}")
+    if n == 6:
+        require(worst > Fraction(1, 2 ** (stated + 1)), "no more than that is proven")
+    proven(f"Series::at of degree {n} errs by at most {float(worst / places):.3f} * 2^-48 of its terms, below 2^-{stated}; its second number is at most {float(second / U):.3f} * 2^-24")
+require(ratio(at(6, 2)[1], sizes(6)) > ratio(at(6)[1], sizes(6)), "a coefficient with more half ulps counts")
+
+# `value`: the place is x + rest, with |rest| <= u |x|. What is left out of Taylor's series begins with the second term.
+n = 6
+
+
+def slope(n):
+    number = Number(scale(first(n, 1), n), add({(n, 0, 0): n * U / (1 - U)})).rounded()
+    for j in range(n - 1, 0, -1):
+        term = Number(scale(first(j, 1), j), {(j, 0, 0): j * U / (1 - U)}).rounded()
+        number = number.times(x=1) + term
+    return number
+
+
+def value(n):
+    lo, error = at(n)
+    along = slope(n)
+    # times rest, which is at most u |x|
+    along = Number(scale(by(along.size, 1), U), scale(by(along.error, 1), U)).rounded()
+    total = add(error, along.error, scale(add(lo, along.size), U))
+    beyond = {(j, j, 0): (1 + U) ** j - 1 - j * U for j in range(2, n + 1)}
+    return along.size, add(total, beyond)
+
+
+for n in (3, 6):
+    along, total = value(n)
+    worst = ratio(total, sizes(n))
+    share = ratio(along, sizes(n))
+    require(share <= n * U * (1 + 100 * U) and share > n * U, "the second term")
+    require(worst < Fraction(1, 2**40), "Offset::value is within 2^-40")
+    proven(f"Offset::value of degree {n}: the second term is at most {n} * 2^-24 of the terms; the value errs by at most {float(worst / places):.2f} * 2^-48 of them")
+
+# `noise` sums the first numbers' terms at x, with 12 roundings and one of the scaling, and takes 2^-40.
+least = (1 - U) ** 13 / (1 + U)
+down = int(source("ramp.rs", r"per_unit_of_mass\(self\.ramp\.share\) / \(1u64 << (\d+)\) as f32"))
+require(worst <= least / 2**down, "noise")
+require(worst > least / 2 ** (down + 1), "noise: half of it would not do")
+proven(f"noise, 2^-{down} of the terms as computed, bounds the error of a mass")

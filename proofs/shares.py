@@ -1,0 +1,93 @@
+"""src/fraction.rs: shares of the exposure in 64 and 96 bits. By z3 on whole numbers, and a transcription by exact rationals."""
+
+from solver import *
+from transcribed import Fractions, cases
+
+code("fraction.rs", "pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
+    let remainder = (1 << 63) - share * divisor; Self { n, share, rest: ((remainder * share) >> 31) as u32 } }""")
+code("fraction.rs", "let middle = self.share.wrapping_mul(odd as u64);", "if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }")
+code("fraction.rs", "let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
+    let low = near * self.rest as u64; let middle = near * (self.share as u32 as u64) + (low >> 32);
+    let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
+    let (words, low) = if edge.is_off == (side == 0) {
+    let (low, carry) = (low as u32).overflowing_add(edge.rest);
+    (words.wrapping_add(edge.half).wrapping_add(carry as u64), low) } else {
+    let (low, borrow) = (low as u32).overflowing_sub(edge.rest);
+    (words.saturating_sub(edge.half).saturating_sub(borrow as u64), low) };
+    let (words, low, down) = if words >> 32 == 0 { (words << 32 | low as u64, 0, 32) } else { (words, low, 0) };
+    let zeros = words.leading_zeros() & 63; let bits = words << zeros | (low as u64) << zeros >> 32;
+    let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
+    let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);""")
+code("fraction.rs", "let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));", """
+    let share = (self.share as u128) << 32 | self.rest as u128;
+    let half = (share * significand as u128).checked_shr(down).unwrap_or(0);""")
+
+# `new`. n share = 2^63 - r with 0 <= r < n. The rest is r share / 2^31, cut; exactly it would be r 2^32 / n.
+n, r = Reals("n r")
+domain = And(r >= 0, r < n, n >= 1, n < 2**32)
+share = (2**63 - r) / n
+valid(
+    "Fractions::new: the rest is at most 3 * 2^-96 too small, fits its word, and nothing overflows",
+    Implies(domain, And(r * 2**32 / n - r * share / 2**31 < 2, r * share <= r * 2**32 / n * 2**31, r * share < 2**64, r * 2**32 / n < 2**32)),
+    Implies(domain, r * 2**32 / n - r * share / 2**31 < 1),
+)
+
+# `in_u64`, in whole numbers: 2 n share <= 2^64, and half of a pulse is at most the share.
+k, half, odd, m = Ints("k half odd m")
+whole = And(m >= 1, m < 2**32, k >= 0, odd >= 1, odd <= 2 * m - 1, half >= 0, half <= k)
+product = Int("product")  # k odd, where k (2 m - odd) <= 2^64 - product, since 2 m k <= 2^64
+valid(
+    "in_u64: a fraction and half a pulse stay within 64 bits, but for the last off at 1, which becomes 0",
+    Implies(And(whole, product >= k, product + k <= 2**64), And(product - half >= 0, product + half <= 2**64)),
+    Implies(And(whole, product >= k, product + k <= 2**64), product + half < 2**64),
+)
+
+# `exactly`: the three products by words are the product.
+pa, pb, pc = Ints("pa pb pc")
+parts = And(pa >= 0, pb >= 0, pc >= 0, pa <= 2**32 * 2**31, pb <= 2**32 * (2**32 - 1), pc <= 2**32 * (2**32 - 1))
+middle = pb + pc / 2**32
+words = (pa + middle / 2**32) * 2**32 + middle % 2**32
+valid(
+    "exactly: word by word the product is exact, and its words do not overflow",
+    Implies(parts, And(words * 2**32 + pc % 2**32 == pa * 2**64 + pb * 2**32 + pc, middle < 2**64)),
+    Implies(parts, words * 2**32 == pa * 2**64 + pb * 2**32 + pc),
+)
+
+
+# The whole of it, transcribed, against exact fractions, on edges and random numbers.
+worst_64 = worst = least = Fraction(0)
+relative = {}
+for n, odd, duty, is_off in cases():
+    f = Fractions(n)
+    half = f.edges(duty) if duty else 0
+    width = Fraction(duty[0]) * Fraction(2) ** (duty[1] - 150) if duty else Fraction(0)
+    exact = Fraction(odd, 2 * n) + (width if is_off else -width) / (2 * n)
+    short = exact - Fraction(f.in_u64(odd, half, is_off), 2**64)
+    if exact < 1:
+        # The share is too small by less than a unit for each odd, half of a pulse by less than two.
+        require(-2 < short * 2**64 < odd + 2, f"in_u64 {n} {odd} {duty}")
+        worst_64 = max(worst_64, abs(short * 2**64) / (odd + 1))
+    side, hi, lo, unit = f.exactly(odd, half, is_off)
+    near = exact if side == 0 else 1 - exact
+    found = (hi + Fraction(lo, 2**24)) * Fraction(2) ** unit
+    error = abs(found - near)
+    require(error <= near / 2**45 or error < Fraction(near.denominator and 3 * min(odd, 2 * n - odd) + 4, 2**96), f"exactly {n} {odd} {duty} {is_off}")
+    if near:
+        key = n <= 2**26
+        relative[key] = max(relative.get(key, 0), error / near)
+        absolute = error * 2**96
+require(relative[True] <= Fraction(1, 2**45), "exactly, 2^26 pulses")
+tested(f"in_u64: too low by at most odd * 2^-64, and two for half of a pulse (seen: {float(worst_64):.3f} of that)")
+tested(f"exactly: to 2^{log2(relative[True]):.1f} up to 2^26 pulses, to 2^{log2(relative[False]):.1f} up to 2^32")
+
+
+def exactness(n):
+    """48 bits of the answer; three units for each odd; and one for half of a pulse, of which an end leaves at least 2^-24 / 2n."""
+    return Fraction(1, 2**47) + Fraction(6 * n, 2**96) + 2 * n * Fraction(2**24, 2**96)
+
+
+frame = source("fraction.rs", r"to 2⁻⁴⁵; in frames of more than 2([²³⁵]+) pulses")
+frame = int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in frame))
+require(exactness(2**frame) <= Fraction(1, 2**45) < exactness(2 ** (frame + 1)), "exactly")
+require(exactness(2**32) <= Fraction(101, 100) * Fraction(1, 2**39), "exactly, all frames")
+proven(f"exactly: to 2^-45 in frames of up to 2^{frame} pulses, for every duty; to 2^{log2(exactness(2**32)):.2f} in all")
