@@ -5,7 +5,7 @@ mod support;
 use shutter_curve::{BezierPdf, CubicBezier, ScheduleError};
 use support::cases::shutter;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{BACKWARD, EVALUATIONS, TICKS, tick_error, tick_error_at};
+use support::promise::{BACKWARD, EVALUATIONS, FORWARD, TICKS, tick_error, tick_error_at};
 
 /// A ramp without length.
 const fn instant(t: f32, f: f32) -> Points {
@@ -484,5 +484,79 @@ fn a_near_share_at_the_least_top() {
         assert!(errors.backward <= BACKWARD, "{t:e} at {u:e}: {errors:?}");
         assert!(t >= last, "back to {t:e} from {last:e} at {u:e}");
         last = t;
+    }
+}
+
+/// Where the opening ramp has exactly half of the light and a plateau follows, the trigger of a frame of one was searched
+/// for: ticks count 1/2 from the later end, from where neither an octave nor the plateau's line held it.
+#[test]
+fn one_trigger_at_a_join_of_one_half() {
+    let opening = quarters([0.0, 1.0], 0.0, 4.0);
+    for (open, closes) in [(1.0, 2.0), (2.0, 0.0), (0.5, 3.0)] {
+        let closing = quarters([1.0, 0.0], 4.0 + open, 4.0 + open + closes);
+        let curve = Curve::shutter(opening, closing);
+        for curve in [curve, curve.mirrored()] {
+            let ours = shutter::<8>(&curve);
+            assert!(ours.direct_triggers() >= 64, "{}", ours.direct_triggers());
+            for n in 1..=ours.direct_triggers() {
+                let frame = ours.trigger_ticks(n, 1000).unwrap();
+                for i in 0..n {
+                    assert!(frame.is_direct(i), "{i} of {n}, {open}, {closes}");
+                }
+            }
+        }
+    }
+}
+
+/// The near ramp ends less than an ulp of an `f32` above a possible top, which was then its top. What ticks count in
+/// between, up to the join, found the far ramp's last octave instead, which may serve quite other fractions.
+#[test]
+fn pulses_between_a_top_and_a_join() {
+    fn judge<const CELLS: usize>() {
+        // The opening ramp has 1/2 to 1/1024 of the light, and some 2⁻²⁵ of that more.
+        for k in 1..=10 {
+            let closes = 2.0 * exp2(k) as f32 - 2.0;
+            let mut opening = quarters([0.0, 1.0], -2.0, 0.0);
+            opening[0].1 = exp2(-24) as f32;
+            let curve = Curve::shutter(opening, quarters([1.0, 0.0], 0.0, closes));
+            for (curve, is_back) in [(curve, false), (curve.mirrored(), true)] {
+                let (exact, ours) = (Exact::new(&curve), shutter::<CELLS>(&curve));
+                let (n, hz) = (1 << (k - 1), 4000);
+                let first = if is_back { n - 1 } else { 0 };
+                for duty in (20..40).map(|k| exp2(-k)) {
+                    let mut pulses = ours.pulse_ticks(n, duty as f32, hz).unwrap();
+                    let (on, off) = pulses.nth(first as usize).unwrap();
+                    for (tick, half) in [(on, -0.5), (off, 0.5)] {
+                        let u = Dd::from(f64::from(first) + 0.5) + Dd::from(half * duty);
+                        let error = tick_error_at(&exact, tick, u / Dd::from(f64::from(n)), hz);
+                        let at = || format!("2^-{k}, {CELLS} octaves, {duty:e}, {is_back}");
+                        assert!(error <= TICKS[0], "{}: {error} ticks off", at());
+                    }
+                }
+            }
+        }
+    }
+    judge::<8>();
+    judge::<4>();
+    judge::<3>();
+    judge::<2>();
+    judge::<1>();
+}
+
+/// Two plain S ramps, each with handles of a quarter: the most typical curve that there is, and more than 0.6 ulp of its
+/// time wrong where an octave's polynomial was.
+#[test]
+fn the_forward_error_of_plain_ramps() {
+    let instant = instant(0.0, 1.0);
+    let ramp = quarters([0.0, 1.0], 0.0, 10.0);
+    for (curve, u) in [
+        (Curve::shutter(ramp, quarters([1.0, 0.0], 10.0, 20.0)), 10.0 / 39.0),
+        (Curve::shutter(instant, [(1.0, 1.0), (7.0, 0.33333334), (13.0, 0.0), (19.0, 0.0)]), 0.5),
+    ] {
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        for u in around(u, 20_000) {
+            let errors = exact.judge(u, ours.inverse_cdf(u));
+            assert!(errors.forward <= FORWARD, "{u}: {errors:?}");
+        }
     }
 }
