@@ -306,12 +306,14 @@ fn joins_next_to_plain_fractions() {
         let all = exp2(1 + rng.below(5) as i32);
         let part = if rng.chance(0.3) { all / 2.0 } else { whole(rng, 1, all as u64 - 1) };
         let near = exp2(-(20 + rng.below(31) as i32));
-        let (first, last) =
-            (plain_symmetric(rng, 2.0 * part), plain_symmetric(rng, 2.0 * (all - part)));
-        let mut curve = Curve::shutter(
-            opening(first, -2.0 * part, 1.0),
-            closing(last, 2.0 * (all - part), 1.0),
-        );
+        // A ramp may end dim at the join, and take the longer for its light: what follows is a jump.
+        let mut drawn = |light: f64| {
+            let dim = [1.0, 1.0, 0.5, 0.125, exp2(-7)][rng.below(5) as usize];
+            plain_symmetric(rng, 2.0 * light).map(|(t, f)| (t / dim, f * dim))
+        };
+        let (first, last) = (drawn(part), drawn(all - part));
+        let mut curve =
+            Curve::shutter(opening(first, -first[3].0, 1.0), closing(last, last[3].0, 1.0));
         // More light on one ramp, or a plateau.
         match rng.below(4) {
             0 => curve.opening[0].1 = (near * all) as f32,

@@ -332,13 +332,16 @@ impl Questions {
             frames.push(Frame::new(exact, n, Some(duty), 0, n));
             frames.push(Frame::new(exact, 12, Some(duty), 0, 12));
         }
-        for join in &joins {
+        for place in exact.landmarks() {
             // Triggers that follow each other more closely than `f32` do, direct and searched for.
             for n in [1000, 1 << 20, (1 << 22) - 1, 1 << 22, (1 << 22) + 1, 1 << 30, u32::MAX] {
-                let first = ((f64::from(n) * join) as u32).saturating_sub(3);
+                let first = (f64::from(n) * place.hi.clamp(0.0, 1.0)) as u32;
+                let first = first.saturating_sub(3);
                 frames.push(Frame::new(exact, n, None, first, 6));
                 frames.push(Frame::new(exact, n, Some(1.0), first, 5));
             }
+        }
+        for join in &joins {
             // Pulses of a few ticks, or less, around a trigger on the join, if there is one on it.
             for n in 1..=64 {
                 let i = (f64::from(n) * join) as u32;
