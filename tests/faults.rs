@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{BezierPdf, CubicBezier, ScheduleError};
+use shutter_curve::{BezierPdf, CubicBezier, ScheduleError, ShutterCurve};
 use support::cases::shutter;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
 use support::promise::{BACKWARD, EVALUATIONS, FORWARD, TICKS, tick_error, tick_error_at};
@@ -353,7 +353,7 @@ fn the_last_ticks_of_an_interval_of_2_to_the_31() {
 #[test]
 fn a_tent_is_answered_without_a_search() {
     for p in [0.3625, 0.4, 0.45, 0.6] {
-        let curve = shutter_curve::ShutterCurve::linear(0.0, p, p, 1.0).unwrap();
+        let curve = ShutterCurve::linear(0.0, p, p, 1.0).unwrap();
         for i in 10..990 {
             let u = i as f32 / 1000.0;
             assert_eq!(curve.evaluations(u), 0, "{u} of {p}");
@@ -559,4 +559,29 @@ fn the_forward_error_of_plain_ramps() {
             assert!(errors.forward <= FORWARD, "{u}: {errors:?}");
         }
     }
+}
+
+/// Decimal fractions of the interval, with an inner point at its ramp's inner end: rounding puts it an ulp beyond, which
+/// was refused as a time that turns back.
+#[test]
+fn inner_points_at_the_inner_ends_are_accepted() {
+    let mut refused = Vec::new();
+    for (length, decimals) in [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 0), (0.02, 4)] {
+        // As a person writes it, and a program reads it.
+        let read = |x: f64, decimals| -> f32 { format!("{x:.decimals$}").parse().unwrap() };
+        for (open, close) in (1..50).flat_map(|i| (51..100).map(move |k| (i, k))) {
+            let parts = [open, close].map(|part| f64::from(part) / 100.0);
+            let [open, close] = parts.map(|part| read(part, 2));
+            let [opened, closes] = parts.map(|part| read(length * part, decimals + 2));
+            let times = [0.0, opened, closes, read(length, decimals)];
+            for inner in [
+                [0.0, 0.0, open, 1.0, close, 1.0, 1.0, 0.0],
+                [open, 0.0, open, 1.0, close, 1.0, close, 0.0],
+            ] {
+                let curve = ShutterCurve::<0>::shutteropening_with_cells(times, inner);
+                refused.extend(curve.err().map(|error| (error, times, inner)));
+            }
+        }
+    }
+    assert!(refused.is_empty(), "{}, as {:?}", refused.len(), refused[0]);
 }
