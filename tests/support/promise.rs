@@ -298,10 +298,15 @@ impl Questions {
         for m in 1..=reach.denominator {
             us.extend((0..=m).flat_map(|k| neighbours(k as f32 / m as f32, 1)));
         }
-        // An end is 1/2^k, and what is next to it, from either side; so is the least top, and that of the line.
+        // Octaves end at eighths of a power of two; so does the least of them, and the line begins at a power.
         for exponent in 1..=32 {
             let power = exp2(-exponent) as f32;
-            us.extend(neighbours(power, 2).chain(neighbours(1.0 - power, 2)));
+            let (next, top) = (neighbours(power, 2), neighbours(1.0 - power, 2));
+            us.extend(next.chain(top));
+            for eighths in 9..16 {
+                let end = 0.125 * eighths as f32 * power;
+                us.extend(neighbours(end, 1).chain(neighbours(1.0 - end, 1)));
+            }
         }
         for landmark in exact.landmarks() {
             us.extend(neighbours(landmark.to_f32(), if landmark.hi > 0.0 { 40 } else { 0 }));
