@@ -415,3 +415,35 @@ fn kinks_inside_an_octave() {
     assert!(figures.curves > 100, "only {} are valid", figures.curves);
     assert!(figures.breaches.is_empty(), "{:#?}", figures.breaches);
 }
+
+/// Other units of time, far from time 0, and shutters that are never dark or never fully open, in tenths.
+#[test]
+fn other_units_and_levels() {
+    keeps_every_promise("other units and levels", 250, Cells::Few, ALL, |rng| {
+        let lengths = [length(rng), length(rng), length(rng)];
+        let units = [1e-3, 1e-6, 1e-9, 1e6, 60.0, 3600.0, 3.0, 7.0][rng.below(8) as usize];
+        let shapes: fn(&mut Rng, f64) -> Shape = if rng.chance(0.5) { ramp } else { symmetric };
+        let mut curve = shutter_of(rng, lengths, shapes, units);
+        let later = if rng.chance(0.3) {
+            let length = f64::from(curve.close_end() - curve.open_start());
+            ([1.0, 100.0, 1e4, 1e6, -1e4][rng.below(5) as usize] * length).round()
+        } else {
+            0.0
+        };
+        let mut levels = [[0.0, 1.0]; 2];
+        if rng.chance(0.3) {
+            let mut two = [whole(rng, 0, 10), whole(rng, 1, 10)];
+            two.sort_by(f64::total_cmp);
+            let two = two.map(|level| level / 10.0);
+            levels = if rng.chance(0.5) { [two, two] } else { [two, levels[1]] };
+        }
+        for (ramp, [low, high]) in [&mut curve.opening, &mut curve.closing].into_iter().zip(levels)
+        {
+            for (t, f) in ramp {
+                *t = (f64::from(*t) + later) as f32;
+                *f = (low + (high - low) * f64::from(*f)) as f32;
+            }
+        }
+        curve
+    });
+}
