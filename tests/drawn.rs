@@ -201,7 +201,7 @@ const QUICK: Reach = Reach { denominator: 16, frame: 16, turn: 0, is_typical: fa
 
 #[test]
 fn whole_milliseconds() {
-    keeps_every_promise("ms", 400, Cells::Few, ALL, |rng| {
+    keeps_every_promise("ms", 350, Cells::Few, ALL, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1.0)
     });
@@ -209,7 +209,7 @@ fn whole_milliseconds() {
 
 #[test]
 fn milliseconds_in_seconds() {
-    keeps_every_promise("s", 400, Cells::Few, ALL, |rng| {
+    keeps_every_promise("s", 300, Cells::Few, ALL, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1000.0)
     });
@@ -217,7 +217,7 @@ fn milliseconds_in_seconds() {
 
 #[test]
 fn decimal_fractions_of_the_interval() {
-    keeps_every_promise("shutteropening", 400, Cells::Few, ALL, |rng| {
+    keeps_every_promise("shutteropening", 300, Cells::Few, ALL, |rng| {
         // In twentieths or hundredths of the interval.
         let parts = [20.0, 100.0][rng.below(2) as usize];
         let mut inner = [0, 1].map(|_| whole(rng, 0, parts as u64));
@@ -261,7 +261,7 @@ fn lengths(rng: &mut Rng, part: f64, all: f64) -> [f64; 3] {
 /// A join at a plain fraction of the exposure, from either side.
 #[test]
 fn joins_at_plain_fractions() {
-    keeps_every_promise("joins at k/2^m", 700, Cells::Few, ALL, |rng| {
+    keeps_every_promise("joins at k/2^m", 450, Cells::Few, ALL, |rng| {
         let all = exp2(1 + rng.below(6) as i32);
         let part = whole(rng, 1, all as u64 - 1);
         let lengths = lengths(rng, part, all);
@@ -272,7 +272,7 @@ fn joins_at_plain_fractions() {
 
 #[test]
 fn joins_at_thirds_fifths_and_tenths() {
-    keeps_every_promise("joins at k/3, k/5, k/10", 500, Cells::Few, ALL, |rng| {
+    keeps_every_promise("joins at k/3, k/5, k/10", 350, Cells::Few, ALL, |rng| {
         let all = [3.0, 5.0, 10.0, 6.0, 7.0, 9.0, 12.0, 20.0, 100.0][rng.below(9) as usize];
         let part = whole(rng, 1, all as u64 - 1);
         let lengths = lengths(rng, part, all);
@@ -302,7 +302,7 @@ fn plain_joins_with_any_number_of_octaves() {
 /// short as it likes. Tops of octaves are at these fractions, so that a join is next to one.
 #[test]
 fn joins_next_to_plain_fractions() {
-    keeps_every_promise("joins next to k/2^m", 600, Cells::Few, QUICK, |rng| {
+    keeps_every_promise("joins next to k/2^m", 500, Cells::Few, QUICK, |rng| {
         let all = exp2(1 + rng.below(5) as i32);
         let part = if rng.chance(0.3) { all / 2.0 } else { whole(rng, 1, all as u64 - 1) };
         let near = exp2(-(20 + rng.below(31) as i32));
