@@ -10,7 +10,15 @@ use crate::shape::Shape;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
 const NODES: [f32; DEGREE + 1] = [
-    -0.98480775, -0.8660254, -0.64278764, -0.34202015, 0.0, 0.34202015, 0.64278764, 0.8660254, 0.98480775,
+    -0.98480775,
+    -0.8660254,
+    -0.64278764,
+    -0.34202015,
+    0.0,
+    0.34202015,
+    0.64278764,
+    0.8660254,
+    0.98480775,
 ];
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
@@ -280,7 +288,10 @@ impl Side<'_> {
         let mut is_certain = self.is_certain(&served, span, stretch, ramp, places);
         // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
         // what is beyond the join, too.
-        if ramp == self.side && !self.exposure.has_plateau() && ends[1] > self.exposure.exact_joins(ramp)[0] {
+        if ramp == self.side
+            && !self.exposure.has_plateau()
+            && ends[1] > self.exposure.exact_joins(ramp)[0]
+        {
             let path = self.path(ramp ^ 1);
             let places = [0.0, path.place(ends[1], true)];
             let stretch = span.counted(path.stretch(places));
@@ -325,13 +336,15 @@ impl Side<'_> {
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
-            rounding: TRUNCATION
-                + steep * off / span.width
-                + (ends[1] / unit) as f32 * ROUNDED,
+            rounding: TRUNCATION + steep * off / span.width + (ends[1] / unit) as f32 * ROUNDED,
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
-            beyond: if is_joined { self.greatest_beyond(ramp, per / per_tick) * per_light } else { 0.0 },
+            beyond: if is_joined {
+                self.greatest_beyond(ramp, per / per_tick) * per_light
+            } else {
+                0.0
+            },
             elapsed,
             openness,
         };
@@ -362,7 +375,9 @@ impl Side<'_> {
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
         let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
         let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
-        while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time {
+        while doublings > 0
+            && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
+        {
             p *= 2.0;
             doublings = unknown(doublings - 1);
         }
@@ -395,7 +410,8 @@ impl Limits {
         // never falls rises at least as fast as around a point where it stands still.
         let [_, t1, t2, t3] = self.elapsed;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
-        let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
+        let slowest =
+            if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {

@@ -1,4 +1,5 @@
-//! Everything that is promised of a curve, judged on the inputs of [`aimed`](super::aimed).
+//! Everything that is promised of a curve, judged on the inputs of [`aimed`](super::aimed), and on what is asked of a
+//! design ([`Questions`]).
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,6 +13,8 @@ use super::oracle::{Curve, Dd, Exact, exp2, ulp_f32};
 
 /// In ulp of u.
 pub const BACKWARD: f64 = 1.0;
+/// On typical curves, in ulp of the time.
+pub const FORWARD: f64 = 0.6;
 /// Of `cdf`, `opening` and `pdf`, in ulp at some time within an ulp of the one asked for.
 pub const VALUE: f64 = 1.0;
 /// An ulp of the cdf is at least that of this.
@@ -19,6 +22,8 @@ pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
 /// In ticks: where the interval has at most [`DIRECT_TICKS`], and where it has more.
 pub const TICKS: [f64; 2] = [0.75, 0.501];
 pub const DIRECT_TICKS: f64 = (1 << 24) as f64;
+/// The rates of timers that a design is asked for, in ticks per unit of its time: plain ones, and primes.
+pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_983];
 /// Of the mass, for one u: as many as any search is known to take. What takes more has wandered.
 pub const EVALUATIONS: u32 = 5;
 
@@ -28,6 +33,8 @@ pub struct Figures {
     pub curves: u64,
     pub samples: u64,
     pub backward: f64,
+    /// On designs, all of which are typical or near it; on other curves it may be any number.
+    pub forward: f64,
     pub evaluations: u32,
     pub cdf: f64,
     /// As `cdf`, in ulp of however small a value.
@@ -224,10 +231,312 @@ impl Figures {
     }
 }
 
+/// What is asked of a design: plain fractions, all small frames, and what lies next to the joins. The exact answers are
+/// found once; every `CELLS` is held against them.
+pub struct Questions {
+    /// In order, with the exact times.
+    us: Vec<(f32, Dd)>,
+    /// In order.
+    ts: Vec<f32>,
+    frames: Vec<Frame>,
+    rates: Vec<u32>,
+    /// Is the forward error promised?
+    is_typical: bool,
+}
+
+/// Some neighbours of a frame, with the exact time since the start of the curve for each end.
+struct Frame {
+    n: u32,
+    /// None for triggers.
+    duty: Option<f32>,
+    first: u32,
+    /// Of triggers both are the same.
+    exact: Vec<[(Dd, Dd); 2]>,
+}
+
+impl Frame {
+    fn new(exact: &Exact, n: u32, duty: Option<f32>, first: u32, count: u32) -> Self {
+        let start = Dd::from(exact.curve().open_start());
+        let end = |i: u32, half: f64| {
+            let u = Dd::from(2.0 * f64::from(i) + 1.0) + Dd::from(half);
+            let u = u / Dd::from(2.0 * f64::from(n));
+            (u, exact.inverse_cdf_dd(u) - start)
+        };
+        let count = count.min(n - first.min(n));
+        let exact = (first..first + count)
+            .map(|i| match duty {
+                None => [end(i, 0.0); 2],
+                Some(duty) => [end(i, -f64::from(duty)), end(i, f64::from(duty))],
+            })
+            .collect();
+        Self { n, duty, first, exact }
+    }
+}
+
+/// So many neighbours of `x` on either side, and `x`, from 0 to 1.
+fn neighbours(x: f32, count: u32) -> impl Iterator<Item = f32> {
+    let bits = x.clamp(0.0, 1.0).to_bits();
+    let most = 1f32.to_bits();
+    (bits.saturating_sub(count)..=(bits + count).min(most)).map(f32::from_bits)
+}
+
+/// The greatest denominator of the fractions, and the greatest frame of which every trigger is asked for.
+#[derive(Clone, Copy)]
+pub struct Reach {
+    pub denominator: u32,
+    pub frame: u32,
+    /// Which rates and duties; a few of each go with a design.
+    pub turn: usize,
+    pub is_typical: bool,
+}
+
+impl Questions {
+    pub fn new(exact: &Exact, reach: Reach) -> Self {
+        let curve = *exact.curve();
+        let joins: Vec<f64> = exact.landmarks()[..2].iter().map(|u| u.hi.clamp(0.0, 1.0)).collect();
+        let mut us = vec![-0.0, 0.0, 1.0];
+        for m in 1..=reach.denominator {
+            us.extend((0..=m).flat_map(|k| neighbours(k as f32 / m as f32, 1)));
+        }
+        // Octaves end at eighths of a power of two; so does the least of them, and the line begins at a power.
+        for exponent in 1..=32 {
+            let power = exp2(-exponent) as f32;
+            let (next, top) = (neighbours(power, 2), neighbours(1.0 - power, 2));
+            us.extend(next.chain(top));
+            for eighths in 9..16 {
+                let end = 0.125 * eighths as f32 * power;
+                us.extend(neighbours(end, 1).chain(neighbours(1.0 - end, 1)));
+            }
+        }
+        for landmark in exact.landmarks() {
+            us.extend(neighbours(landmark.to_f32(), if landmark.hi > 0.0 { 40 } else { 0 }));
+        }
+        us.sort_by(f32::total_cmp);
+        us.dedup_by_key(|u| u.to_bits());
+        let us = us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect();
+
+        let [start, end] = [curve.open_start(), curve.close_end()];
+        let length = f64::from(end) - f64::from(start);
+        let mut ts: Vec<f32> = (0..=20).map(|i| start + i as f32 * (end - start) / 20.0).collect();
+        for time in exact.landmark_times() {
+            let time = time.to_f32();
+            let mut first = time;
+            for _ in 0..3 {
+                first = first.next_down();
+            }
+            ts.extend(std::iter::successors(Some(first), |t| Some(t.next_up())).take(7));
+        }
+        ts.retain(|t| (start..=end).contains(t));
+        ts.sort_by(f32::total_cmp);
+        ts.dedup();
+
+        let mut frames: Vec<_> =
+            (1..=reach.frame).map(|n| Frame::new(exact, n, None, 0, n)).collect();
+        for duty in [0.1, 0.25, 0.5, 0.75, 1.0] {
+            let n = 1 + (reach.turn as u32 * 7 + (duty * 20.0) as u32) % reach.frame.max(1);
+            frames.push(Frame::new(exact, n, Some(duty), 0, n));
+            frames.push(Frame::new(exact, 12, Some(duty), 0, 12));
+        }
+        for place in exact.landmarks() {
+            // Triggers that follow each other more closely than `f32` do, direct and searched for.
+            for n in [1000, 1 << 20, (1 << 22) - 1, 1 << 22, (1 << 22) + 1, 1 << 30, u32::MAX] {
+                let first = (f64::from(n) * place.hi.clamp(0.0, 1.0)) as u32;
+                let first = first.saturating_sub(3);
+                frames.push(Frame::new(exact, n, None, first, 6));
+                frames.push(Frame::new(exact, n, Some(1.0), first, 5));
+            }
+        }
+        for join in &joins {
+            // Pulses of a few ticks, or less, around a trigger on the join, if there is one on it.
+            for n in 1..=64 {
+                let i = (f64::from(n) * join) as u32;
+                let middle = (f64::from(i) + 0.5) / f64::from(n);
+                if (middle - join).abs() < exp2(-20) && i < n {
+                    let one = |k: i32| Frame::new(exact, n, Some(exp2(-k) as f32), i, 1);
+                    frames.extend((4..40).map(one));
+                    break;
+                }
+            }
+            // A single pulse, whose ends are at any fraction: finer than `f32` are there.
+            let duty = (1.0 - 2.0 * join).abs() as f32;
+            if duty > 0.0 {
+                let around = neighbours(duty, 40).filter(|duty| *duty > 0.0);
+                let one = |duty| Frame::new(exact, 1, Some(duty), 0, 1);
+                frames.extend(around.map(one));
+            }
+        }
+        // What is allowed: up to 2^31 ticks.
+        let all = RATES.into_iter().enumerate();
+        let few =
+            all.filter(|(i, _)| *i < 4 || (*i + reach.turn).is_multiple_of(2)).map(|(_, hz)| hz);
+        let longest = [DIRECT_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
+        let mut rates: Vec<u32> = few.chain(longest).collect();
+        rates.retain(|hz| *hz > 0 && f64::from(*hz) * length <= exp2(31));
+        Self { us, ts, frames, rates, is_typical: reach.is_typical }
+    }
+}
+
+impl Questions {
+    /// Of the fractions around a place alone, as far as those that an octave's polynomial serves with it: where time runs
+    /// so unevenly that a polynomial follows it least, between the places at which it is judged.
+    pub fn closely(exact: &Exact, place: f64, frames: u32) -> Self {
+        let length = f64::from(exact.curve().close_end()) - f64::from(exact.curve().open_start());
+        let mut list = Vec::new();
+        // Triggers, ...
+        for n in 1..=frames {
+            let [from, to] = [0.9, 1.1].map(|by| (f64::from(n) * place * by) as u32);
+            list.push(Frame::new(exact, n, None, from, to + 1 - from));
+        }
+        // ... and the two ends of a single pulse, which is at any fraction.
+        let (mut us, mut off) = (Vec::new(), 1e-6);
+        while off < 0.6 {
+            us.extend([place * (1.0 - off), place, place * (1.0 + off)]);
+            off *= 1.12;
+        }
+        let duties = us.iter().map(|u| (1.0 - 2.0 * u).abs() as f32);
+        let duties = duties.filter(|duty| *duty > 0.0 && *duty <= 1.0);
+        list.extend(duties.map(|duty| Frame::new(exact, 1, Some(duty), 0, 1)));
+        let hz = (DIRECT_TICKS * (1.0 - 1e-9) / length) as u32;
+        let mut us: Vec<f32> = us.into_iter().flat_map(|u| neighbours(u as f32, 1)).collect();
+        us.sort_by(f32::total_cmp);
+        us.dedup();
+        let us = us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect();
+        Self { us, ts: Vec::new(), frames: list, rates: vec![hz.max(1)], is_typical: false }
+    }
+}
+
+impl Figures {
+    /// Everything that is asked, with so many octaves.
+    pub fn asked<const CELLS: usize>(&mut self, exact: &Exact, questions: &Questions) {
+        let curve = exact.curve();
+        let ours = shutter::<CELLS>(curve);
+        self.fractions(exact, &ours, questions);
+        self.direct(exact, &ours);
+        for hz in &questions.rates {
+            for frame in &questions.frames {
+                self.frame(exact, &ours, frame, *hz);
+            }
+        }
+        if CELLS == 8 {
+            let values = |t| [ours.cdf(t), ours.pdf(t), ours.opening(t)];
+            self.values(exact, &questions.ts, values);
+        }
+    }
+
+    fn fractions<const CELLS: usize>(
+        &mut self,
+        exact: &Exact,
+        ours: &ShutterCurve<CELLS>,
+        questions: &Questions,
+    ) {
+        let curve = exact.curve();
+        let mut last = curve.open_start();
+        for &(u, time) in &questions.us {
+            let (t, evaluations) = (ours.inverse_cdf(u), ours.evaluations(u));
+            let errors = exact.judge_for(u, t, time);
+            let at = || format!("u = {u:e}: {t:e}, {CELLS} cells, {errors:?}");
+            self.samples += 1;
+            self.backward = self.backward.max(errors.backward);
+            self.evaluations = self.evaluations.max(evaluations);
+            if questions.is_typical && time.hi != 0.0 {
+                self.forward = self.forward.max(errors.forward);
+                self.expect_at("forward error", errors.forward <= FORWARD, at, curve);
+            }
+            self.expect_at("u-error", errors.backward <= BACKWARD, at, curve);
+            self.expect_at("step back", t >= last, at, curve);
+            self.expect_at("evaluations", evaluations <= EVALUATIONS, at, curve);
+            last = t;
+        }
+        let (us, mut ts) = (questions.us.iter().map(|(u, _)| *u), Vec::new());
+        let us: Vec<f32> = us.collect();
+        ts.resize(us.len(), 0.0);
+        ours.inverse_cdf_slice(&us, &mut ts);
+        let same = ts.iter().zip(&us).all(|(t, u)| *t == ours.inverse_cdf(*u));
+        self.expect("slice", same, curve);
+    }
+
+    /// No trigger is searched for in a frame that `direct_triggers` promises.
+    fn direct<const CELLS: usize>(&mut self, exact: &Exact, ours: &ShutterCurve<CELLS>) {
+        let curve = exact.curve();
+        let most = ours.direct_triggers();
+        let frames = (1..=most.min(20)).chain((0..22).map(|k| most >> k));
+        for n in frames.filter(|n| *n > 0) {
+            // At 1 tick per unit of time nearly every design's interval has few enough.
+            let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+            if length > DIRECT_TICKS {
+                continue;
+            }
+            let Ok(frame) = ours.trigger_ticks(n, 1) else { continue };
+            for i in (0..n).step_by(n as usize / 50 + 1).chain([n / 2, n - 1]) {
+                let u = (i as f32 + 0.5) / n as f32;
+                let at = || format!("{i} of {n}, {most} with {CELLS} cells");
+                self.expect_at("a direct tick", frame.is_direct(i), at, curve);
+                let is_direct = ours.is_direct(u) && ours.evaluations(u) == 0;
+                self.expect_at("a direct time", is_direct, at, curve);
+            }
+        }
+    }
+
+    /// The ticks of a frame's part.
+    fn frame<const CELLS: usize>(
+        &mut self,
+        exact: &Exact,
+        ours: &ShutterCurve<CELLS>,
+        frame: &Frame,
+        hz: u32,
+    ) {
+        let curve = exact.curve();
+        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let kind = usize::from(length * f64::from(hz) > DIRECT_TICKS);
+        let (n, first) = (frame.n, frame.first as usize);
+        let ticks: Option<Vec<(u32, u32)>> = match frame.duty {
+            None => ours.trigger_ticks(n, hz).ok().map(|ticks| {
+                ticks.skip(first).take(frame.exact.len()).map(|tick| (tick, tick)).collect()
+            }),
+            Some(duty) => ours
+                .pulse_ticks(n, duty, hz)
+                .ok()
+                .map(|ticks| ticks.skip(first).take(frame.exact.len()).collect()),
+        };
+        let Some(ticks) = ticks else {
+            self.expect("tick rate", false, curve);
+            return;
+        };
+        let mut last = 0;
+        for ((i, (on, off)), ends) in (frame.first..=u32::MAX).zip(&ticks).zip(&frame.exact) {
+            for (tick, (u, delay)) in [on, off].into_iter().zip(ends) {
+                let near = (*delay * f64::from(hz) - Dd::from(f64::from(*tick))).hi.abs();
+                let error = if near <= 0.5 { near } else { tick_error_at(exact, *tick, *u, hz) };
+                let at = || {
+                    let duty = frame.duty;
+                    format!(
+                        "{i} of {n}, duty {duty:?}, {hz} Hz, {CELLS} cells: {error:.3} ticks off"
+                    )
+                };
+                self.samples += 1;
+                self.ticks[kind] = self.ticks[kind].max(error);
+                let what = if frame.duty.is_some() { "pulses" } else { "ticks" };
+                self.expect_at(what, error <= TICKS[kind], at, curve);
+            }
+            let at = || {
+                let duty = frame.duty;
+                format!(
+                    "{i} of {n}, duty {duty:?}, {hz} Hz, {CELLS} cells: {on}, {off} after {last}"
+                )
+            };
+            self.expect_at("order of ticks", last <= *on && on <= off, at, curve);
+            last = *off;
+        }
+    }
+}
+
 impl fmt::Display for Figures {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { curves, samples, backward, evaluations, cdf, small_cdf, density, .. } = self;
         let [few, many] = self.ticks;
+        if self.forward > 0.0 {
+            write!(out, "forward {:.3} ulp, ", self.forward)?;
+        }
         write!(
             out,
             "u-error {backward:.3} ulp, {evaluations} evaluations, cdf {cdf:.3} ulp ({small_cdf:.3} without a floor), \

@@ -483,7 +483,11 @@ impl Exact {
 
     /// The forward and the backward error of the answer `t` to `u`.
     pub fn judge(&self, u: f32, t: f32) -> Errors {
-        let exact = self.inverse_cdf(u);
+        self.judge_for(u, t, self.inverse_cdf(u))
+    }
+
+    /// The same where the exact time is known already, for several answers to one question.
+    pub fn judge_for(&self, u: f32, t: f32, exact: Dd) -> Errors {
         let [low, high] = rounding_cell(t).map(Dd::from);
         let rounds = exact >= low && exact <= high && self.is_inside(t);
         let backward = if rounds { 0.0 } else { self.backward_ulp(u, t) };
@@ -569,7 +573,18 @@ impl Exact {
         masses.into_iter().map(|mass| mass / self.area).collect()
     }
 
-    /// The times of the same.
+    /// The fraction at which time runs slowest on a ramp, or at its end.
+    pub fn slowest(&self, ramp: usize) -> f64 {
+        let (ramp, before) = match ramp {
+            0 => (&self.opening, Dd::ZERO),
+            _ => (&self.closing, self.opening.mass + self.plateau),
+        };
+        let way = &ramp.ends[0].way.c;
+        let p = (-way[1].hi / (3.0 * way[2].hi)).clamp(0.0, 1.0);
+        ((before + ramp.mass_from(0, ramp.spot(p))) / self.area).hi
+    }
+
+    /// The times of the [`landmarks`](Self::landmarks), and of the ends.
     pub fn landmark_times(&self) -> Vec<Dd> {
         let curve = &self.curve;
         let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
