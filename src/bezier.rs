@@ -60,12 +60,15 @@ impl CubicBezier {
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
-        let (start, length) = (open_start as f64, close_end as f64 - open_start as f64);
+        let (start, end) = (open_start as f64, close_end as f64);
+        // An inner point at its ramp's inner end, as a fraction in decimals, comes out beyond it by what rounding makes of
+        // the fraction and of the times. It is meant to be there.
+        let trace = (start.abs() + end.abs()) / (1 << 23) as f64;
         let at = [
-            (start + length * t1 as f64) as f32,
-            (start + length * t2 as f64) as f32,
-            (start + length * t5 as f64) as f32,
-            (start + length * t6 as f64) as f32,
+            snapped(start + (end - start) * t1 as f64, open_end as f64, trace),
+            snapped(start + (end - start) * t2 as f64, open_end as f64, trace),
+            -snapped(-(start + (end - start) * t5 as f64), -close_start as f64, trace),
+            -snapped(-(start + (end - start) * t6 as f64), -close_start as f64, trace),
         ];
         (
             Self::new([(open_start, 0.0), (at[0], y1), (at[1], y2), (open_end, 1.0)]),
@@ -127,6 +130,11 @@ impl CubicBezier {
         }
         Ok(())
     }
+}
+
+/// A time, or a bound that it passes by no more than a trace.
+const fn snapped(time: f64, bound: f64, trace: f64) -> f32 {
+    (if time > bound && time <= bound + trace { bound } else { time }) as f32
 }
 
 /// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².

@@ -120,7 +120,9 @@ pub(crate) const fn fit(
 
 /// The bits of the top that is so many steps beyond the end of a range.
 const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
+    // At or above the end, or a 64-bit fraction below it would be looked up in the octave above.
     let end = floor_bits(to);
+    let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
     // If the range began within some ulp of an octave's end, rounding might put its first fraction into the octave
     // below.

@@ -283,8 +283,7 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
-        let [near, far] = self.exposure.joins_u64();
-        let last = far.saturating_sub(1);
+        let [near, last] = self.exposure.joins_u64();
         let before = near.max(1 << 55);
         PlateauU64 {
             last,
@@ -299,7 +298,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         if before_last < plateau.count {
             return Some(self.on_line((u >> 32) as u32));
         }
-        let side = (u >> 63) as usize;
+        // 1/2 counts from side 0, as an `f32` does.
+        let side = (u > 1 << 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
         // If the upper word is 0, `a` is below all octaves, and the index is that of none.

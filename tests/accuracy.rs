@@ -11,7 +11,7 @@ use support::oracle::{Curve, Exact, Points, ulp_f32};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
 /// On typical curves, in ulp of t.
-const FORWARD: f64 = 0.6;
+const FORWARD: f64 = 0.69;
 const FORWARD_MEAN: f64 = 0.215;
 /// Of an octave's polynomial, in ulp of u, so that neighbours can't change places.
 const DIRECT: f64 = 0.45;

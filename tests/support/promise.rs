@@ -14,7 +14,7 @@ use super::oracle::{Curve, Dd, Exact, exp2, ulp_f32};
 /// In ulp of u.
 pub const BACKWARD: f64 = 1.0;
 /// On typical curves, in ulp of the time.
-pub const FORWARD: f64 = 0.6;
+pub const FORWARD: f64 = 0.69;
 /// Of `cdf`, `opening` and `pdf`, in ulp at some time within an ulp of the one asked for.
 pub const VALUE: f64 = 1.0;
 /// An ulp of the cdf is at least that of this.
