@@ -40,7 +40,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         }
         let ticks = Ticks::new(&self.plan, n, tick_hz)?;
         let edges = ticks.fractions.edges(duty);
-        let frame = Pulses { ticks, edges, is_close: duty > 0.5 };
+        let frame = Pulses { ticks, edges, is_close: duty > 0.5, is_full: duty == 1.0 };
         Ok(PulseTicks { frame, left: 0..n })
     }
 
@@ -107,6 +107,8 @@ struct Pulses<'a, const CELLS: usize> {
     edges: [Edge; 2],
     /// Is a pulse closer to the next than half a share?
     is_close: bool,
+    /// Do pulses touch?
+    is_full: bool,
 }
 
 impl<const CELLS: usize> Pulses<'_, CELLS> {
@@ -126,7 +128,14 @@ impl<const CELLS: usize> Pulses<'_, CELLS> {
         if self.is_close && i > 0 {
             start = start.max(self.ticks.edge(i - 1, off));
         }
-        (start, self.ticks.edge(i, off).max(start))
+        // All of the exposure is collected at the curve's end, though no light may fall for a while before that. In 64
+        // bits the fraction of this one edge may be a trace less.
+        let end = if self.is_full && i + 1 == self.n() {
+            self.ticks.searched(2 * i as u64 + 1, off)
+        } else {
+            self.ticks.edge(i, off)
+        };
+        (start, end.max(start))
     }
 }
 

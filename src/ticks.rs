@@ -83,7 +83,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     /// The same by a search. Out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
-    fn searched(&self, odd: u64, edge: &Edge) -> u32 {
+    pub(crate) fn searched(&self, odd: u64, edge: &Edge) -> u32 {
         let unit = self.plan.unit();
         let moment = moment(self.plan, &self.fractions, odd, edge);
         let delay = moment.since(self.plan.exposure.start(0), unit);

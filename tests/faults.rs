@@ -666,3 +666,14 @@ fn a_ramp_that_ends_a_subnormal_step_before_0() {
         [(-1.2298783e-38, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)];
     judge_inverse(&Curve::shutter(opening, instant(1.1641532e-10, 1.0)), around(2.3047462e-29, 40));
 }
+
+/// The last pulse of a full duty ends with the curve, also after a dark ramp; with 27 pulses it ended 250 s before.
+#[test]
+fn the_last_full_pulse_ends_with_the_curve() {
+    let dark = |from: f32, to: f32| [(from, 0.0), (from, 0.0), (to, 0.0), (to, 0.0)];
+    let curve = shutter::<8>(&Curve::shutter(dark(0.0, 1000.0), dark(2000.0, 252_000.0)));
+    for n in 1..100 {
+        let (_, off) = curve.pulse_ticks(n, 1.0, 1).unwrap().next_back().unwrap();
+        assert_eq!(off, 252_000, "of {n}");
+    }
+}
