@@ -235,6 +235,8 @@ struct Served {
     unit: f64,
     /// A bound of its slope.
     steep: f32,
+    /// What rounding adds to it, with that of the side's start.
+    truncated: f32,
 }
 
 impl Side<'_> {
@@ -286,14 +288,13 @@ impl Side<'_> {
             middle: middle as f64 * power_of_two_f64(self.unit),
             unit,
             steep: steep * per_unit as f32,
+            truncated: TRUNCATION + 1.0 / factor as f32,
         };
         let mut is_certain = self.is_certain(&served, span, stretch, ramp, places);
         // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
         // what is beyond the join, too.
-        if ramp == self.side
-            && !self.exposure.has_plateau()
-            && ends[1] > self.exposure.exact_joins(ramp)[0]
-        {
+        let join = self.exposure.exact_joins(self.side)[0];
+        if ramp == self.side && !self.exposure.has_plateau() && span.to >= 0.5 && join < 0.5 {
             let path = self.path(ramp ^ 1);
             let places = [0.0, path.place(ends[1], true)];
             let stretch = span.counted(path.stretch(places));
@@ -312,7 +313,7 @@ impl Side<'_> {
         ramp: usize,
         [first, last]: [f64; 2],
     ) -> bool {
-        let Served { ref octave, middle, unit, steep } = *served;
+        let Served { ref octave, middle, unit, steep, truncated } = *served;
         let (exposure, side) = (self.exposure, self.side);
         // What an error may be is 1 in each of these units.
         let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];

@@ -31,10 +31,7 @@ impl Moment {
     /// The time, rounded once.
     #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
-        // The second number may be more than an ulp of the first. Where the sum is subnormal and the first cancels the
-        // time, the sum then has the other sign than what is left, by which it is rounded.
-        let elapsed = Pair::sum(self.elapsed.hi, self.elapsed.lo);
-        let time = rounded_sum(self.time, elapsed, self.unit, self.back);
+        let time = rounded_sum(self.time, self.elapsed, self.unit, self.back);
         let is_beyond = if self.back { time < self.until } else { time > self.until };
         if is_beyond { self.until } else { time }
     }

@@ -215,10 +215,10 @@ const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
     // A sum that will be subnormal is rounded to the last place of the least `f32` by adding a number with that last
-    // place.
-    let (rough, least) = (base + hi, power_of_two(up - 126));
-    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    // place. It has the sum's sign, which the second number decides where the first cancels the base.
     let near = Pair::sum(base, hi);
+    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
     let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
 }

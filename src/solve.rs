@@ -68,7 +68,7 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
 // proofs/solve.py
-const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+const ROUNDING: f32 = 3.0 / (1 << 20) as f32;
 
 /// The distance from the anchor may be rounded by this share of it.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
