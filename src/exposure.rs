@@ -259,14 +259,18 @@ impl Exposure {
                     0.0
                 }
             }
-            At::Plateau => {
-                let (area, exponent) = significand(self.area);
-                // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
-                let way = Pair::sum(t, -self.plateau_start(0)).shifted(WHOLE_EXPONENT - exponent);
-                self.nearest(t, self.ramps[0].share.plus(way.over(area)), 0.0, None)
-            }
+            At::Plateau => self.cdf_on_plateau(t),
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
         }
+    }
+
+    /// The same on the plateau. Out of line, so that a ramp's way saves no registers for it.
+    #[inline(never)]
+    fn cdf_on_plateau(&self, t: f32) -> f32 {
+        let (area, exponent) = significand(self.area);
+        // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
+        let way = Pair::sum(t, -self.plateau_start(0)).shifted(WHOLE_EXPONENT - exponent);
+        self.nearest(t, self.ramps[0].share.plus(way.over(area)), 0.0, None)
     }
 
     /// The same on a ramp.

@@ -10,7 +10,7 @@ use crate::shape::Shape;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
 const NODES: [f32; DEGREE + 1] = [
-    -0.98480775,
+    -0.984_807_7,
     -0.8660254,
     -0.64278764,
     -0.34202015,
@@ -18,7 +18,7 @@ const NODES: [f32; DEGREE + 1] = [
     0.34202015,
     0.64278764,
     0.8660254,
-    0.98480775,
+    0.984_807_7,
 ];
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
@@ -339,7 +339,7 @@ impl Side<'_> {
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
-            rounding: TRUNCATION + steep * off / span.width + (ends[1] / unit) as f32 * ROUNDED,
+            rounding: truncated + steep * off / span.width + (ends[1] / unit) as f32 * ROUNDED,
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },

@@ -17,7 +17,7 @@ use crate::pair::{Pair, exponent, flipped, power_of_two};
 use crate::seed::seed;
 use crate::series::Series;
 use crate::shape::Shape;
-use crate::solve::{Anchor, ONE, Offset, solve};
+use crate::solve::{Anchor, ONE, Offset, ROUNDING, solve};
 
 /// The whole exposure, in the unit of fractions: the least `f32`, and what rounding makes of it, are then normal
 /// numbers.
@@ -176,12 +176,18 @@ impl Ramp {
         }
         if target.hi <= sought.abs() {
             let c = self.single(side);
-            return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
+            return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
         }
         const BACK: u32 = 1 << 31;
         if nearest == 2 {
             let c = self.single(side ^ 1);
-            return Anchor { place: Pair::new(ONE), back: BACK, c, sought: -sought };
+            return Anchor {
+                place: Pair::new(ONE),
+                back: BACK,
+                c,
+                sought: -sought,
+                rounding: 1.25 * ROUNDING,
+            };
         }
         // The powers count away from the flat place's nearer end. They are mirrored if the target lies the other way.
         let flat = &self.flats[nearest & 1];
@@ -195,7 +201,7 @@ impl Ramp {
         let back = sought.to_bits() & BACK;
         let sign = sign ^ back;
         let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
-        Anchor { place, back, c, sought: sought.abs() }
+        Anchor { place, back, c, sought: sought.abs(), rounding: 3.0 * ROUNDING }
     }
 
     /// The moment at which a fraction has been collected since the end that faces a side. The errors are those of
@@ -248,7 +254,8 @@ impl Ramp {
     fn offset_at(&self, side: usize, target: Pair) -> Offset {
         let series = self.elapsed(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor = Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi };
+        let mut anchor =
+            Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
         // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there and the target near.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
@@ -258,7 +265,13 @@ impl Ramp {
                 let [c1, c2, c3] = around(self.end(side).elapsed, self.cubic, slowest);
                 let back = sought.to_bits() & 1 << 31;
                 let c = [c1, flipped(c2, back), c3];
-                anchor = Anchor { place: Pair::new(slowest), back, c, sought: sought.abs() };
+                anchor = Anchor {
+                    place: Pair::new(slowest),
+                    back,
+                    c,
+                    sought: sought.abs(),
+                    rounding: ROUNDING,
+                };
             }
         }
         let seed = seed(&anchor.c, anchor.sought);

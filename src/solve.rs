@@ -68,7 +68,7 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms: see the module's text.
 // proofs/solve.py
-const ROUNDING: f32 = 3.0 / (1 << 20) as f32;
+pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
 /// The distance from the anchor may be rounded by this share of it.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
@@ -85,6 +85,8 @@ pub(crate) struct Anchor<const N: usize> {
     pub(crate) c: [f32; N],
     /// What is to be collected from here.
     pub(crate) sought: f32,
+    /// How often rounding may count in slopes.
+    pub(crate) rounding: f32,
 }
 
 impl<const N: usize> Anchor<N> {
@@ -177,6 +179,7 @@ const fn left<const N: usize>(
     local: &Taylor,
     missing: f32,
     s: f32,
+    rounding: f32,
 ) -> f32 {
     let c = core::hint::black_box(c);
     let size = s.abs();
@@ -189,7 +192,7 @@ const fn left<const N: usize>(
     let bends = cubes * y + 2.0 * c[1].abs();
     let slopes = bends * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
-    first + size * (ROUNDING * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
+    first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
 }
 
 /// The place where `series` reaches `target` within the error `wanted`, of which a quarter is for measuring; within
@@ -202,7 +205,7 @@ pub(crate) const fn solve<const N: usize>(
     seed: f32,
     [wanted, accepted]: [f32; 2],
 ) -> Offset {
-    let Anchor { place, back, c, sought } = *anchor;
+    let Anchor { place, back, c, sought, rounding } = *anchor;
     // The anchor itself, whose mass is known as well as any is measured.
     if sought <= 0.5 * wanted {
         return Offset { x: place.hi, rest: place.lo, evaluations: 0 };
@@ -256,7 +259,7 @@ pub(crate) const fn solve<const N: usize>(
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { accepted } else { wanted };
-        if is_inside && left(&c, [x, moved], &local, missing, step) <= 0.75 * error {
+        if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             let Pair { hi, lo } = Pair::sum(p, way);
             return Offset { x: hi, rest: lo, evaluations };
         }
