@@ -303,7 +303,7 @@ mod tests {
             // All but the third term and those beyond.
             let missing = step * (local.d1 + local.d2 * step);
             let after = (f64::from(missing) - exact).abs();
-            let bound = f64::from(left(&c, [x, 0.0], &local, missing, step));
+            let bound = f64::from(left(&c, [x, 0.0], &local, missing, step, ROUNDING));
             assert!(
                 after <= bound,
                 "{after:e} after a step of {step}, bound {bound:e}: {c:?} at {x}"
@@ -319,7 +319,7 @@ mod tests {
             let c = [c1, c2, c3, c4, c5, c6];
             let local = Taylor::new(&c, x);
             assert_eq!([local.d1, local.d2], [d1, d2]);
-            assert_eq!(left(&c, [x, moved], &local, missing, s), bound);
+            assert_eq!(left(&c, [x, moved], &local, missing, s, ROUNDING), bound);
         }
     }
 }
