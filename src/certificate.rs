@@ -23,7 +23,7 @@ use crate::path::{Path, absolute, unknown, value};
 
 /// Even numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
 const POINTS: [(usize, f64); 3] =
-    [(24, 0.9914448613738104), (48, 0.9978589232386035), (96, 0.9994645874763657)];
+    [(22, 0.9898214418809327), (48, 0.9978589232386035), (96, 0.9994645874763657)];
 
 /// The number of ways to a bound.
 pub(crate) const WAYS: usize = POINTS.len();

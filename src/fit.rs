@@ -290,7 +290,7 @@ impl Side<'_> {
             steep: steep * per_unit as f32,
             truncated: TRUNCATION + 1.0 / factor as f32,
         };
-        let mut is_certain = self.is_certain(&served, span, stretch, ramp, places);
+        let mut is_certain = certain(&self.certificate(&served, span, stretch, ramp, places));
         // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
         // what is beyond the join, too.
         let join = self.exposure.exact_joins(self.side)[0];
@@ -298,21 +298,22 @@ impl Side<'_> {
             let path = self.path(ramp ^ 1);
             let places = [0.0, path.place(ends[1], true)];
             let stretch = span.counted(path.stretch(places));
-            is_certain = is_certain && self.is_certain(&served, span, stretch, ramp ^ 1, places);
+            let beyond = self.certificate(&served, span, stretch, ramp ^ 1, places);
+            is_certain = is_certain && certain(&beyond);
         }
         if is_certain { octave } else { Octave::NONE }
     }
 
-    /// Does a polynomial keep the promise along a stretch of a ramp between two places?
+    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, in what they may be at most.
     #[inline(never)]
-    const fn is_certain(
+    const fn certificate(
         &self,
         served: &Served,
         span: &Span,
         mut along: Path,
         ramp: usize,
         [first, last]: [f64; 2],
-    ) -> bool {
+    ) -> [f32; 4] {
         let Served { ref octave, middle, unit, steep, truncated } = *served;
         let (exposure, side) = (self.exposure, self.side);
         // What an error may be is 1 in each of these units.
@@ -322,8 +323,8 @@ impl Side<'_> {
         let per_tick = per / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
         let per_light = per / (exposure.area as f32) / (ULP_ERROR * ulp - off);
         let per_size = [
-            per / (exposure.size_of_time(side, ends[0])) / FORWARD_ERROR,
-            per / (exposure.size_of_time(side, ends[1])) / FORWARD_ERROR,
+            per / exposure.size_of_time(side, ends[0]) / FORWARD_ERROR,
+            per / exposure.size_of_time(side, ends[1]) / FORWARD_ERROR,
         ];
         // In the unit of the coefficients.
         along.elapsed[0] -= middle;
@@ -353,18 +354,18 @@ impl Side<'_> {
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
         let noise = limits.rounding + 0.25 * limits.lost;
-        let mut way = 0;
+        let (mut way, mut bounds) = (0, [f32::INFINITY; 4]);
         while way < WAYS {
             let errors = errors(octave, &along, &offset, &weights, noise, way);
-            if limits.keep(&errors.most) {
-                return true;
-            }
-            if !limits.keep(&errors.least) {
-                return false;
-            }
-            way += 1;
+            bounds = limits.share(&errors.most);
+            // If the samples alone are too wrong, no closer bound helps.
+            way = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
+                WAYS
+            } else {
+                way + 1
+            };
         }
-        false
+        bounds
     }
 
     /// The greatest openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
@@ -405,9 +406,10 @@ struct Limits {
 }
 
 impl Limits {
-    /// Are errors in time, in light, and relative to the time as small as they have to be?
+    /// Errors in time, in light, and relative to the time, with what rounding adds, as shares of what they may be: for a
+    /// tick, relative to the time, in light, and in light beyond the ramp.
     #[inline(never)]
-    const fn keep(&self, &[time, light, relative]: &[f32; KINDS]) -> bool {
+    const fn share(&self, &[time, light, relative]: &[f32; KINDS]) -> [f32; 4] {
         let error = time + self.rounding;
         // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
         // never falls rises at least as fast as around a point where it stands still.
@@ -422,13 +424,18 @@ impl Limits {
         }
         let [_, f1, f2, f3] = self.openness;
         let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        let light = light + self.rounding * absolute(&self.openness, 1.0) + error * way * bends;
-        // Written so that a NaN fails.
-        relative + self.rounding * self.per_size <= CERTAIN
-            && (error + self.lost) * self.per_tick <= CERTAIN
-            && light <= CERTAIN
-            && error * self.beyond <= CERTAIN
+        [
+            (error + self.lost) * self.per_tick,
+            relative + self.rounding * self.per_size,
+            light + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
+            error * self.beyond,
+        ]
     }
+}
+
+/// Is none more than it may be? Written so that a NaN fails.
+const fn certain(&[tick, relative, light, beyond]: &[f32; 4]) -> bool {
+    tick <= CERTAIN && relative <= CERTAIN && light <= CERTAIN && beyond <= CERTAIN
 }
 
 /// 1, but for what single precision rounds.
