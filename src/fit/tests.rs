@@ -6,7 +6,7 @@ use crate::error::Ramp;
 use crate::octave::top;
 use crate::plan::unit_for;
 use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::curves::{named, random_hard, random_typical};
+use crate::support::curves::{Rng, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
@@ -143,6 +143,19 @@ fn a_certificate_is_never_below_the_truth() {
     judge("named", &mut named().into_iter().map(|named| named.curve));
     judge("typical", &mut (0..200 * times).map(|i| random_typical(31, i)));
     judge("hard", &mut (0..200 * times).map(|i| random_hard(31, i)));
+    // Joins so near to time 0 that a share of nearly all has too few bits to tell them.
+    let least = |i| {
+        let mut rng = Rng::new(31, i);
+        let [open, close, end] =
+            [-9.0, -9.0, 1.0].map(|most| rng.power_of_ten(most - 3.0, most) as f32);
+        let dim = rng.unit() as f32;
+        let [opening, closing] = [(open, [0.0, 0.0, dim, dim]), (end, [1.0, dim, 0.0, 0.0])];
+        let thirds = |start: f32, (length, f): (f32, [f32; 4])| {
+            std::array::from_fn(|k| (start + length * k as f32 / 3.0, f[k]))
+        };
+        Curve::shutter(thirds(-open, opening).map(|(t, f)| (t.min(0.0), f)), thirds(close, closing))
+    };
+    judge("least shares", &mut (0..25 * times).map(least));
     for (family, (name, ..)) in FAMILIES.iter().enumerate() {
         judge(name, &mut (0..25 * times).map(|i| aimed(family, 31, i)));
     }
