@@ -82,8 +82,8 @@ pub(crate) const fn errors(
                 break;
             }
             let error = error * single(&weights[kind], s as f32).abs();
-            // Written so that a NaN stays.
-            seen[kind] = if error <= seen[kind] { seen[kind] } else { error };
+            // A NaN stays, and is refused.
+            seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
         }
         let half = i.wrapping_sub(HALF_DEGREE);
         if half < DEGREES {

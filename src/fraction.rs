@@ -25,12 +25,14 @@ impl Fractions {
         Self { n, share, rest: ((remainder * share) >> 31) as u32 }
     }
 
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most `odd` of
-    /// these, and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
+    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most two of these,
+    /// and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
     /// (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
-        let middle = self.share.wrapping_mul(odd as u64);
+        // Without the rest it would be too low by `odd`, and that is much of what is left until 1.
+        let rest = (self.rest as u64 * odd as u64) >> 32;
+        let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
     }
 

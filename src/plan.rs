@@ -17,7 +17,7 @@
 //! On a processor with doubles, [`batch`](crate::batch) takes the plateau's line in those, to the same bits.
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
-//! error is kept below 0.45 of the distance between neighbours, also where octaves meet; it is judged where it peaks
+//! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
 //! ([`fit`]). A search's is below a quarter of that distance ([`exposure`](crate::exposure)), so the order holds where
 //! a search follows a polynomial or the line.
 
@@ -283,12 +283,14 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
-        let [near, last] = self.exposure.joins_u64();
-        let before = near.max(1 << 55);
-        PlateauU64 {
-            last,
-            count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) },
-        }
+        let [near, far] = self.exposure.joins_u64();
+        // With both joins, so that 1/2 is on the line where it is one; and without a plateau, on the closing ramp, since it
+        // counts from side 1.
+        let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
+        let before = near.saturating_sub(1).max(1 << 55);
+        // Also where the plateau holds no `f32`. Without a line, the slope is 0 or has too few bits.
+        let serves = self.slope >> 40 != 0;
+        PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } }
     }
 
     /// The time, in units, at a `u` in units of 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
@@ -298,8 +300,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         if before_last < plateau.count {
             return Some(self.on_line((u >> 32) as u32));
         }
-        // 1/2 counts from side 0, as an `f32` does.
-        let side = (u > 1 << 63) as usize;
+        let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
         // If the upper word is 0, `a` is below all octaves, and the index is that of none.

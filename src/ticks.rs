@@ -11,7 +11,7 @@ use crate::plan::{Plan, PlateauU64};
 const DIRECT_TICKS: i32 = 24;
 /// An interval may have 2 to this ticks.
 const MOST_TICKS: i32 = 31;
-/// In frames of more triggers all are searched for: polynomials, whose error in `u` is up to 0.45 ulp of an `f32`,
+/// In frames of more triggers all are searched for: polynomials, whose error in `u` is up to half an ulp of an `f32`,
 /// might swap neighbours.
 pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
 
