@@ -16,7 +16,13 @@ code("pair.rs", "let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo 
 code("pair.rs", "const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
     if sum.lo == 0.0 || bits & 1 == 1 { return sum.hi; } let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
     f32::from_bits(if up { bits + 1 } else { bits - 1 }) }""")
-code("pair.rs", "let near = Pair::sum(base, hi);", """let sum = Pair::sum(places, near.hi);
+code("pair.rs", "let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_of_two(-78);
+    let up = if is_small { 48 } else { 0 }; let (base, second) = (base * power_of_two(up), second * power_of_two(up));
+    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
+    let near = Pair::sum(base, hi);
+    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up) }""")
 
 
