@@ -213,6 +213,8 @@ for rho, low in axes_low.items():
     axes_low[rho] = count
 count = max(axes_low.values())
 allowed = (SLACK - 1) / U
+stated = int(source("certificate.rs", r"More than the (\d+) roundings of an `f32`"))
+require(stated - 1 < count <= stated, f"as many roundings as the comment says: {float(count)}")
 require((1 - U) ** (int(count) + 1) * SLACK >= 1, f"{float(count)} roundings")
 require((1 - U) ** (int(count) + 1) * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
 proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most")
