@@ -237,9 +237,9 @@ code("exposure.rs", "let far = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE 
 pair = Fraction(1, 2**50)
 ulp_error = Fraction(source("fit.rs", r"const ULP_ERROR: f32 = (0\.\d+);"))
 least = next(k for k in range(60) if off0 + off1 / 2**k < pair) - 1
-close = next(k for k in range(60) if ulp_error + pair * 2 ** (k + 24) >= Fraction(1, 2)) - 1
+close = next(k for k in range(60) if ulp_error + pair * 2 ** (k + 23) >= Fraction(1, 2)) - 1
 open_point(f"beyond a plateau the far ramp's fractions begin at 1 less a share, whose pair is rounded by 2^-50: that is within OFF down to 2^-{least}, "
-           f"and the error in u is below 1/2 ulp down to 2^-{close}; in octaves below, it is not proven, and 0.56 ulp have been seen")
+           f"and the error in u stays below 1/2 ulp down to 2^-{close}; in octaves below, it is not proven, and 0.56 ulp have been seen")
 
 # --- `Limits::share`: how far a stretch goes in which so much time passes.
 code("fit.rs", "let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
