@@ -108,18 +108,14 @@ impl Exposure {
         self.ramp(side).time(side ^ 1)
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Without a plateau these are one number, by the
-    /// lesser share, since that has more bits.
+    /// The fractions at which the near ramp ends and the far ramp begins. Each is told by the lesser part of the exposure,
+    /// which has more bits below 1; so without a plateau both are one number.
     pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
-        let far = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
-        if self.has_plateau() {
-            [near, far]
-        } else if near < 0.5 {
-            [near; 2]
-        } else {
-            [far; 2]
-        }
+        let until = near + self.plateau.to_f64() / WHOLE as f64;
+        let beyond = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+        let far = if until < 0.5 { until } else { beyond };
+        [if self.has_plateau() { near } else { far }, far]
     }
 
     /// The same, but 1/2 within a [`trace`](Self::trace) of that.
@@ -132,7 +128,7 @@ impl Exposure {
         [traced(near, self.trace()), traced(far, self.trace())]
     }
 
-    /// The same from side 0 in units of 2⁻⁶⁴, to 2⁻⁴⁶; the greatest is all ones.
+    /// The same from side 0 in units of 2⁻⁶⁴, to 2⁻⁵⁵ and 2⁻⁴⁵ of the lesser part; the greatest is all ones.
     pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {
@@ -146,13 +142,14 @@ impl Exposure {
             let words = ((upper as u64) << 32).wrapping_add(rest as u64);
             if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }
         }
-        let [near, far] = [&self.ramps[0], &self.ramps[1]];
-        let near = words(near.share, self.trace());
-        if !self.has_plateau() && near < 1 << 63 {
-            return [near; 2];
-        }
-        let beyond = words(far.share, self.trace());
-        [near, (!beyond).saturating_add(1)]
+        let [near, far] = [self.ramps[0].share, self.ramps[1].share];
+        let until = near.plus(self.plateau);
+        let far = if until.hi < 0.5 * WHOLE {
+            words(until, self.trace())
+        } else {
+            (!words(far, self.trace())).saturating_add(1)
+        };
+        [if self.has_plateau() { words(near, self.trace()) } else { far }, far]
     }
 
     pub(crate) const fn has_plateau(&self) -> bool {

@@ -252,8 +252,25 @@ impl Side<'_> {
         let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
-        let c = span.interpolated(&stretch);
+        let Some(served) = self.served(span, &stretch) else { return Octave::NONE };
+        let mut is_certain = certain(&self.certificate(&served, span, stretch, ramp, places));
+        // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
+        // what is beyond the join, too.
+        let join = self.exposure.exact_joins(self.side)[0];
+        if ramp == self.side && !self.exposure.has_plateau() && span.to >= 0.5 && join < 0.5 {
+            let path = self.path(ramp ^ 1);
+            let places = [0.0, path.place(ends[1], true)];
+            let stretch = span.counted(path.stretch(places));
+            let beyond = self.certificate(&served, span, stretch, ramp ^ 1, places);
+            is_certain = is_certain && certain(&beyond);
+        }
+        if is_certain { served.octave } else { Octave::NONE }
+    }
 
+    /// The polynomial along a stretch, in the unit in which its coefficients fill their words.
+    #[inline(always)]
+    const fn served(&self, span: &Span, stretch: &Path) -> Option<Served> {
+        let c = span.interpolated(stretch);
         // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
@@ -266,12 +283,12 @@ impl Side<'_> {
         steep = steep * reach + bound;
         most *= 1.0 + 1.0 / (1 << 16) as f32;
         if !(most > 0.0 && most < f32::MAX) {
-            return Octave::NONE;
+            return None;
         }
         let exponent = exponent(most) - 30;
         let exponent = if exponent < self.unit { self.unit } else { exponent };
         if exponent - self.unit > 30 {
-            return Octave::NONE;
+            return None;
         }
         let (unit, per_unit) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
         let factor = 1 << (exponent - self.unit);
@@ -285,25 +302,13 @@ impl Side<'_> {
         let start = fixed(self.exposure.start(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        let served = Served {
+        Some(Served {
             octave,
             middle: middle as f64 * power_of_two_f64(self.unit),
             unit,
             steep: steep * per_unit as f32,
             truncated: TRUNCATION + 1.0 / factor as f32,
-        };
-        let mut is_certain = certain(&self.certificate(&served, span, stretch, ramp, places));
-        // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
-        // what is beyond the join, too.
-        let join = self.exposure.exact_joins(self.side)[0];
-        if ramp == self.side && !self.exposure.has_plateau() && span.to >= 0.5 && join < 0.5 {
-            let path = self.path(ramp ^ 1);
-            let places = [0.0, path.place(ends[1], true)];
-            let stretch = span.counted(path.stretch(places));
-            let beyond = self.certificate(&served, span, stretch, ramp ^ 1, places);
-            is_certain = is_certain && certain(&beyond);
-        }
-        if is_certain { octave } else { Octave::NONE }
+        })
     }
 
     /// Bounds of a polynomial's errors along a stretch of a ramp between two places, in what they may be at most.
@@ -475,22 +480,4 @@ const fn round(x: f64) -> i32 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
-    fn chebyshev(x: f64) -> f64 {
-        let (mut last, mut value) = (1.0, x);
-        for _ in 0..DEGREE {
-            (last, value) = (value, 2.0 * x * value - last);
-        }
-        value
-    }
-
-    /// The nodes are its roots.
-    #[test]
-    fn nodes_are_those_of_chebyshev() {
-        assert!(NODES.iter().all(|node| chebyshev(f64::from(*node)).abs() < 1e-5));
-        assert!(NODES.is_sorted_by(|a, b| a < b));
-    }
-}
+mod tests;

@@ -23,7 +23,7 @@
 //!
 //! The README has the promised accuracy, the cost on a microcontroller, the features and the limits.
 
-#![no_std]
+#![cfg_attr(not(test), no_std)]
 // docs.rs says of each item which feature it needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
@@ -64,6 +64,13 @@ pub use pulse::PulseTicks;
 pub use schedule::{TriggerTicks, TriggerTimes};
 pub use shutter::ShutterCurve;
 pub use solve::MAX_EVALUATIONS;
+
+/// The oracle and the curves of the integration tests, for tests of what is not public.
+#[cfg(test)]
+#[path = "../tests/support/mod.rs"]
+mod support;
+#[cfg(test)]
+extern crate self as shutter_curve;
 
 /// The README's code, compiled.
 #[cfg(doctest)]

@@ -317,7 +317,7 @@ impl<const CELLS: usize> Plan<CELLS> {
 }
 
 /// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².
-const fn unit_for(start: f32, end: f32) -> i32 {
+pub(crate) const fn unit_for(start: f32, end: f32) -> i32 {
     let (start, end) = (start as f64, end as f64);
     let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
     let most = if end - start > most { end - start } else { most };

@@ -12,7 +12,7 @@ use super::curves::{Rng, is_valid};
 use super::oracle::{Curve, Dd, Exact, exp2, ulp_f32};
 
 /// In ulp of u.
-pub const BACKWARD: f64 = 1.0;
+pub const BACKWARD: f64 = 0.5;
 /// On typical curves, in ulp of the time.
 pub const FORWARD: f64 = 0.69;
 /// Of `cdf`, `opening` and `pdf`, in ulp at some time within an ulp of the one asked for.

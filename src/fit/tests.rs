@@ -1,0 +1,163 @@
+//! How octaves are fitted: the nodes, and that a certificate is never below the truth.
+
+use super::*;
+use crate::bezier::CubicBezier;
+use crate::error::Ramp;
+use crate::octave::top;
+use crate::plan::unit_for;
+use crate::support::aimed::{FAMILIES, aimed};
+use crate::support::curves::{Rng, named, random_hard, random_typical};
+use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
+
+/// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
+fn chebyshev(x: f64) -> f64 {
+    let (mut last, mut value) = (1.0, x);
+    for _ in 0..DEGREE {
+        (last, value) = (value, 2.0 * x * value - last);
+    }
+    value
+}
+
+/// The nodes are its roots.
+#[test]
+fn nodes_are_those_of_chebyshev() {
+    assert!(NODES.iter().all(|node| chebyshev(f64::from(*node)).abs() < 1e-5));
+    assert!(NODES.is_sorted_by(|a, b| a < b));
+}
+
+/// The greatest share of a bound that the truth comes to: for a tick, relative to the time, and in light.
+#[derive(Debug, Default)]
+struct Truth {
+    octaves: usize,
+    greatest: [f64; 3],
+}
+
+impl Truth {
+    /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
+    fn judge<const CELLS: usize>(&mut self, curve: &Curve, samples: u32) {
+        let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
+        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1], Ramp::Opening, f64::INFINITY) else {
+            return;
+        };
+        let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
+        let (exact, unit) = (Exact::new(curve), unit_for(exposure.start(0), exposure.start(1)));
+        for side in 0..2 {
+            let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
+            let mut octaves = [Octave::NONE; CELLS];
+            let tops = fit(&exposure, &shapes, unit, side, &mut octaves);
+            for ramp in 0..2 {
+                let (range, path) = (range(&exposure, side, ramp), this.path(ramp));
+                for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
+                    if let Some(span) = Span::new(range, below(top(tops[ramp]), index)) {
+                        self.octaves += 1;
+                        this.judge(octave, ramp, &path, &span, &exact, samples, &mut self.greatest);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Side<'_> {
+    #[allow(clippy::too_many_arguments)]
+    fn judge(
+        &self,
+        octave: &Octave,
+        ramp: usize,
+        path: &Path,
+        span: &Span,
+        exact: &Exact,
+        samples: u32,
+        greatest: &mut [f64; 3],
+    ) {
+        let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
+        let places = [path.place(ends[0], false), path.place(ends[1], true)];
+        let stretch = span.counted(path.stretch(places));
+        let served = self.served(span, &stretch).expect("it was fitted");
+        assert_eq!(served.octave, *octave);
+        let bounds = self.certificate(&served, span, stretch, ramp, places).map(f64::from);
+        let interval = f64::from(self.exposure.start(1)) - f64::from(self.exposure.start(0));
+        let start = fixed(self.exposure.start(self.side), self.unit);
+        let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
+        let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
+        // The span itself rounds its end.
+        let end = range(self.exposure, self.side, ramp)[1].min(f64::from(span.to));
+        for i in 0..=samples {
+            // Evenly, and so also next to both ends.
+            let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
+            for (a, is_single) in [(a, false), (f64::from(a as f32), true)] {
+                if a < span.from || a > end {
+                    continue;
+                }
+                // As a look-up has it: the significand of 32 bits, less 2³² in the lower binade.
+                let doubled = ((a / f64::from(span.octave) - 1.0) * f64::from(WORD)).floor() as i64;
+                let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
+                let time = octave.time(octave.offset(position)) - start;
+                let elapsed = time as f64 * power_of_two_f64(self.unit);
+                let served =
+                    Dd::from(f64::from(self.exposure.start(self.side))) + Dd::from(elapsed);
+                let u = if self.side == 0 { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
+                // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
+                let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
+                let off = (early - served).max(served - late).hi.max(0.0);
+                let mut share = [0.0; 3];
+                share[0] = off / (f64::from(TICK_ERROR) * interval) / bounds[0];
+                if is_single {
+                    let size = f64::from(self.exposure.size_of_time(self.side, elapsed.abs()));
+                    share[1] = off / (f64::from(FORWARD_ERROR) * size) / bounds[1];
+                    // Counted from the side, so that no bits are lost next to the later end.
+                    let light = if self.side == 0 {
+                        exact.cdf_dd(served) - u
+                    } else {
+                        exact.complement_dd(served) - Dd::from(a)
+                    };
+                    share[2] = light.hi.abs() / error_in_u / bounds[2].max(bounds[3]);
+                }
+                for (greatest, share) in greatest.iter_mut().zip(share) {
+                    assert!(share <= 1.0, "{share} of {bounds:?} at {a:e}: {:?}", exact.curve());
+                    *greatest = greatest.max(share);
+                }
+            }
+        }
+    }
+}
+
+/// A certificate is never below the truth: on typical curves, hard ones, and those that are aimed at a difficulty.
+/// `OCTAVES=30` before the command judges 30 times as many octaves, some 300 000.
+#[test]
+fn a_certificate_is_never_below_the_truth() {
+    let times = std::env::var("OCTAVES").map_or(1, |times| times.parse().expect("a number"));
+    let mut all = 0;
+    let mut judge = |name: &str, curves: &mut dyn Iterator<Item = Curve>| {
+        let mut truth = Truth::default();
+        for (i, curve) in curves.enumerate() {
+            match i % 8 {
+                0 => truth.judge::<32>(&curve, 33),
+                1 => truth.judge::<2>(&curve, 257),
+                _ => truth.judge::<8>(&curve, 65),
+            }
+        }
+        std::println!("{name}: {truth:?}");
+        all += truth.octaves;
+    };
+    judge("named", &mut named().into_iter().map(|named| named.curve));
+    judge("typical", &mut (0..200 * times).map(|i| random_typical(31, i)));
+    judge("hard", &mut (0..200 * times).map(|i| random_hard(31, i)));
+    // Joins so near to time 0 that a share of nearly all has too few bits to tell them.
+    let least = |i| {
+        let mut rng = Rng::new(31, i);
+        let [open, close, end] =
+            [-9.0, -9.0, 1.0].map(|most| rng.power_of_ten(most - 3.0, most) as f32);
+        let dim = rng.unit() as f32;
+        let [opening, closing] = [(open, [0.0, 0.0, dim, dim]), (end, [1.0, dim, 0.0, 0.0])];
+        let thirds = |start: f32, (length, f): (f32, [f32; 4])| {
+            std::array::from_fn(|k| (start + length * k as f32 / 3.0, f[k]))
+        };
+        Curve::shutter(thirds(-open, opening).map(|(t, f)| (t.min(0.0), f)), thirds(close, closing))
+    };
+    judge("least shares", &mut (0..25 * times).map(least));
+    for (family, (name, ..)) in FAMILIES.iter().enumerate() {
+        judge(name, &mut (0..25 * times).map(|i| aimed(family, 31, i)));
+    }
+    assert!(all > 10_000, "only {all} octaves");
+}
