@@ -228,18 +228,29 @@ on_path = terms * roundings * LAST_PLACE
 require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
 proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
 
-# Joins. A share is a double as a pair of f32, so its sum is a double again: 1 less that is rounded by half of 2^-53 at most, if
-# it is at least 1/2. And the pair is within 2^-50 of what it stands for, below 1.
+# Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
+# (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
+code("exposure.rs", "let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """
+    let until = near + self.plateau.to_f64() / WHOLE as f64;
+    let beyond = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+    let far = if until < 0.5 { until } else { beyond };
+    [if self.has_plateau() { near } else { far }, far]""")
+PAIR = Fraction(1, 2**49)
+
+
+def joins_hold(off0, off1, least_part=True):
+    """Is a join within OFF? A part has its pair's rounding, and three of a double; so has the sum."""
+    part = PAIR + 6 * LAST_PLACE
+    if not least_part:
+        # By 1 less a share of nearly all, wherever the join is.
+        return part <= off0
+    half = Fraction(1, 2)
+    return part <= off1 and part * half + LAST_PLACE / 2 <= off0 + off1 * half
+
+
+require(joins_hold(off0, off1) and not joins_hold(off0, PAIR) and not joins_hold(off0, off1, least_part=False), "joins")
 require(LAST_PLACE / 2 <= off0 and LAST_PLACE > off0, "OFF[0]")
-proven(f"1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g}, at most OFF[0] = 2^{log2(off0):g}")
-code("exposure.rs", "let far = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;", """if self.has_plateau() { [near, far] }
-    else if near < 0.5 { [near; 2] } else { [far; 2] }""")
-pair = Fraction(1, 2**50)
-ulp_error = Fraction(source("fit.rs", r"const ULP_ERROR: f32 = (0\.\d+);"))
-least = next(k for k in range(60) if off0 + off1 / 2**k < pair) - 1
-close = next(k for k in range(60) if ulp_error + pair * 2 ** (k + 23) >= Fraction(1, 2)) - 1
-open_point(f"beyond a plateau the far ramp's fractions begin at 1 less a share, whose pair is rounded by 2^-50: that is within OFF down to 2^-{least}, "
-           f"and the error in u stays below 1/2 ulp down to 2^-{close}; in octaves below, it is not proven, and 0.56 ulp have been seen")
+proven(f"what rounds joins, given the ramps' masses, is within OFF wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = OFF[0]")
 
 # --- `Limits::share`: how far a stretch goes in which so much time passes.
 code("fit.rs", "let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());

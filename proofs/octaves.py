@@ -35,7 +35,7 @@ code("fit.rs", "let reach = span.half / span.width + 0.01;", """let (mut bound, 
     while k > 0 && k <= DEGREE { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
     most = if bound > most { bound } else { most }; k = unknown(k - 1); }
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
-    if !(most > 0.0 && most < f32::MAX) { return Octave::NONE; }
+    if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
 code("fit.rs", "octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
 code("plan.rs", "fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
@@ -323,13 +323,19 @@ def words_error(hi_bits):
 worst = max(words_error(n) for n in range(1, 33))
 require(worst <= Fraction(2**9) + 2**9 and worst / 2**64 < Fraction(1, 2**54), "a share in words")
 require(2**7 * 2**23 < 2**31, "what is behind the point fits 32 bits")
-double = Fraction(1, 2**54)  # 1 less a share, and a share above 1/2, as doubles
-DISTANCE = worst / 2**64 + double
+# Each join is told by the lesser part. In words that is a sum of pairs, to 2^-46 (pairs.py), and in doubles one to 2^-53; or 1 less
+# a share, from 1/2 on, where the rounding of shares to pairs, 2^-49 each, and of 1 less it, 2^-54, may count, too.
+code("exposure.rs", "let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let until = near.plus(self.plateau);
+    let far = if until.hi < 0.5 * WHOLE { words(until, self.trace()) } else { (!words(far, self.trace())).saturating_add(1) };
+    [if self.has_plateau() { words(near, self.trace()) } else { far }, far]""")
+CUT = worst / 2**64
+SHARE = Fraction(1, 2**46) + Fraction(1, 2**53)
+BY_HALF = CUT + SHARE / 2 + 3 * Fraction(1, 2**49) + 2 * Fraction(1, 2**54)
 off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(
     "fit.rs", r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
-covered = next(k for k in range(1, 64) if DISTANCE > off0 + off1 / 2 ** (k + 1))
-require(DISTANCE < 2 * double and DISTANCE > double and 10 < covered < 30, "joins")
-proven(f"the joins in words are within 2^{log2(DISTANCE):.2f} of those in doubles: OFF covers that from 2^-{covered} on")
+covers = lambda off0, off1: CUT <= off0 and SHARE <= off1 and BY_HALF <= off0 + off1 / 2
+require(covers(off0, off1) and not covers(off0 / 2, off1) and not covers(off0, SHARE / 2), "joins")
+proven(f"the joins in words are within 2^{log2(CUT):.2f} and 2^{log2(SHARE):.2f} of the lesser part of those in doubles, which OFF covers")
 
 # A top is at or above the end of its ramp, in words, too: those are cut to a multiple of 2^-55, and a top is one.
 end, steps = BitVec("end", 32), BitVec("steps", 32)
