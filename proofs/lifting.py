@@ -18,20 +18,10 @@ greatest where each of them is 0 or 1.
 """
 
 import itertools
-import re
-import sys
 from fractions import Fraction as F
-from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parent.parent / "src"
-
-
-def read(file, pattern):
-    found = re.findall(pattern, (SOURCE / file).read_text())
-    if len(found) != 1:
-        sys.exit(f"{file}: {len(found)} times {pattern}")
-    return found[0]
-
+from common import proven, require
+from common import source as read
 
 GRAZE = F(1, 1 << int(read("bezier.rs", r"const GRAZE: f64 = 1\.0 / \(1 << (\d+)\) as f64;")))
 read("bezier.rs", r"quadratic_min\(differences\(t\)\)\.0 < -GRAZE / 3\.0 \* \(t\[3\] - t\[0\]\)")
@@ -43,13 +33,11 @@ read("cubic.rs", r"if 2\.0 \* end < high \{ high \} else \{ end \}")
 # More than what rounding in f64 makes of any of this, relative to it.
 ROUNDING = F(1, 1 << 45)
 
-failed = False
 
 
 def claim(text, holds):
-    global failed
-    failed |= not holds
-    print(f"{'holds' if holds else 'FAILS'}: {text}")
+    require(holds, text)
+    proven(text)
 
 
 def halves(b):
@@ -177,4 +165,3 @@ claim(
     is_pressed_within(OPENNESS - F(1, 1000)),
 )
 claim("... which these two steps cannot show of 1.868", not is_pressed_within(F(1868, 1000)))
-sys.exit(failed)

@@ -5,7 +5,9 @@ from solver import *
 
 
 code("octave.rs", "pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead = position & !(position >> 31);
-    let x = position.wrapping_add(ahead).wrapping_sub(self.center as i32); x << (self.center & FINER) }""")
+    self.ahead_of_center(position.wrapping_add(ahead)) }""")
+code("octave.rs", "pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
+    doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
 code("plan.rs", "let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
     Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))""")
 code("plan.rs", "let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
@@ -15,8 +17,38 @@ code("plan.rs", "let zeros = high.leading_zeros();", """let significand = high <
     let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
     let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
     let position = significand as i32 | below & i32::MIN;""")
-code("fit.rs", "const fn center(&self) -> u64 {", """let octave = self.width * (1 << self.finer) as f64;
-    (self.middle / octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
+code("fit.rs", "const fn center(&self) -> u64 {", """(self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
+code("fit.rs", "pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
+    let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
+    let to = if range[1] < high as f64 { range[1] } else { high as f64 };
+    if top < LEAST || from >= to { return None; }
+    let to = to as f32; let octave = power_of_two(exponent(high));
+    let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave; let middle = 0.5 * (from as f32 + to);
+    let (mut width, mut finer) = (octave, 0);
+    while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
+code("fit.rs", "const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
+    let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
+    let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
+    let beyond = top.wrapping_sub(floor_bits(from));
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }""")
+code("fit.rs", "let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
+    while k > 0 && k <= DEGREE { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
+    most = if bound > most { bound } else { most }; k = unknown(k - 1); }
+    steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
+    if !(most > 0.0 && most < f32::MAX) { return None; }
+    let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
+code("fit.rs", "octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
+code("plan.rs", "fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
+    let is_late = bits as i32 > 0.5f32.to_bits() as i32;
+    (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
+code("plan.rs", "let before_last = self.before_last(u.to_bits());", """if before_last < self.plateau[1] { return self.by_line(u.to_bits()); }
+    let (side, bits) = Self::nearer(u); match self.octave(side, before_last >> 31, bits) {""")
+code("plan.rs", "let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
+    return Some(self.on_line((u >> 32) as u32)); } let side = (u > 1 << 63) as usize;
+    let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
+code("plan.rs", "pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, last] = self.exposure.joins_u64();
+    let before = near.max(1 << 55);
+    PlateauU64 { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) }, } }""")
 
 FINER = int(source("octave.rs", r"const FINER: u32 = (\d+);"))
 STEP = 1 << int(source("octave.rs", r"const STEP: u32 = 1 << (\d+);"))
@@ -78,31 +110,116 @@ valid(
     leads_to(BitVecVal(-2 * word, 64), BitVecVal(word - 1, 64)),
 )
 
-# Does it fit? A part has `half` of at most `share` of the width after the last halving, for the loop halves while
-# half <= limit * width; without a halving it is at most a quarter of a top that is less than twice the width, by a step.
-# The center is rounded down by less than one and has `finer` for its lowest five bits: it is wrong by at most FINER.
-name, limit = source("fit.rs", r"while finer < (\w+) && half <= (0\.\d+) \* width \{")
-greatest_shift = int(name) if name.isdigit() else int(re.search(
-    rf"const {name}: u32 = (\d+);", "".join((SRC / file).read_text() for file in ("fit.rs", "octave.rs"))).group(1))
+# Does it fit? All of this in 2^-32 of the octave's power of two. A part has f32 for its ends, and `half` is half its length and
+# 4 EPSILON. It is exact unless it is above a quarter. The loop halves while half <= FILLED width, so after the last halving it is
+# at most 2 FILLED of the width; without one it is at most a quarter of a top that is less than twice the width, by a step, and 4 EPSILON.
+# The middle is off by the rounding of the sum of the ends, the center by what its lowest bits come to.
+FILLED = Fraction(source("fit.rs", r"const FILLED: f32 = (0\.\d+);"))
+MOST_FINER = int(source("fit.rs", r"const MOST_FINER: u32 = (\d+);"))
+REACH = Fraction(source("fit.rs", r"let reach = span\.half / span\.width \+ (0\.\d+);"))
+EPSILONS = int(source("fit.rs", r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* octave;"))
+WORD = 2**32
+EPSILON = WORD // 2**23
+MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
+LOW_BITS = FINER
+# A served fraction is within half of EPSILON of the f32 between which the part is.
+SERVED = EPSILON // 2
 
 
-def margin(limit, finer, wrong=FINER + 1):
-    """How many 2^-32 of an octave a part's fractions may be beyond its ends."""
-    top = 2 - Fraction(STEP, 1 << 23)
-    share = max(2 * limit, top / 4 if finer == 0 else Fraction(0))
-    return (Fraction(1, 2) - share) * Fraction(2**32, 2**finer) - wrong
+def most_filled(filled, finer):
+    """The greatest half, in the width's 2^-32."""
+    whole = (2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON
+    return max(2 * filled * WORD, whole if finer == 0 else 0) * (1 + 2 * U)
 
 
-require(all(margin(Fraction("0.24"), finer) > 49 for finer in range(21)), "0.24 and 20 fit")
-require(margin(Fraction("0.25"), 1) < 0 and margin(Fraction("0.24"), 22) < 0, "0.25, or a shift of 22, does not fit")
-proven("with halves of at most 0.24 of the width and shifts up to 20 it fits, and so do 49 * 2^-32 of the octave beyond either end")
-claim = f"src/fit.rs halves where half <= {limit} width and shifts by at most {greatest_shift}: the offset fits the word"
-if all(margin(Fraction(limit), finer) > 0 for finer in range(greatest_shift + 1)):
-    proven(claim)
-    fits = True
-else:
-    print(f"FAILED  octaves: {claim}", flush=True)
-    fits = False
+def served_fits(filled, extension=EPSILONS):
+    """Is the offset of each served fraction at most the half, and does that fit the word?"""
+    return extension * EPSILON >= SERVED + MIDDLE + LOW_BITS and most_filled(filled, 0) < WORD / 2
+
+
+require(served_fits(FILLED) and not served_fits(Fraction(1, 4)) and not served_fits(FILLED, 1), "served")
+proven(f"the offset of each fraction that a part serves is within its half and fits the word, for FILLED = {float(FILLED)} and any shift; with 0.25, or a half of one EPSILON more than the part, not so")
+
+
+def beyond_fits(filled, finer):
+    """The same for fractions up to 4 EPSILON beyond the part."""
+    return most_filled(filled, finer) + (MIDDLE + LOW_BITS) * 2**finer < WORD / 2
+
+
+def reach_holds(finer):
+    return (MIDDLE + LOW_BITS) * 2**finer <= REACH * WORD
+
+
+far = max(finer for finer in range(32) if beyond_fits(FILLED, finer))
+within = max(finer for finer in range(32) if reach_holds(finer))
+
+
+# Finer parts are of some ulp: all of them, by the ulp of their binade.
+def parts(ulp, lengths):
+    for n in lengths:
+        for odd in (0, 1):
+            for base in (WORD // 2 if ulp < EPSILON else WORD, WORD * 3 // 2 if ulp == EPSILON else WORD * 3 // 4):
+                first = base + odd * ulp
+                if first + n * ulp <= (WORD if ulp < EPSILON else 2 * WORD):
+                    yield first, first + n * ulp
+
+
+def single(x):
+    """An integer below 2^34, as a sum of two f32 is rounded, to even."""
+    unit = max(1, 1 << (x.bit_length() - 24))
+    low, rest = x // unit, x % unit
+    return (low + (2 * rest > unit or 2 * rest == unit and low % 2 == 1)) * unit
+
+
+def small(ulp, lengths):
+    """By how much offsets go beyond the word and beyond the half, at most, as shares of the width; and the finest shift."""
+    beyond, over, finest = Fraction(-1), Fraction(-1), 0
+    for first, last in parts(ulp, lengths):
+        half = Fraction(last - first, 2) + EPSILONS * EPSILON
+        finer = 0
+        while finer < MOST_FINER and half <= FILLED * WORD / 2**finer:
+            finer += 1
+        if finer <= min(far, within):
+            continue
+        middle = single(first + last) // 2
+        center = middle & ~FINER | finer
+        edges = [first - EPSILONS * EPSILON - center, last + EPSILONS * EPSILON - center]
+        beyond = max(beyond, *(Fraction(abs(edge) * 2**finer, WORD) - Fraction(1, 2) for edge in edges))
+        over = max(over, *(Fraction(abs(edge) * 2**finer, WORD) - half * 2**finer / WORD for edge in edges))
+        finest = max(finest, finer)
+    return beyond, over, finest
+
+
+lower, upper = small(EPSILON // 2, range(1, 200)), small(EPSILON, range(16, 200))
+shortest = small(EPSILON, range(1, 16))
+require(lower[0] < 0 and upper[0] < 0 and shortest[0] > 0, "fractions beyond a part fit the word")
+require(max(lower[2], upper[2], shortest[2]) < MOST_FINER, "the finest shift is not reached")
+proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond: with shifts up to {far} by this, with {far + 1} to {max(lower[2], shortest[2])} in each part of the lower binade and each of 16 ulp or more; of 7 ulp in the upper one they do not")
+# Parts in the upper binade begin where a range does, since half a top is in the lower one; and tops keep 16 ulp from there.
+bits, top = BitVecs("bits top", 32)
+raised = If(ULT((top - bits + 16) & 0x7FFFFF, 32), top + STEP, top)
+valid(
+    "stretched: a range that begins above 0 begins 16 ulp or more below each octave's end, or above it",
+    Implies(And(ULT(top, 128 << 23), ULT(bits, 128 << 23)), And(UGE((raised - bits) & 0x7FFFFF, 16), UGE((bits - raised) & 0x7FFFFF, 16))),
+    Implies(And(ULT(top, 128 << 23), ULT(bits, 128 << 23)), UGE((raised - bits) & 0x7FFFFF, 17)),
+)
+
+# Horner's sums. With |x| within the reach, each is at most the bound of the exact one, half a unit for each coefficient's rounding
+# and one for each product's, and the bound is computed with up to three roundings a step.
+DEGREE = int(source("octave.rs", r"pub\(crate\) const DEGREE: usize = (\d+);"))
+GUARD = 1 / Fraction(2 ** int(source("fit.rs", r"most \*= 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
+
+
+def sums_fit(guard, per_step=Fraction(3, 2)):
+    greatest = 2**31 / ((1 + guard) * (1 - U) ** (3 * DEGREE + 3))
+    reach = 2 * FILLED + REACH
+    return greatest + sum(per_step * reach**k for k in range(DEGREE)) < 2**31
+
+
+require(reach_holds(within) and sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
+proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a part serves, and {EPSILONS} EPSILON beyond with shifts up to {within}")
+require(max(lower[1], upper[1]) > REACH, "the reach covers finer shifts, too: say so")
+open_point(f"with shifts of {within + 1} and more, so in parts of some 30 ulp, fractions {EPSILONS} EPSILON beyond may exceed the reach, by {float(max(lower[1], upper[1]) - REACH):.4f}: there only samples are")
 
 # The look-up by u64 agrees with the one by f32, for fractions that are f32, from 2^-32 to 1/2.
 byte = BitVec("byte", 8)
@@ -139,33 +256,142 @@ solver.add(Not(agree(3, borrow=False)))
 require(solver.check() == sat, "the look-ups agree without a borrow")
 proven("the look-ups by f32 and by u64 find the same octave and position, for each f32 from 2^-32 to 1 and each top")
 # The index by u64 is then as for 2^-33: with 32 zeros, and one less where something is borrowed.
+top = (ZeroExt(24, byte) + LEAST // STEP) * STEP
 valid(
-    "below 2^-32 both find an index beyond the octave of the least top",
+    "below 2^-32 both find an index beyond the octave of the least top, which has no polynomial",
     Implies(And(ULT(bits, 95 << 23), ULT(LEAST - 1, top)), And(
         UGT(by_f32[0], LShR(top, 23) - LEAST_EXPONENT),
         UGT(LShR(top, 23) + 32 - 1 - 126, LShR(top, 23) - LEAST_EXPONENT),
     )),
+    Implies(And(ULT(bits, 95 << 23), ULT(LEAST - 1, top)), UGT(LShR(top, 23) + 32 - 1 - 126, LShR(top, 23) - LEAST_EXPONENT + 5)),
+)
+# u = 0 stands for 1: not on the line, and beyond all octaves.
+near, last = BitVecs("near last", 64)
+
+
+def on_line(u, least=1 << 55):
+    before = If(UGT(near, least), near, BitVecVal(least, 64))
+    return ULT(last - u, If(UGT(last, before), last - before, BitVecVal(0, 64)))
+
+
+zero = BitVecVal(0, 64)
+nothing = And(a == 0, ULT(LEAST - 1, top))
+valid(
+    "u = 0 in 64 bits, which stands for 1, is not on the plateau's line and finds no polynomial",
+    And(Not(on_line(zero)), Implies(nothing, UGT(by_u64(32)[0], LShR(top, 23) - LEAST_EXPONENT))),
+    Implies(nothing, UGT(by_u64(32)[0], LShR(top, 23) - LEAST_EXPONENT + 5)),
+    Not(on_line(BitVecVal(1 << 60, 64))),
 )
 
-# Horner's rule: each product is rounded down. `e` is what has been lost so far.
-DEGREE = int(source("octave.rs", r"pub\(crate\) const DEGREE: usize = (\d+);"))
+# Side and ramp. u is an f32 in [2^-32, 1), and in 2^-64 an integer. 1 - u is exact for u > 1/2.
+u = BitVec("u", 32)
+exponent, fits = LShR(u, 23), And(UGE(u, 95 << 23), ULT(u, 127 << 23))
+word = LShR(ZeroExt(32, (u & 0x7FFFFF) | (1 << 23)) << 40, ZeroExt(32, 126 - exponent))
+late = FPVal(1, Float32()) - fpBVToFP(u, Float32())
+late = fpToIEEEBV(late)
+late_word = LShR(ZeroExt(32, (late & 0x7FFFFF) | (1 << 23)) << 40, ZeroExt(32, 126 - LShR(late, 23)))
+valid(
+    "the look-ups agree in the side, and 1 - u by f32 is 2^64 - u by integers, for each f32 from 2^-32 to 1",
+    Implies(fits, And((u > 126 << 23) == UGT(word, 1 << 63), Implies(UGT(word, 1 << 63), late_word == -word))),
+    Implies(fits, (u > 126 << 23) == UGE(word, 1 << 63)),
+)
+# The ramp: beyond the last u before the far join. By f32 that is the greatest f32 at or below the join as a double; by u64 the
+# join in words. Where these are within some distance, a u that is looked up on different ramps is within as much of the join.
+v, join, floor, words, apart = Reals("v join floor words apart")
+consistent = And(floor <= join, Or(v <= floor, v > join), words - join <= apart, join - words <= apart)
+valid(
+    "they agree in the ramp, but for u between the two joins",
+    Implies(And(consistent, (v > floor) != (v > words)), And(v - join <= apart, join - v <= apart)),
+    Implies(And(consistent, (v > floor) != (v > words)), v == join),
+    Implies(And(floor <= join, words - join <= apart, join - words <= apart, (v > floor) != (v > words)), And(v - join <= apart, join - v <= apart)),
+)
+
+# The joins. A share is a pair hi + lo of at most 48 bits, here in 2^-32; its words are cut to 2^-55.
+code("exposure.rs", "let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));", """let upper = x.hi as u32;
+    let rest = (x.hi - upper as f32) + x.lo; let rest = ((rest * power_of_two(23)) as i32 as i64) << 9;
+    let words = ((upper as u64) << 32).wrapping_add(rest as u64);
+    if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }""")
 
 
-def horner(least, most):
+def words_error(hi_bits):
+    """In 2^-64, for 2^(n-1) <= hi < 2^n: one unit of the cut, and the rounding of what is behind the point."""
+    rest = Fraction(0) if hi_bits > 24 else (1 + Fraction(1, 2)) * U
+    # The sum of a fraction of hi, below 1, and lo, at most half an ulp of hi.
+    return 2**9 + rest * 2**32
+
+
+worst = max(words_error(n) for n in range(1, 33))
+require(worst <= Fraction(2**9) + 2**9 and worst / 2**64 < Fraction(1, 2**54), "a share in words")
+require(2**7 * 2**23 < 2**31, "what is behind the point fits 32 bits")
+# Each join is told by the lesser part. In words that is a sum of pairs, to 2^-46 (pairs.py), and in doubles one to 2^-53; or 1 less
+# a share, from 1/2 on, where the rounding of shares to pairs, 2^-49 each, and of 1 less it, 2^-54, may count, too.
+code("exposure.rs", "let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let until = near.plus(self.plateau);
+    let far = if until.hi < 0.5 * WHOLE { words(until, self.trace()) } else { (!words(far, self.trace())).saturating_add(1) };
+    [if self.has_plateau() { words(near, self.trace()) } else { far }, far]""")
+CUT = worst / 2**64
+SHARE = Fraction(1, 2**46) + Fraction(1, 2**53)
+BY_HALF = CUT + SHARE / 2 + 3 * Fraction(1, 2**49) + 2 * Fraction(1, 2**54)
+off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(
+    "fit.rs", r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
+covers = lambda off0, off1: CUT <= off0 and SHARE <= off1 and BY_HALF <= off0 + off1 / 2
+require(covers(off0, off1) and not covers(off0 / 2, off1) and not covers(off0, SHARE / 2), "joins")
+proven(f"the joins in words are within 2^{log2(CUT):.2f} and 2^{log2(SHARE):.2f} of the lesser part of those in doubles, which OFF covers")
+
+# A top is at or above the end of its ramp, in words, too: those are cut to a multiple of 2^-55, and a top is one.
+end, steps = BitVec("end", 32), BitVec("steps", 32)
+
+
+def top_of(end):
+    return UDiv(end + STEP - 1, BitVecVal(STEP, 32)) * STEP
+
+
+valid(
+    "stretched: a top is at or above the end of its ramp, so that no fraction of the ramp is looked up above its octaves",
+    Implies(ULT(end, 127 << 23), And(UGE(top_of(end), end), ULT(top_of(end) - end, STEP))),
+    Implies(ULT(end, 127 << 23), UGE(UDiv(end, BitVecVal(STEP, 32)) * STEP, end)),
+)
+# In 64 bits: for a fraction at or below the top, or above it by less than the last of 32 bits, the index is that of the ramp's
+# first octave or beyond. Without the step up where the join is above the f32 at or below it, the top may be that f32, and a
+# fraction between the two be found an octave above.
+a = BitVec("a", 64)
+for zeros in range(1, 28):
+    here = And(LShR(a, 63 - zeros) == 1, ULT(top, 127 << 23))
+    # The top in 2^-64: its significand, and the exponent that it has above 2^-64.
+    wide = ZeroExt(32, (top & 0x7FFFFF) | (1 << 23)) << ZeroExt(32, LShR(top, 23) - 63 - 23)
+    index = by_u64(zeros)[0]
+    for slack, expected in (((1 << (32 - zeros)) - 1, unsat), (1 << (32 - zeros), sat)):
+        solver = Solver()
+        solver.add(here, ULE(a, wide + slack), index >> 31 == -1)
+        require(solver.check() == expected, f"below the top: {zeros}, {slack}")
+proven("by u64, a fraction at or below a ramp's top finds the ramp's first octave or one below it, never one of the far ramp's; one that is above it by a unit of 32 bits does not")
+unit = min(Fraction(2) ** (LEAST_EXPONENT - 127 - 3), Fraction(1))
+require((unit * 2**55).denominator == 1, "tops are multiples of 2^-55")
+proven("a join in words is not above a top that it is not above as a double: both ways to cut it keep a multiple of 2^-55, as tops are")
+
+# Horner's rule: each product is rounded down. `e` is what has been lost so far. The least x, -1/2, is never reached.
+
+
+def horner(least, most, size="0.4999"):
     steps = ["x = fixed<-32,ne>(X);", "e1 = -d1;"]
     for k in range(2, DEGREE + 1):
         steps.append(f"e{k} = e{k - 1} * x - d{k};")
     digits = " /\\ ".join(f"d{k} in [0,1]" for k in range(1, DEGREE + 1))
     return "\n".join(steps) + f"""
-{{ |x| <= 0.5 /\\ {digits} -> e{DEGREE} in [{least},{most}] }}
+{{ |x| <= {size} /\\ {digits} -> e{DEGREE} in [{least},{most}] }}
 $ x in (0);
 """
 
 
 code("octave.rs", "const fn times_high(a: i32, x: i32) -> i32 {", "((a as i64 * x as i64) >> 32) as i32 }")
-require(gappa(horner(-1.9922, 0.6641)), "Horner's truncation")
-require(not gappa(horner(-1.992, 0.6641)) and not gappa(horner(-1.9922, 0.664)), "Horner's truncation is tight")
-proven("Horner's rule in integers truncates by -1.9922 to 0.6641 units: below 1.5 about the middle, where half a unit is added")
-code("fit.rs", "let middle = (c[0] / power_of_two_f64(unit)) as i64", "+ factor as i64 / 2;")
-if not fits:
-    sys.exit(1)
+TRUNCATION = Fraction(source("fit.rs", r"const TRUNCATION: f32 = ([\d.]+);"))
+TRUNCATED = Fraction(source("fit.rs", r"const TRUNCATED: f64 = (-[\d.]+);"))
+least, most = TRUNCATED - TRUNCATION, TRUNCATED + TRUNCATION
+stated = source("fit.rs", r"in the unit of the coefficients: from (-[\d.]+) to ([\d.]+)")
+require([least, most] == [Fraction(x) for x in stated], "the comment's bounds are those of the constants")
+require(gappa(horner(float(least), float(most))), "Horner's truncation")
+near = Fraction(1, 500)
+require(not gappa(horner(float(least + near), float(most))) and not gappa(horner(float(least), float(most - near))), "tighter")
+require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
+proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is TRUNCATED and TRUNCATION about it, for |x| up to 0.4999")
+require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
+code("fit.rs", "let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;", "")

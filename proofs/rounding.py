@@ -16,7 +16,13 @@ code("pair.rs", "let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo 
 code("pair.rs", "const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
     if sum.lo == 0.0 || bits & 1 == 1 { return sum.hi; } let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
     f32::from_bits(if up { bits + 1 } else { bits - 1 }) }""")
-code("pair.rs", "let near = Pair::sum(base, hi);", """let sum = Pair::sum(places, near.hi);
+code("pair.rs", "let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_of_two(-78);
+    let up = if is_small { 48 } else { 0 }; let (base, second) = (base * power_of_two(up), second * power_of_two(up));
+    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
+    let near = Pair::sum(base, hi);
+    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up) }""")
 
 
@@ -91,6 +97,47 @@ for p, halves in ((5, 1), (6, 2), (6, 4)):
 require(wrong(7, 8, True) == 0 and wrong(6, 8, True) > 0, "careful_sum with second numbers of four ulp")
 proven("careful_sum rounds once, where nothing is subnormal: for all sums of 6 bits with second numbers up to two ulp, of 7 up to four")
 proven("rounded_sum's short way rounds once where the second number is at most 3/8 of an ulp of the sum")
+
+
+def to_place(v, place):
+    """To a multiple of 2^place, to even in the middle."""
+    down = v >> place
+    rest, half = v - (down << place), np.int64(1) << (place - 1)
+    return (down + ((rest > half) | ((rest == half) & (down % 2 == 1)))) << place
+
+
+def wrong_below(p, halves, by_all=True):
+    """How many sums are not rounded once by `careful_sum` where they may be subnormal: multiples of some place, below 2^(p-1) of it.
+
+    A base is a multiple of that place, as every number is; the pair, in a finer unit, need not be.
+    """
+    unit = 2 * p + 1
+    los = numbers(p, range(0, unit + 1))
+    lo = np.concatenate([los[np.abs(los) <= halves << (unit - 1)], [0]])
+    found = 0
+    for place in range(unit - p, unit + 3):
+        least = np.int64(1) << (place + p - 1)
+        bases = np.concatenate([numbers(p, range(unit - p - 1, unit + p + 2)), [0]])
+        bases = bases[(bases % (1 << place) == 0) & (np.abs(bases) <= 4 * least)]
+        for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
+            base, low = np.meshgrid(bases, lo, indexing="ij")
+            near = rounded(base + hi, p)
+            left = base + hi - near
+            rough = rounded(near + rounded(left + low, p), p) if by_all else near
+            places = np.where(np.abs(rough) >= least, 0, np.where(rough < 0, -least, least))
+            upper = rounded(places + near, p)
+            answer = rounded(upper + odd_sum(places + near - upper, odd_sum(left, low, p), p), p) - places
+            exact = base + hi + low
+            # The unit is changed back: what then is subnormal is rounded to the place.
+            answer = np.where(np.abs(answer) < least, to_place(answer, place), answer)
+            once = np.where(np.abs(exact) < least, to_place(exact, place), rounded(exact, p))
+            found += int((answer != once).sum())
+    return found
+
+
+require(wrong_below(5, 1) == 0 and wrong_below(6, 2) == 0, "careful_sum, subnormal")
+require(wrong_below(5, 1, by_all=False) > 0, "careful_sum: the sign by the first number alone would do")
+proven("careful_sum rounds once where a sum is subnormal, too: for all of 5 bits with second numbers up to half an ulp, of 6 up to an ulp")
 
 
 # Is the rounding to odd needed, and seen to be?

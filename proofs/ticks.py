@@ -68,9 +68,11 @@ for e in range(97):
 proven("exponent_of_ticks: the least power of two that is not below, for every number of ticks below 2^96")
 
 # Pulses. Ends that are half a share apart or more are in order: that is what triggers promise. All others in any order.
+# The last off of full pulses is the curve's end, by a search, which no other end is behind.
 code("pulse.rs", "let mut start = self.ticks.edge(i, on);", """if self.is_close && i > 0 { start = start.max(self.ticks.edge(i - 1, off)); }
-    (start, self.ticks.edge(i, off).max(start)) }""")
-code("pulse.rs", "let frame = Pulses { ticks, edges, is_close: duty >", "0.5 };")
+    let end = if self.is_full && i + 1 == self.n() { self.ticks.searched(2 * i as u64 + 1, off) } else { self.ticks.edge(i, off) };
+    (start, end.max(start)) }""")
+code("pulse.rs", "let frame = Pulses { ticks, edges, is_close: duty >", "0.5, is_full: duty == 1.0 };")
 duty = Real("duty")
 ends = [(Int(f"on{i}"), i - duty / 2, Int(f"off{i}"), i + duty / 2) for i in range(4)]
 flat = [(tick, place) for on, a, off, b in ends for tick, place in ((on, a), (off, b))]

@@ -43,7 +43,8 @@ const fn ellipse(rho: f32) -> [f32; 3] {
 const HALF_DEGREE: usize = 6;
 const DEGREES: usize = 7;
 
-/// More than what some hundred roundings of an `f32` come to.
+/// More than the 181 roundings of an `f32` that make a bound too small at most.
+// proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
 /// The products of the error with cubics: 1 first, which is the error itself.

@@ -31,12 +31,13 @@ const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
 const ULP_ERROR: f32 = 0.49;
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
-/// (proofs/octave.py). A polynomial's middle makes up for the middle of that.
+/// (`proofs/octaves.py`). A polynomial's middle makes up for the middle of that.
 const TRUNCATION: f32 = 1.328;
 const TRUNCATED: f64 = -0.664;
 
 /// How far off a fraction may be, by this and by this share of it: where an octave's ramp is looked up, for joins are
 /// rounded, and on a path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+// proofs/certificate.py
 const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
 /// The same of a time.
 const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
@@ -46,6 +47,7 @@ const WORD: f32 = 4294967296.0;
 /// Part of an octave is counted in finer units as long as its half is less than this share of the octave's width, which
 /// the next finer unit doubles. What the offsets leave of the word, 0.02 · 2³², is more than a center's lowest bits
 /// come to, 2⁵, at the finest unit.
+// proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 20;
 

@@ -15,12 +15,14 @@
 //! and `r` what is missing. After a step `s` there is missing `r - d_1 s - d_2 s² - ...`, the k-th term being `Σ_j
 //! C(j,k) c_j x^(j-k) s^k`. Let `Y = |x| + |s|` and `E = Σ_{j>=3} j |c_j| Y^(j-3)`. From the third on the terms are
 //! together at most `3.4 E |s|³`, because `Σ_{k>=3} C(j,k) |x|^(j-k) |s|^k <= C(j,3) |s|³ Y^(j-3)`, and `C(j,3) <= 10/3
-//! j`. The first two are known in single precision: wrong by at most 2⁻²⁰ `|s| D`, where `D = |c_1| + 2 |c_2| Y + E Y²`
-//! bounds all slopes on the way, because at most 14 roundings of 2⁻²⁴ lead to them, 11 of Horner's rule. Where `x` is
-//! itself rounded, by `m`, the slopes are wrong by `5 m (2 |c_2| + E Y)` more, since `j - 1 <= 5`. So what is left is
-//! at most
+//! j`. The first two are known in single precision: wrong by at most `ρ |s| D`, where `D = |c_1| + 2 |c_2| Y + E Y²`
+//! bounds all slopes on the way. From the end that faces the side `ρ` is 2⁻²⁰, because at most 14 roundings of 2⁻²⁴
+//! lead to them, 11 of Horner's rule. From the other end the place's distance is rounded, too, which makes 19, and `ρ` is
+//! 1.25 · 2⁻²⁰. From a minimum inside it is rounded twice, and `c_5` may be a difference of greater numbers, which makes
+//! 45, and `ρ` is 3 · 2⁻²⁰. A time, of degree 3, takes 10 at most. Where `x` is itself rounded, by `m`, the slopes are
+//! wrong by `5 m (2 |c_2| + E Y)` more, since `j - 1 <= 5`. So what is left is at most
 //!
-//! `|r - s (d_1 + d_2 s)| + |s| (2⁻²⁰ D + 5 m (2 |c_2| + E Y) + 3.4 E s²)`
+//! `|r - s (d_1 + d_2 s)| + |s| (ρ D + 5 m (2 |c_2| + E Y) + 3.4 E s²)`
 //!
 //! and the error of `r` itself: 2⁻⁴¹ of the sum of the series' terms without their signs ([`Series::at`]). A
 //! non-negative polynomial's increasing integral bounds that sum (Markov): for degree 6 it is at most 1083 times the
@@ -29,16 +31,14 @@
 //! search for a smaller error is as exact as pairs are; where a step is within an ulp of its place, there is no better
 //! one, and the greater error is asked for.
 //!
-//! All of that is checked by `proofs/solve.py` and `proofs/markov.py`, for searches from the end that faces the side.
-//! From the other end the distance is rounded once more than the bound knows, which may leave 0.89 of the error that is
-//! asked for instead of 0.75. From a minimum inside it is rounded twice, and `c_5` is a difference of greater numbers:
-//! 2.11 of the error is all that is proven there.
+//! `proofs/solve.py` and `proofs/markov.py` check all of that, for each kind of anchor.
 //!
 //! **The end.** After `FREE` evaluations each measured place halves a bracket of certain signs. When that is as narrow
-//! as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and on a series from an end the bound's terms without `r`
-//! are below 2⁻²⁷ of it, so that the step, which solves the first two terms, is accepted. Around a minimum inside they
-//! are below 2⁻²⁹, since the place times `D` is at most twice 6 · 1083 times the target; but that the step stays in the
-//! bracket there is known by search only. Hence [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
+//! as neighbouring `f32`, `s` is at most 2⁻²³ of the place, and the place times `D` is at most 6 · 1083 times the target,
+//! or twice that. So the bound's terms without `r` are below 2⁻³⁰ of the target from the end that faces the side, below
+//! 2⁻²⁹ from the other end, and below 2⁻²⁷ from a minimum inside, and the step, which solves the first two terms, is
+//! accepted. That it stays in the bracket where the density nearly vanishes is known by search only. Hence
+//! [`MAX_EVALUATIONS`]; the searches of the tests take 5 at most.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;

@@ -1,0 +1,296 @@
+"""src/certificate.rs and fit.rs: the numbers and inequalities of an octave's certificate, in exact rational arithmetic.
+
+Taken as known: a polynomial of degree n < N is on [-1, 1] at most 1 / cos(n pi / 2N) times its greatest value at the points cos(i
+pi / N) (Ehlich and Zeller 1964); a function that is at most M on the ellipse with the half axes (rho +- 1/rho) / 2 is within
+2 M rho^-n / (rho - 1) of its Chebyshev series up to degree n (Bernstein 1912); |p'| <= n^2 max |p| (Markov 1889).
+"""
+
+import random
+from math import comb
+
+from common import *
+
+code("certificate.rs", "const fn ellipse(rho: f32) -> [f32; 3] {", """let square = 1.0 / (rho * rho);
+    let twelfth = square * square * square * square * square * square;
+    [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)] }""")
+code("certificate.rs", "let (mut s, mut last, mut i) = (1.0, cosine, 0);", "while i <= points {")
+code("certificate.rs", "let half = i.wrapping_sub(HALF_DEGREE);", """if half < DEGREES { shares[half] = s as f32; }
+    (s, last) = (2.0 * cosine * s - last, s); i += 1; }""")
+code("certificate.rs", "errors.least[kind] -= noise;", "errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);")
+code("certificate.rs", "let [axis, square, first] = ELLIPSES[i];", """
+    let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis); let mut half = 0;
+    while half < DEGREES && shares[half] > 0.0 { let bound = (seen + tail) / shares[half] + tail;
+    least = if bound < least { bound } else { least }; tail *= square; half = unknown(half + 1); }""")
+code("certificate.rs", "let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
+    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
+    loop { k = unknown(k).wrapping_sub(1); if k >= DEGREE { return sum; }
+    more = (linear + curve) * more + curve * power; power *= linear;
+    sum += octave.c[k].unsigned_abs() as f32 * more; }""")
+code("path.rs", "pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {", """let (mut value, mut k) = (0.0, c.len());
+    loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; } value = value * x + c[k].abs(); }""")
+
+DEGREE = int(source("octave.rs", r"pub\(crate\) const DEGREE: usize = (\d+);"))
+HALF_DEGREE = int(source("certificate.rs", r"const HALF_DEGREE: usize = (\d+);"))
+DEGREES = int(source("certificate.rs", r"const DEGREES: usize = (\d+);"))
+SLACK = 1 + 1 / Fraction(2 ** int(source("certificate.rs", r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
+POINTS = [(int(n), float(c)) for n, c in re.findall(
+    r"\((\d+), ([\d.]+)\)", source("certificate.rs", r"const POINTS: [^=]*=\s*\[([^;]*)\];"))]
+RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source("certificate.rs", r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
+require(len(POINTS) == 3 and len(RHOS) == 6, "points and ellipses")
+COEFFICIENTS = int(source("certificate.rs", r"    x: &\[f32; (\d+)\],\n    weights"))
+WEIGHT = int(source("certificate.rs", r"weights: &\[\[f32; (\d+)\]; KINDS\]"))
+source("certificate.rs", r"\[x0, x1, curved @ \.\.\]: &\[f32; 7\]")
+
+
+# --- Cosines, to 2^-200.
+def arctan_inverse(n):
+    total, term, k = Fraction(0), Fraction(1, n), 0
+    while term > Fraction(1, 2**220):
+        total += term / (2 * k + 1) * (-1) ** k
+        term, k = term / n**2, k + 1
+    return total
+
+
+PI = 16 * arctan_inverse(5) - 4 * arctan_inverse(239)
+
+
+def cosine(x):
+    total, term, k = Fraction(0), Fraction(1), 0
+    x = Fraction(int(x * 2**230), 2**230)
+    while abs(term) > Fraction(1, 2**220):
+        total += term
+        k += 2
+        term = Fraction(int(-term * x * x / (k * (k - 1)) * 2**240), 2**240)
+    return total
+
+
+LAST_PLACE = Fraction(1, 2**53)
+worst = Fraction(0)
+for n, c in POINTS:
+    worst = max(worst, abs(Fraction(c) - cosine(PI / n)) / LAST_PLACE)
+    require(n % 2 == 0, "an even number")
+    require(all(abs(Fraction(c) + one - cosine(PI / n)) > LAST_PLACE / 2 for one in (LAST_PLACE, -LAST_PLACE)), "the neighbours are farther")
+require(worst <= Fraction(1, 2), f"cosines of pi/N: {float(worst)} last places")
+proven(f"the cosines of pi/N, N = {', '.join(str(n) for n, _ in POINTS)}, are the nearest doubles: right to {float(worst):.2f} last places")
+
+# The recurrence, as doubles compute it. Index i has the cosine of i pi / N, which is that of n pi / 2N for the degree n = 2 i.
+off, shares_off, spoilt = Fraction(0), Fraction(0), Fraction(0)
+SINGLE = Fraction(1, 2**23)
+for points, c in POINTS:
+    s, last = 1.0, c
+    t, before = 1.0, c * (1 + 2.0**-46)
+    for i in range(points + 1):
+        exact = cosine(PI * i / points)
+        off = max(off, abs(Fraction(s) - exact))
+        spoilt = max(spoilt, abs(Fraction(t) - exact))
+        half = i - HALF_DEGREE
+        if 0 <= half < DEGREES:
+            degree = 2 * (HALF_DEGREE + half)
+            require(exact == cosine(PI * degree / (2 * points)), "a share is that of its degree")
+            if degree < points:
+                shares_off = max(shares_off, abs(Fraction(s) - exact) / exact)
+            else:
+                # No bound: a share that is not above 0 ends the loop, and by a trace above 0 it gives a bound that is none.
+                require(s < 2.0**-50, f"degree {degree} with {points} points")
+        s, last = 2.0 * c * s - last, s
+        t, before = 2.0 * before * t - before if i == 0 else 2.0 * c * (1 + 2.0**-46) * t - before, t
+require(off < Fraction(1, 2**40) and shares_off < Fraction(1, 2**40), f"2^{log2(off)}")
+require(spoilt > Fraction(1, 2**40), "a cosine that is wrong by 2^-46 is seen")
+proven(f"each of the recurrence's cosines, up to {POINTS[-1][0]} steps, is within 2^{log2(off):.1f}, and the shares of degrees {2 * HALF_DEGREE} to {2 * (HALF_DEGREE + DEGREES - 1)} within 2^{log2(shares_off):.1f} of themselves")
+greatest = 2 * (HALF_DEGREE + DEGREES - 1)
+require(greatest**2 * off < Fraction(1, 2**28), "points that are a trace off")
+proven(f"so a sample is off its point by no more than 2^{log2(greatest**2 * off):.1f} of the polynomial's maximum, by Markov's inequality")
+
+# --- Degrees.
+offset, time, weight = COEFFICIENTS - 1, 3, WEIGHT - 1
+left_out = max(DEGREE, time, offset) + weight
+require(left_out <= 2 * HALF_DEGREE, "what is left out of M")
+require(left_out > 2 * (HALF_DEGREE - 1), "a least degree less by two would not do")
+stated = [int(x) for x in (source("certificate.rs", r"the offset `x` has degree (\d+),"), source("certificate.rs", r"it, `R f` is the error in exposure, of degree (\d+)"))]
+require(stated == [offset, offset * DEGREE + weight], "degrees in the text")
+proven(f"R has degree {offset * DEGREE}, and R times a cubic {offset * DEGREE + weight}; what M leaves out has degree {left_out}, at most the least that is tried, {2 * HALF_DEGREE}")
+
+
+# --- Ellipses: in single precision, and exactly.
+def single(x):
+    import struct
+
+    return struct.unpack("<f", struct.pack("<f", x))[0]
+
+
+axes_low = {}
+for rho in RHOS:
+    r = Fraction(rho)
+    # By single roundings; a double's product or quotient of two f32, rounded to one, is rounded once.
+    inverse = single(1.0 / rho)
+    axis = 0.5 * single(rho + inverse)
+    square = single(1.0 / single(rho * rho))
+    twelfth = square
+    for _ in range(5):
+        twelfth = single(twelfth * square)
+    first = single(2.0 * twelfth / single(rho - 1.0))
+    exact = (r + 1 / r) / 2, 1 / r**2, 2 / (r ** (2 * HALF_DEGREE) * (r - 1))
+    low = [max(Fraction(0), 1 - Fraction(found) / true) / U for found, true in zip((axis, square, first), exact)]
+    require(low[0] <= 1 and low[1] <= 1 and low[2] <= 12, f"ellipse {rho}: {[float(x) for x in low]}")
+    # Another exponent than that of the least degree is seen.
+    require(abs(Fraction(first) * r / exact[2] - 1) > Fraction(1, 2), "the exponent")
+    axes_low[rho] = low
+proven("ellipses: A, 1/rho^2 and 2 rho^-12 / (rho - 1) are too small by at most " + ", ".join(
+    f"{float(max(low[i] for low in axes_low.values())):.1f}" for i in range(3)) + " roundings of 2^-24")
+
+# --- `bends`. On an ellipse |s| <= A, x is X + W with |X| <= Y1 and |W| <= Y - Y1, and (X + W)^k - X^k has no negative term.
+
+
+def transcribed(c, y1, w, mul, add):
+    power, more, total = y1, w, None
+    for k in range(DEGREE - 2, -1, -1):
+        more = add(mul(add(y1, w), more), mul(w, power))
+        power = mul(power, y1)
+        term = mul(c[k], more)
+        total = term if total is None else add(total, term)
+    return total
+
+
+def poly_mul(p, q):
+    out = {}
+    for a, x in p.items():
+        for b, y in q.items():
+            key = tuple(i + j for i, j in zip(a, b))
+            out[key] = out.get(key, 0) + x * y
+    return out
+
+
+def poly_add(p, q):
+    out = dict(p)
+    for b, y in q.items():
+        out[b] = out.get(b, 0) + y
+    return out
+
+
+names = 2 + DEGREE
+
+
+def unit(i):
+    return {tuple(int(j == i) for j in range(names)): 1}
+
+
+symbols = [unit(2 + k) for k in range(DEGREE)]  # c[k] is the coefficient of x^(DEGREE - k)
+found = transcribed(symbols, unit(0), unit(1), poly_mul, poly_add)
+expected = {}
+for k in range(DEGREE - 1):
+    for j in range(1, DEGREE - k + 1):
+        # (Y1 + W)^n - Y1^n
+        expected = poly_add(expected, {tuple([DEGREE - k - j, j] + [int(i == k) for i in range(DEGREE)]): comb(DEGREE - k, j)})
+require(found == expected, "bends")
+require(all(number > 0 for number in expected.values()), "no negative term")
+random.seed(3)
+for _ in range(200):
+    c = [Fraction(random.randint(0, 2**31)) for _ in range(DEGREE)]
+    y1, w = Fraction(random.randint(0, 2**20), 2**19), Fraction(random.randint(0, 2**20), 2**21)
+    exact = sum(c[k] * ((y1 + w) ** (DEGREE - k) - y1 ** (DEGREE - k)) for k in range(DEGREE - 1))
+    require(transcribed(c, y1, w, lambda a, b: a * b, lambda a, b: a + b) == exact, "bends, by numbers")
+    without_x2 = sum(c[k] * ((y1 + w) ** (DEGREE - k) - y1 ** (DEGREE - k)) for k in range(DEGREE - 2))
+    require(w == 0 or c[DEGREE - 2] == 0 or y1 + w == 0 or without_x2 < exact, "each power counts")
+proven("bends is the sum of |c_k| (Y^k - Y1^k) from k = 2 on, as an identity, and so bounds Q(x) - Q(x0 + x1 s) but for c_1 x")
+
+# --- SLACK: by how many roundings a tail's bound may be too small. All terms are positive, so the longest way counts.
+for rho, low in axes_low.items():
+    axis, square, first = (Fraction(x) for x in low)
+    x = 1  # a coefficient of x, in single precision
+    linear = x + axis + 2  # x1 A, and the sum
+    # Horner's rule over x2 .. x6, two roundings for each but the last, and A^2.
+    curve = max(x + 2 * (k - 2) + axis * (k - 2) + 1 for k in range(2, offset + 1)) + 2 * (axis + 1)
+    both = max(linear, curve) + 1
+    power, more = linear, curve
+    for _ in range(DEGREE - 1):
+        more = max(both + more + 1, curve + power + 1) + 1
+        power = power + linear + 1
+    bends = 1 + more + 1 + (DEGREE - 2)  # c_k itself, the product, and the sums
+    weighed = 1 + 2 * weight + axis * weight
+    tail = bends + weighed + first + 3 + (DEGREES - 1) * (1 + square)
+    # The share, the quotient and two sums.
+    count = tail + 4
+    axes_low[rho] = count
+count = max(axes_low.values())
+allowed = (SLACK - 1) / U
+stated = int(source("certificate.rs", r"More than the (\d+) roundings of an `f32`"))
+require(stated - 1 < count <= stated, f"as many roundings as the comment says: {float(count)}")
+require((1 - U) ** (int(count) + 1) * SLACK >= 1, f"{float(count)} roundings")
+require((1 - U) ** (int(count) + 1) * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
+proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most")
+
+# --- What a fraction may be off by: `OFF`.
+off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(
+    "fit.rs", r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
+terms, roundings = (int(x) for x in source("fit.rs", r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))
+require(terms == int(source("solve.rs", r"for degree 6 it is at most (\d+) times")), "Markov's constant")
+on_path = terms * roundings * LAST_PLACE
+require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
+proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
+
+# Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
+# (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
+code("exposure.rs", "let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """
+    let until = near + self.plateau.to_f64() / WHOLE as f64;
+    let beyond = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+    let far = if until < 0.5 { until } else { beyond };
+    [if self.has_plateau() { near } else { far }, far]""")
+PAIR = Fraction(1, 2**49)
+
+
+def joins_hold(off0, off1, least_part=True):
+    """Is a join within OFF? A part has its pair's rounding, and three of a double; so has the sum."""
+    part = PAIR + 6 * LAST_PLACE
+    if not least_part:
+        # By 1 less a share of nearly all, wherever the join is.
+        return part <= off0
+    half = Fraction(1, 2)
+    return part <= off1 and part * half + LAST_PLACE / 2 <= off0 + off1 * half
+
+
+require(joins_hold(off0, off1) and not joins_hold(off0, PAIR) and not joins_hold(off0, off1, least_part=False), "joins")
+require(LAST_PLACE / 2 <= off0 and LAST_PLACE > off0, "OFF[0]")
+proven(f"what rounds joins, given the ramps' masses, is within OFF wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = OFF[0]")
+
+# --- `Limits::share`: how far a stretch goes in which so much time passes.
+code("fit.rs", "let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+    let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
+    let slowest = slowest - most / (1 << 20) as f32; let mut way = error / most;
+    while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error { way *= 2.0; }""")
+import z3
+
+t1, t2, t3, s, a, d = z3.Reals("t1 t2 t3 s a d")
+
+
+def holds(claim, *but_not):
+    for formula, expected in [(claim, z3.unsat)] + [(more, z3.sat) for more in but_not]:
+        solver = z3.Solver()
+        solver.set("timeout", 30000)
+        solver.add(z3.Not(formula))
+        require(solver.check() == expected, f"{formula}")
+
+
+slope = t1 + 2 * t2 * s + 3 * t3 * s * s
+inside = z3.And(s >= -1, s <= 1)
+size = z3.If(t2 < 0, -t2, t2)
+# Written without a quotient: thrice (t1 - t2^2 / thrice) = thrice t1 - t2^2.
+holds(z3.Implies(z3.And(inside, 3 * t3 > size), 3 * t3 * slope >= 3 * t3 * t1 - t2 * t2),
+      z3.Implies(z3.And(inside, 3 * t3 > size), 3 * t3 * slope >= 3 * t3 * t1 - t2 * t2 * z3.RealVal("99/100")))
+at_end = t1 + 3 * t3 - 2 * size
+holds(z3.Implies(z3.And(inside, 3 * t3 <= size), slope >= at_end),
+      z3.Implies(z3.And(inside, 3 * t3 <= size), slope >= at_end + size / 100),
+      z3.Implies(z3.And(inside, 2 * t3 <= size), slope >= at_end))
+proven("slowest is at most the least t' on [-1, 1], by the vertex where that may be inside and else by an end")
+# From a to a + d the time is d t'(m) + t3 d^3 / 4 about the middle m, and t'(m) is not negative.
+m = a + d / 2
+passed = t1 * d + t2 * ((a + d) * (a + d) - a * a) + t3 * ((a + d) * (a + d) * (a + d) - a * a * a)
+middle = t1 + 2 * t2 * m + 3 * t3 * m * m
+require(z3.simplify(passed - (d * middle + t3 * d * d * d / 4), som=True).eq(z3.RealVal(0)), "the time about the middle")
+for quarter, expected in ((4, z3.unsat), (Fraction(399, 100), z3.sat)):
+    solver = z3.Solver()
+    solver.add(d > 0, d <= 2, middle >= 0, a >= -1, a + d <= 1, z3.RealVal(str(quarter)) * (d * middle + t3 * d * d * d / 4) < t3 * d * d * d)
+    require(solver.check() == expected, "a quarter of t3 d^3")
+proven("a stretch of length d takes at least d times the least t', and at least t3 d^3 / 4: t' is not negative in its middle")
+# So where the loop ends, any stretch of that length takes at least `error`; what rounds `slowest` is less than 2^-20 of its terms.
+require(8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U, "slowest's rounding")
+proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it")
