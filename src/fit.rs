@@ -452,11 +452,15 @@ const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 /// that the compiler unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
-    let mut i = DEGREE;
-    // The other conditions follow from the first one. With them the compiler drops the checks of bounds.
-    while i >= order && i >= 1 && i <= DEGREE {
-        d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order]);
-        i = unknown(i - 1);
+    let (mut i, mut last) = (order.wrapping_sub(1), 0.0);
+    while i <= DEGREE {
+        let (this, first) = (d[i], i.wrapping_sub(order));
+        // Not where it has but begun.
+        if first <= DEGREE {
+            d[i] = (this - last) / (x[i] - x[first]);
+        }
+        last = this;
+        i = unknown(i + 1);
     }
 }
 

@@ -92,12 +92,14 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
 const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
     let mut k = 0;
     while k < c.len() {
-        let mut j = c.len() - 1;
-        // The second condition always holds. With it the compiler drops the checks of bounds.
-        while j > k && j < c.len() {
-            let above = c[j];
-            c[j - 1] += middle * above;
-            j = unknown(j - 1);
+        let (mut above, mut j) = (0.0, c.len());
+        loop {
+            j = unknown(j).wrapping_sub(1);
+            if j >= c.len() || j < k {
+                break;
+            }
+            above = c[j] + middle * above;
+            c[j] = above;
         }
         k += 1;
     }
