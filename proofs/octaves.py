@@ -44,11 +44,13 @@ code("plan.rs", "fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.
 code("plan.rs", "let before_last = self.before_last(u.to_bits());", """if before_last < self.plateau[1] { return self.by_line(u.to_bits()); }
     let (side, bits) = Self::nearer(u); match self.octave(side, before_last >> 31, bits) {""")
 code("plan.rs", "let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
-    return Some(self.on_line((u >> 32) as u32)); } let side = (u > 1 << 63) as usize;
+    return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
     let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
-code("plan.rs", "pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, last] = self.exposure.joins_u64();
-    let before = near.max(1 << 55);
-    PlateauU64 { last, count: if self.plateau[1] == 0 { 0 } else { last.saturating_sub(before) }, } }""")
+code("plan.rs", "pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
+    let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
+    let before = near.saturating_sub(1).max(1 << 55);
+    let serves = self.slope >> 40 != 0;
+    PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } } }""")
 
 FINER = int(source("octave.rs", r"const FINER: u32 = (\d+);"))
 STEP = 1 << int(source("octave.rs", r"const STEP: u32 = 1 << (\d+);"))
@@ -270,7 +272,8 @@ near, last = BitVecs("near last", 64)
 
 
 def on_line(u, least=1 << 55):
-    before = If(UGT(near, least), near, BitVecVal(least, 64))
+    before = If(near == 0, near, near - 1)
+    before = If(UGT(before, least), before, BitVecVal(least, 64))
     return ULT(last - u, If(UGT(last, before), last - before, BitVecVal(0, 64)))
 
 
@@ -291,9 +294,16 @@ late = FPVal(1, Float32()) - fpBVToFP(u, Float32())
 late = fpToIEEEBV(late)
 late_word = LShR(ZeroExt(32, (late & 0x7FFFFF) | (1 << 23)) << 40, ZeroExt(32, 126 - LShR(late, 23)))
 valid(
-    "the look-ups agree in the side, and 1 - u by f32 is 2^64 - u by integers, for each f32 from 2^-32 to 1",
-    Implies(fits, And((u > 126 << 23) == UGT(word, 1 << 63), Implies(UGT(word, 1 << 63), late_word == -word))),
+    "the look-ups agree in the side, and 1 - u by f32 is 2^64 - u by integers, for each f32 from 2^-32 to 1 but 1/2",
+    Implies(And(fits, u != 126 << 23), And((u > 126 << 23) == UGE(word, 1 << 63), Implies(UGE(word, 1 << 63), late_word == -word))),
     Implies(fits, (u > 126 << 23) == UGE(word, 1 << 63)),
+)
+# By u64 1/2 counts from side 1, whose octaves hold it if it is on either ramp; a join at 1/2 is on the line. Without a plateau it
+# is beyond the last u before the closing ramp (`far - 1`).
+valid(
+    "in 64 bits a plateau's line serves both of its joins, and nothing beyond them",
+    Implies(And(UGE(near, 1 << 56), UGE(last, near)), And(on_line(near), on_line(last), Not(on_line(near - 1)), Not(on_line(last + 1)))),
+    Implies(And(UGE(near, 1 << 56), UGE(last, near)), on_line(near - 1)),
 )
 # The ramp: beyond the last u before the far join. By f32 that is the greatest f32 at or below the join as a double; by u64 the
 # join in words. Where these are within some distance, a u that is looked up on different ramps is within as much of the join.

@@ -5,7 +5,8 @@ from transcribed import Fractions, cases
 
 code("fraction.rs", "pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
     let remainder = (1 << 63) - share * divisor; Self { n, share, rest: ((remainder * share) >> 31) as u32 } }""")
-code("fraction.rs", "let middle = self.share.wrapping_mul(odd as u64);", "if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }")
+code("fraction.rs", "let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
+    if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }""")
 code("fraction.rs", "let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
     let low = near * self.rest as u64; let middle = near * (self.share as u32 as u64) + (low >> 32);
     let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
@@ -32,10 +33,10 @@ valid(
     Implies(domain, r * 2**32 / n - r * share / 2**31 < 1),
 )
 
-# `in_u64`, in whole numbers: 2 n share <= 2^64, and half of a pulse is at most the share.
+# `in_u64`, in whole numbers: 2 n times the share with its rest is at most 2^64, and half of a pulse is at most the share.
 k, half, odd, m = Ints("k half odd m")
 whole = And(m >= 1, m < 2**32, k >= 0, odd >= 1, odd <= 2 * m - 1, half >= 0, half <= k)
-product = Int("product")  # k odd, where k (2 m - odd) <= 2^64 - product, since 2 m k <= 2^64
+product = Int("product")  # odd times the share with its rest, cut: it leaves (2 m - odd) times that until 2^64, which is k at least
 valid(
     "in_u64: a fraction and half a pulse stay within 64 bits, but for the last off at 1, which becomes 0",
     Implies(And(whole, product >= k, product + k <= 2**64), And(product - half >= 0, product + half <= 2**64)),
@@ -64,9 +65,11 @@ for n, odd, duty, is_off in cases():
     exact = Fraction(odd, 2 * n) + (width if is_off else -width) / (2 * n)
     short = exact - Fraction(f.in_u64(odd, half, is_off), 2**64)
     if exact < 1:
-        # The share is too small by less than a unit for each odd, half of a pulse by less than two.
-        require(-2 < short * 2**64 < odd + 2, f"in_u64 {n} {odd} {duty}")
-        worst_64 = max(worst_64, abs(short * 2**64) / (odd + 1))
+        # Its product is cut by less than a unit, after three of 2^-96 for each odd; half of a pulse is cut by less than two.
+        most = 1 + Fraction(3 * odd, 2**32)
+        require(-2 < short * 2**64 < most + 2, f"in_u64 {n} {odd} {duty}")
+        if n <= 2**22:
+            worst_64 = max(worst_64, abs(short * 2**64))
     side, hi, lo, unit = f.exactly(odd, half, is_off)
     near = exact if side == 0 else 1 - exact
     found = (hi + Fraction(lo, 2**24)) * Fraction(2) ** unit
@@ -77,7 +80,8 @@ for n, odd, duty, is_off in cases():
         relative[key] = max(relative.get(key, 0), error / near)
         absolute = error * 2**96
 require(relative[True] <= Fraction(1, 2**45), "exactly, 2^26 pulses")
-tested(f"in_u64: too low by at most odd * 2^-64, and two for half of a pulse (seen: {float(worst_64):.3f} of that)")
+require(1 < worst_64 < 4, "in_u64")
+tested(f"in_u64: too low by at most two units of 2^-64 in frames that have direct triggers, and two for half of a pulse (seen: {float(worst_64):.3f})")
 tested(f"exactly: to 2^{log2(relative[True]):.1f} up to 2^26 pulses, to 2^{log2(relative[False]):.1f} up to 2^32")
 
 

@@ -15,7 +15,7 @@ class Fractions:
         return ((self.share << 32 | self.rest) * significand) >> (150 - biased)
 
     def in_u64(self, odd, half, is_off):
-        middle = self.share * odd
+        middle = self.share * odd + (self.rest * odd >> 32)
         return (middle + (half >> 32) if is_off else middle - (half >> 32)) % 2**64
 
     def exactly(self, odd, half, is_off):
