@@ -156,48 +156,9 @@ far = max(finer for finer in range(32) if beyond_fits(FILLED, finer))
 within = max(finer for finer in range(32) if reach_holds(finer))
 
 
-# Finer parts are of some ulp: all of them, by the ulp of their binade.
-def parts(ulp, lengths):
-    for n in lengths:
-        for odd in (0, 1):
-            for base in (WORD // 2 if ulp < EPSILON else WORD, WORD * 3 // 2 if ulp == EPSILON else WORD * 3 // 4):
-                first = base + odd * ulp
-                if first + n * ulp <= (WORD if ulp < EPSILON else 2 * WORD):
-                    yield first, first + n * ulp
-
-
-def single(x):
-    """An integer below 2^34, as a sum of two f32 is rounded, to even."""
-    unit = max(1, 1 << (x.bit_length() - 24))
-    low, rest = x // unit, x % unit
-    return (low + (2 * rest > unit or 2 * rest == unit and low % 2 == 1)) * unit
-
-
-def small(ulp, lengths):
-    """By how much offsets go beyond the word and beyond the half, at most, as shares of the width; and the finest shift."""
-    beyond, over, finest = Fraction(-1), Fraction(-1), 0
-    for first, last in parts(ulp, lengths):
-        half = Fraction(last - first, 2) + EPSILONS * EPSILON
-        finer = 0
-        while finer < MOST_FINER and half <= FILLED * WORD / 2**finer:
-            finer += 1
-        if finer <= min(far, within):
-            continue
-        middle = single(first + last) // 2
-        center = middle & ~FINER | finer
-        edges = [first - EPSILONS * EPSILON - center, last + EPSILONS * EPSILON - center]
-        beyond = max(beyond, *(Fraction(abs(edge) * 2**finer, WORD) - Fraction(1, 2) for edge in edges))
-        over = max(over, *(Fraction(abs(edge) * 2**finer, WORD) - half * 2**finer / WORD for edge in edges))
-        finest = max(finest, finer)
-    return beyond, over, finest
-
-
-lower, upper = small(EPSILON // 2, range(1, 200)), small(EPSILON, range(16, 200))
-shortest = small(EPSILON, range(1, 16))
-require(lower[0] < 0 and upper[0] < 0 and shortest[0] > 0, "fractions beyond a part fit the word")
-require(max(lower[2], upper[2], shortest[2]) < MOST_FINER, "the finest shift is not reached")
-proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond: with shifts up to {far} by this, with {far + 1} to {max(lower[2], shortest[2])} in each part of the lower binade and each of 16 ulp or more; of 7 ulp in the upper one they do not")
-# Parts in the upper binade begin where a range does, since half a top is in the lower one; and tops keep 16 ulp from there.
+require(MOST_FINER <= far and not beyond_fits(FILLED, far + 1), "fractions beyond a part fit the word")
+proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shifts up to {MOST_FINER} (up to {far} would do)")
+# Tops keep 16 ulp from where a range begins.
 bits, top = BitVecs("bits top", 32)
 raised = If(ULT((top - bits + 16) & 0x7FFFFF, 32), top + STEP, top)
 valid(
@@ -220,8 +181,7 @@ def sums_fit(guard, per_step=Fraction(3, 2)):
 
 require(reach_holds(within) and sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
 proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a part serves, and {EPSILONS} EPSILON beyond with shifts up to {within}")
-require(max(lower[1], upper[1]) > REACH, "the reach covers finer shifts, too: say so")
-open_point(f"with shifts of {within + 1} and more, so in parts of some 30 ulp, fractions {EPSILONS} EPSILON beyond may exceed the reach, by {float(max(lower[1], upper[1]) - REACH):.4f}: there only samples are")
+require(MOST_FINER <= within, "the reach covers all shifts")
 
 # The look-up by u64 agrees with the one by f32, for fractions that are f32, from 2^-32 to 1/2.
 byte = BitVec("byte", 8)

@@ -49,7 +49,7 @@ const WORD: f32 = 4294967296.0;
 /// come to, 2⁵, at the finest unit.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
-const MOST_FINER: u32 = 20;
+const MOST_FINER: u32 = 17;
 
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
 /// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
