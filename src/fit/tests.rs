@@ -45,10 +45,10 @@ impl Truth {
             let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
             let mut octaves = [Octave::NONE; CELLS];
             let tops = fit(&exposure, &shapes, unit, side, &mut octaves);
-            for ramp in 0..2 {
+            for (ramp, steps) in tops.into_iter().enumerate() {
                 let (range, path) = (range(&exposure, side, ramp), this.path(ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
-                    if let Some(span) = Span::new(range, below(top(tops[ramp]), index)) {
+                    if let Some(span) = Span::new(range, below(top(steps), index)) {
                         self.octaves += 1;
                         this.judge(octave, ramp, &path, &span, &exact, samples, &mut self.greatest);
                     }
