@@ -230,11 +230,9 @@ proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{
 
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
-code("exposure.rs", "let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """
-    let until = near + self.plateau.to_f64() / WHOLE as f64;
-    let beyond = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
-    let far = if until < 0.5 { until } else { beyond };
-    [if self.has_plateau() { near } else { far }, far]""")
+code("exposure.rs", "let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
+    let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+    [ if near < 0.5 { near } else { 1.0 - (plateau + far) }, if near + plateau < 0.5 { near + plateau } else { 1.0 - far }, ]""")
 PAIR = Fraction(1, 2**49)
 
 

@@ -295,9 +295,10 @@ require(worst <= Fraction(2**9) + 2**9 and worst / 2**64 < Fraction(1, 2**54), "
 require(2**7 * 2**23 < 2**31, "what is behind the point fits 32 bits")
 # Each join is told by the lesser part. In words that is a sum of pairs, to 2^-46 (pairs.py), and in doubles one to 2^-53; or 1 less
 # a share, from 1/2 on, where the rounding of shares to pairs, 2^-49 each, and of 1 less it, 2^-54, may count, too.
-code("exposure.rs", "let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let until = near.plus(self.plateau);
-    let far = if until.hi < 0.5 * WHOLE { words(until, self.trace()) } else { (!words(far, self.trace())).saturating_add(1) };
-    [if self.has_plateau() { words(near, self.trace()) } else { far }, far]""")
+code("exposure.rs", "let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let (until, rest) = (near.plus(self.plateau), far.plus(self.plateau));
+    let is_less = [near.hi < 0.5 * WHOLE, until.hi < 0.5 * WHOLE];
+    let joins = [ words(if is_less[0] { near } else { rest }, self.trace()), words(if is_less[1] { until } else { far }, self.trace()), ];
+    [ if is_less[0] { joins[0] } else { (!joins[0]).saturating_add(1) }, if is_less[1] { joins[1] } else { (!joins[1]).saturating_add(1) }, ]""")
 CUT = worst / 2**64
 SHARE = Fraction(1, 2**46) + Fraction(1, 2**53)
 BY_HALF = CUT + SHARE / 2 + 3 * Fraction(1, 2**49) + 2 * Fraction(1, 2**54)

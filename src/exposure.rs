@@ -17,7 +17,7 @@ use crate::shape::Shape;
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
 /// that these keep their order.
 pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
-/// For a fraction with more bits, as ticks have them, and for the times that polynomials are fitted to.
+/// For a fraction with more bits, as ticks have them, and where a `cdf` is settled.
 pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,10 +112,12 @@ impl Exposure {
     /// which has more bits below 1; so without a plateau both are one number.
     pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
-        let until = near + self.plateau.to_f64() / WHOLE as f64;
-        let beyond = 1.0 - self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
-        let far = if until < 0.5 { until } else { beyond };
-        [if self.has_plateau() { near } else { far }, far]
+        let plateau = self.plateau.to_f64() / WHOLE as f64;
+        let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+        [
+            if near < 0.5 { near } else { 1.0 - (plateau + far) },
+            if near + plateau < 0.5 { near + plateau } else { 1.0 - far },
+        ]
     }
 
     /// The same, but 1/2 within a [`trace`](Self::trace) of that.
@@ -143,13 +145,16 @@ impl Exposure {
             if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }
         }
         let [near, far] = [self.ramps[0].share, self.ramps[1].share];
-        let until = near.plus(self.plateau);
-        let far = if until.hi < 0.5 * WHOLE {
-            words(until, self.trace())
-        } else {
-            (!words(far, self.trace())).saturating_add(1)
-        };
-        [if self.has_plateau() { words(near, self.trace()) } else { far }, far]
+        let (until, rest) = (near.plus(self.plateau), far.plus(self.plateau));
+        let is_less = [near.hi < 0.5 * WHOLE, until.hi < 0.5 * WHOLE];
+        let joins = [
+            words(if is_less[0] { near } else { rest }, self.trace()),
+            words(if is_less[1] { until } else { far }, self.trace()),
+        ];
+        [
+            if is_less[0] { joins[0] } else { (!joins[0]).saturating_add(1) },
+            if is_less[1] { joins[1] } else { (!joins[1]).saturating_add(1) },
+        ]
     }
 
     pub(crate) const fn has_plateau(&self) -> bool {
@@ -158,7 +163,7 @@ impl Exposure {
 
     /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
     /// rounding of pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, four ulp: the polynomial of
-    /// the near ramp serves it, too, and its error is measured at 1/2 ([`fit`](crate::fit)).
+    /// the near ramp serves it, too, and has a second certificate along the far ramp ([`fit`](crate::fit)).
     const fn trace(&self) -> u64 {
         if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }

@@ -26,8 +26,8 @@ const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
 /// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
 const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
-/// The error in `u` that it may have, in ulp. Neighbouring `u` are an ulp apart, so below 1/2 their times cannot change
-/// places, also not where one octave follows another.
+/// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the lesser
+/// one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
 const ULP_ERROR: f32 = 0.49;
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
@@ -53,7 +53,7 @@ const MOST_FINER: u32 = 17;
 
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
 /// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
-/// taken that leaves no octave without a polynomial.
+/// taken that leaves no octave without a polynomial, or else the last.
 const STRETCHES: [u32; 4] = [0, 5, 6, 4];
 
 /// A side of the curve, as its octaves are fitted to it.
@@ -325,7 +325,10 @@ impl Side<'_> {
         let (exposure, side) = (self.exposure, self.side);
         // What an error may be is 1 in each of these units.
         let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
-        let (off, ulp) = (OFF[0] + OFF[1] * span.to, power_of_two(exponent(span.from as f32) - 23));
+        let (off, ulp) = (
+            OFF[0] + OFF[1] * span.to,
+            power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
+        );
         let per = unit as f32;
         let per_tick = per / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
         let per_light = per / (exposure.area as f32) / (ULP_ERROR * ulp - off);
@@ -375,7 +378,7 @@ impl Side<'_> {
         bounds
     }
 
-    /// The greatest openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
+    /// A bound of the openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
     #[inline(never)]
     const fn greatest_beyond(&self, ramp: usize, time: f32) -> f32 {
         if self.exposure.has_plateau() {
