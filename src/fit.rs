@@ -44,9 +44,8 @@ const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
 
 const WORD: f32 = 4294967296.0;
 
-/// Part of an octave is counted in finer units as long as its half is less than this share of the octave's width, which
-/// the next finer unit doubles. What the offsets leave of the word, 0.02 · 2³², is more than a center's lowest bits
-/// come to, 2⁵, at the finest unit.
+/// As long as half of a part is at most this share of the width, the unit is halved; so the half is at most 0.48 of it. The
+/// 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;
@@ -341,8 +340,8 @@ impl Side<'_> {
         scale(&mut along.elapsed, 1.0 / unit, 1.0);
         let elapsed = singles(&along.elapsed, 0.0, 1.0);
         let openness = singles(&along.openness, 0.0, per_light as f64);
-        // What the error in time is relative to changes as fast as the time, or not at all. Its reciprocal is below the
-        // line between two of its points.
+        // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in time, so
+        // it lies below the chord between both ends.
         let [_, t1, t2, t3] = elapsed;
         let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
         let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];

@@ -284,8 +284,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
-        // With both joins, so that 1/2 is on the line where it is one; and without a plateau, on the closing ramp, since it
-        // counts from side 1.
+        // With a plateau both joins are on the line, 1/2 too. Without one, a join at 1/2 has to be on the closing ramp, since
+        // 1/2 in 64 bits counts from side 1.
         let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
         let before = near.saturating_sub(1).max(1 << 55);
         // Also where the plateau holds no `f32`. Without a line, the slope is 0 or has too few bits.
