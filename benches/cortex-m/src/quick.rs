@@ -14,10 +14,8 @@ pub fn run(seed: &str, cells: &str, function: &str) -> Result<(), String> {
     let name = |f: Function| f.symbol().trim_start_matches("measured_");
     // The baselines have rows and hard inputs of their own, and building has but one row.
     let has = |f: Function, row| series().any(|(s, i)| (s, i) == (f, Inputs::Row(row)));
-    let functions: Vec<Function> = Function::ALL
-        .into_iter()
-        .filter(|f| has(*f, 1) || *f == Function::Construct)
-        .collect();
+    let functions: Vec<Function> =
+        Function::ALL.into_iter().filter(|f| has(*f, 1) || *f == Function::Construct).collect();
     let names: Vec<&str> = functions.iter().map(|f| name(*f)).collect();
     let called = functions.iter().copied().find(|f| name(*f) == function);
     let called = called.ok_or_else(|| format!("{function}: one of {}", names.join(", ")))?;
