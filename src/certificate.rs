@@ -2,8 +2,8 @@
 //!
 //! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to 1:
 //! the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f` beside
-//! it, `R f` is the error in exposure, of degree 51. No root is sought, and a kink of time over exposure is none of these
-//! polynomials.
+//! it, `R f` is the error in exposure, of degree 51. Nothing is inverted for it, and where time has a kink over exposure,
+//! these polynomials have none.
 //!
 //! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
 //! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M

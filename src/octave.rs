@@ -3,8 +3,8 @@
 //! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower
 //! towards the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in
 //! each. Each ramp has octaves of its own. They are powers of two apart from its *top*, which is the fraction at which
-//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, and the plateau between them is answered by
-//! its line.
+//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, unless their join counts as 1/2, and the
+//! plateau between them is answered by its line.
 //!
 //! The difference of the bits of the top's and of `a`'s `f32` tells how many octaves lie between them, since the
 //! exponent is the upper part of the bits. The offset within the octave is exact: the significand of `a` minus that of
@@ -27,7 +27,7 @@ pub(crate) struct Octave {
 }
 
 /// The time, in units, that stands for none: that of an octave without a polynomial. (Where a polynomial gives this
-/// very time, the search that follows gives the same answer.)
+/// very time, the search that follows keeps the promise, too.)
 pub(crate) const NO_TIME: i64 = 1;
 
 pub(crate) const DEGREE: usize = 8;

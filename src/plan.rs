@@ -18,8 +18,8 @@
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
-//! ([`fit`]). A search's is below a quarter of that distance ([`exposure`](crate::exposure)), so the order holds where
-//! a search follows a polynomial or the line.
+//! ([`fit`]). A search's is below a quarter of that distance if its step was accepted ([`solve`](crate::solve)), so the
+//! order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Ramp as Part};
