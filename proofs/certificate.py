@@ -10,36 +10,36 @@ from math import comb
 
 from common import *
 
-code("certificate.rs", "const fn ellipse(rho: f32) -> [f32; 3] {", """let square = 1.0 / (rho * rho);
+code("const fn ellipse(rho: f32) -> [f32; 3] {", """let square = 1.0 / (rho * rho);
     let twelfth = square * square * square * square * square * square;
     [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)] }""")
-code("certificate.rs", "let (mut s, mut last, mut i) = (1.0, cosine, 0);", "while i <= points {")
-code("certificate.rs", "let half = i.wrapping_sub(HALF_DEGREE);", """if half < DEGREES { shares[half] = s as f32; }
+code("let (mut s, mut last, mut i) = (1.0, cosine, 0);", "while i <= points {")
+code("let half = i.wrapping_sub(HALF_DEGREE);", """if half < DEGREES { shares[half] = s as f32; }
     (s, last) = (2.0 * cosine * s - last, s); i += 1; }""")
-code("certificate.rs", "errors.least[kind] -= noise;", "errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);")
-code("certificate.rs", "let [axis, square, first] = ELLIPSES[i];", """
+code("errors.least[kind] -= noise;", "errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);")
+code("let [axis, square, first] = ELLIPSES[i];", """
     let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis); let mut half = 0;
     while half < DEGREES && shares[half] > 0.0 { let bound = (seen + tail) / shares[half] + tail;
     least = if bound < least { bound } else { least }; tail *= square; half = unknown(half + 1); }""")
-code("certificate.rs", "let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
+code("let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
     let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
     loop { k = unknown(k).wrapping_sub(1); if k >= DEGREE { return sum; }
     more = (linear + curve) * more + curve * power; power *= linear;
     sum += octave.c[k].unsigned_abs() as f32 * more; }""")
-code("path.rs", "pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {", """let (mut value, mut k) = (0.0, c.len());
+code("pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {", """let (mut value, mut k) = (0.0, c.len());
     loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; } value = value * x + c[k].abs(); }""")
 
-DEGREE = int(source("octave.rs", r"pub\(crate\) const DEGREE: usize = (\d+);"))
-HALF_DEGREE = int(source("certificate.rs", r"const HALF_DEGREE: usize = (\d+);"))
-DEGREES = int(source("certificate.rs", r"const DEGREES: usize = (\d+);"))
-SLACK = 1 + 1 / Fraction(2 ** int(source("certificate.rs", r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
+DEGREE = int(source(r"pub\(crate\) const DEGREE: usize = (\d+);"))
+HALF_DEGREE = int(source(r"const HALF_DEGREE: usize = (\d+);"))
+DEGREES = int(source(r"const DEGREES: usize = (\d+);"))
+SLACK = 1 + 1 / Fraction(2 ** int(source(r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
 POINTS = [(int(n), float(c)) for n, c in re.findall(
-    r"\((\d+), ([\d.]+)\)", source("certificate.rs", r"const POINTS: [^=]*=\s*\[([^;]*)\];"))]
-RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source("certificate.rs", r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
+    r"\((\d+), ([\d.]+)\)", source(r"const POINTS: [^=]*=\s*\[([^;]*)\];"))]
+RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source(r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
 require(len(POINTS) == 3 and len(RHOS) == 6, "points and ellipses")
-COEFFICIENTS = int(source("certificate.rs", r"    x: &\[f32; (\d+)\],\n    weights"))
-WEIGHT = int(source("certificate.rs", r"weights: &\[\[f32; (\d+)\]; KINDS\]"))
-source("certificate.rs", r"\[x0, x1, curved @ \.\.\]: &\[f32; 7\]")
+COEFFICIENTS = int(source(r"    x: &\[f32; (\d+)\],\n    weights"))
+WEIGHT = int(source(r"weights: &\[\[f32; (\d+)\]; KINDS\]"))
+source(r"\[x0, x1, curved @ \.\.\]: &\[f32; 7\]")
 
 
 # --- Cosines, to 2^-200.
@@ -106,7 +106,7 @@ offset, time, weight = COEFFICIENTS - 1, 3, WEIGHT - 1
 left_out = max(DEGREE, time, offset) + weight
 require(left_out <= 2 * HALF_DEGREE, "what is left out of M")
 require(left_out > 2 * (HALF_DEGREE - 1), "a least degree less by two would not do")
-stated = [int(x) for x in (source("certificate.rs", r"the offset `x` has degree (\d+),"), source("certificate.rs", r"it, `R f` is the error in exposure, of degree (\d+)"))]
+stated = [int(x) for x in (source(r"the offset `x` has degree (\d+),"), source(r"it, `R f` is the error in exposure, of degree (\d+)"))]
 require(stated == [offset, offset * DEGREE + weight], "degrees in the text")
 proven(f"R has degree {offset * DEGREE}, and R times a cubic {offset * DEGREE + weight}; what M leaves out has degree {left_out}, at most the least that is tried, {2 * HALF_DEGREE}")
 
@@ -213,24 +213,23 @@ for rho, low in axes_low.items():
     axes_low[rho] = count
 count = max(axes_low.values())
 allowed = (SLACK - 1) / U
-stated = int(source("certificate.rs", r"More than the (\d+) roundings of an `f32`"))
+stated = int(source(r"More than the (\d+) roundings of an `f32`"))
 require(stated - 1 < count <= stated, f"as many roundings as the comment says: {float(count)}")
 require((1 - U) ** (int(count) + 1) * SLACK >= 1, f"{float(count)} roundings")
 require((1 - U) ** (int(count) + 1) * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
 proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most")
 
 # --- What a fraction may be off by: `OFF`.
-off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(
-    "fit.rs", r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
-terms, roundings = (int(x) for x in source("fit.rs", r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))
-require(terms == int(source("solve.rs", r"for degree 6 it is at most (\d+) times")), "Markov's constant")
+off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
+terms, roundings = (int(x) for x in source(r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))
+require(terms == int(source(r"for degree 6 it is at most (\d+) times")), "Markov's constant")
 on_path = terms * roundings * LAST_PLACE
 require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
 proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
 
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
-code("exposure.rs", "let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
+code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
     let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
     [ if near < 0.5 { near } else { 1.0 - (plateau + far) }, if near + plateau < 0.5 { near + plateau } else { 1.0 - far }, ]""")
 PAIR = Fraction(1, 2**49)
@@ -251,7 +250,7 @@ require(LAST_PLACE / 2 <= off0 and LAST_PLACE > off0, "OFF[0]")
 proven(f"what rounds joins, given the ramps' masses, is within OFF wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = OFF[0]")
 
 # --- `Limits::share`: how far a stretch goes in which so much time passes.
-code("fit.rs", "let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+code("let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
     let slowest = slowest - most / (1 << 20) as f32; let mut way = error / most;
     while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error { way *= 2.0; }""")

@@ -30,7 +30,7 @@ fi
 export python
 
 # The slowest first.
-scripts=(rounding pairs words octaves ticks lifting certificate shares series solve seeds markov vectors)
+scripts=(rounding pairs words octaves ticks lifting certificate shares series solve guess markov vectors)
 [ $# -eq 0 ] || scripts=("$@")
 
 log=$(mktemp)

@@ -8,31 +8,33 @@ from fractions import Fraction
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-SRC = HERE.parent / "src"
+# All of src/: what a script reads there is found wherever it stands.
+SOURCE = "".join(path.read_text() for path in sorted((HERE.parent / "src").rglob("*.rs")))
 
 # Half the distance between the f32 around 1, and the greatest relative error of one rounding.
 U = Fraction(1, 2**24)
 
 
-def source(file, pattern):
-    """The groups of the only match of `pattern` in a file of src/: a constant that moved or changed its form is a failure."""
-    found = re.findall(pattern, (SRC / file).read_text())
+def source(pattern):
+    """The groups of the only match of `pattern` in src/: a constant that changed its form is a failure."""
+    found = re.findall(pattern, SOURCE)
     if len(found) != 1:
-        sys.exit(f"src/{file}: {len(found)} matches of {pattern!r}, not 1: read the constant anew")
+        sys.exit(f"src: {len(found)} matches of {pattern!r}, not 1: read the constant anew")
     return found[0]
 
 
-def code(file, start, text):
-    """Fails unless the item of src/`file` that begins with `start` reads as the transcription was made from it.
+def plain(rust):
+    """Without whitespace, comments, and the comma that a line break leaves behind a last item."""
+    return re.sub(r",(?=[)}\]])", "", re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", rust)))
 
-    Whitespace and comments do not count.
-    """
-    def plain(rust):
-        return re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", rust))
 
-    whole = plain((SRC / file).read_text())
-    if whole.count(plain(start)) != 1 or plain(start + text) not in whole:
-        sys.exit(f"src/{file}: `{start.strip()}` has changed: compare the transcription with it, then the text here")
+PLAIN = plain(SOURCE)
+
+
+def code(start, text):
+    """Fails unless the only item of src/ that begins with `start` reads as the transcription was made from it."""
+    if PLAIN.count(plain(start)) != 1 or plain(start + text) not in PLAIN:
+        sys.exit(f"src: `{start.strip()}` has changed: compare the transcription with it, then the text here")
 
 
 def exactly(number):

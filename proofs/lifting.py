@@ -23,13 +23,13 @@ from fractions import Fraction as F
 from common import proven, require
 from common import source as read
 
-GRAZE = F(1, 1 << int(read("bezier.rs", r"const GRAZE: f64 = 1\.0 / \(1 << (\d+)\) as f64;")))
-read("bezier.rs", r"quadratic_min\(differences\(t\)\)\.0 < -GRAZE / 3\.0 \* \(t\[3\] - t\[0\]\)")
-read("bezier.rs", r"low < -GRAZE \* size")
+GRAZE = F(1, 1 << int(read(r"const GRAZE: f64 = 1\.0 / \(1 << (\d+)\) as f64;")))
+read(r"quadratic_min\(differences\(t\)\)\.0 < -GRAZE / 3\.0 \* \(t\[3\] - t\[0\]\)")
+read(r"low < -GRAZE \* size")
 # The traces by which more is raised than what is below 0.
-SLOPE = F(1, 1 << int(read("cubic.rs", r"\(outer\.abs\(\) \+ inner\) / divisor / \(1u64 << (\d+)\) as f64")))
-DARK = F(1, 1 << int(read("cubic.rs", r"-low \+ high / \(1u64 << (\d+)\) as f64")))
-read("cubic.rs", r"if 2\.0 \* end < high \{ high \} else \{ end \}")
+SLOPE = F(1, 1 << int(read(r"\(outer\.abs\(\) \+ inner\) / divisor / \(1u64 << (\d+)\) as f64")))
+DARK = F(1, 1 << int(read(r"-low \+ high / \(1u64 << (\d+)\) as f64")))
+read(r"if 2\.0 \* end < high \{ high \} else \{ end \}")
 # More than what rounding in f64 makes of any of this, relative to it.
 ROUNDING = F(1, 1 << 45)
 

@@ -4,21 +4,21 @@ Horner's rule in integers truncates, by Gappa."""
 from solver import *
 
 
-code("octave.rs", "pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead = position & !(position >> 31);
+code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead = position & !(position >> 31);
     self.ahead_of_center(position.wrapping_add(ahead)) }""")
-code("octave.rs", "pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
+code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
     doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
-code("plan.rs", "let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
+code("let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
     Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))""")
-code("plan.rs", "let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
+code("let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
     let significand = significand & !(1 << 31);
     let top = octave::top(self.tops[side & 1][is_beyond as usize]);
     let below = (top << 9 >> 1) as i32 - significand as i32;
     let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
     let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
     let position = significand as i32 | below & i32::MIN;""")
-code("fit.rs", "const fn center(&self) -> u64 {", """(self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
-code("fit.rs", "pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
+code("const fn center(&self) -> u64 {", """(self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
+code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
     if top < LEAST || from >= to { return None; }
@@ -26,35 +26,35 @@ code("fit.rs", "pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Sel
     let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave; let middle = 0.5 * (from as f32 + to);
     let (mut width, mut finer) = (octave, 0);
     while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
-code("fit.rs", "const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
+code("const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
     let beyond = top.wrapping_sub(floor_bits(from));
     if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }""")
-code("fit.rs", "let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
+code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
     while k > 0 && k <= DEGREE { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
     most = if bound > most { bound } else { most }; k = unknown(k - 1); }
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
     if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
-code("fit.rs", "octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
-code("plan.rs", "fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
+code("octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
+code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
-code("plan.rs", "let before_last = self.before_last(u.to_bits());", """if before_last < self.plateau[1] { return self.by_line(u.to_bits()); }
+code("let before_last = self.before_last(u.to_bits());", """if before_last < self.plateau[1] { return self.by_line(u.to_bits()); }
     let (side, bits) = Self::nearer(u); match self.octave(side, before_last >> 31, bits) {""")
-code("plan.rs", "let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
+code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
     return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
     let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
-code("plan.rs", "pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
+code("pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
     let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
     let before = near.saturating_sub(1).max(1 << 55);
     let serves = self.slope >> 40 != 0;
     PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } } }""")
 
-FINER = int(source("octave.rs", r"const FINER: u32 = (\d+);"))
-STEP = 1 << int(source("octave.rs", r"const STEP: u32 = 1 << (\d+);"))
-LEAST_EXPONENT = 127 - int(source("octave.rs", r"const LEAST: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
+FINER = int(source(r"const FINER: u32 = (\d+);"))
+STEP = 1 << int(source(r"const STEP: u32 = 1 << (\d+);"))
+LEAST_EXPONENT = 127 - int(source(r"const LEAST: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
 LEAST = LEAST_EXPONENT << 23
 
 
@@ -116,10 +116,10 @@ valid(
 # 4 EPSILON. It is exact unless it is above a quarter. The loop halves while half <= FILLED width, so after the last halving it is
 # at most 2 FILLED of the width; without one it is at most a quarter of a top that is less than twice the width, by a step, and 4 EPSILON.
 # The middle is off by the rounding of the sum of the ends, the center by what its lowest bits come to.
-FILLED = Fraction(source("fit.rs", r"const FILLED: f32 = (0\.\d+);"))
-MOST_FINER = int(source("fit.rs", r"const MOST_FINER: u32 = (\d+);"))
-REACH = Fraction(source("fit.rs", r"let reach = span\.half / span\.width \+ (0\.\d+);"))
-EPSILONS = int(source("fit.rs", r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* octave;"))
+FILLED = Fraction(source(r"const FILLED: f32 = (0\.\d+);"))
+MOST_FINER = int(source(r"const MOST_FINER: u32 = (\d+);"))
+REACH = Fraction(source(r"let reach = span\.half / span\.width \+ (0\.\d+);"))
+EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* octave;"))
 WORD = 2**32
 EPSILON = WORD // 2**23
 MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
@@ -169,8 +169,8 @@ valid(
 
 # Horner's sums. With |x| within the reach, each is at most the bound of the exact one, half a unit for each coefficient's rounding
 # and one for each product's, and the bound is computed with up to three roundings a step.
-DEGREE = int(source("octave.rs", r"pub\(crate\) const DEGREE: usize = (\d+);"))
-GUARD = 1 / Fraction(2 ** int(source("fit.rs", r"most \*= 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
+DEGREE = int(source(r"pub\(crate\) const DEGREE: usize = (\d+);"))
+GUARD = 1 / Fraction(2 ** int(source(r"most \*= 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
 
 
 def sums_fit(guard, per_step=Fraction(3, 2)):
@@ -188,7 +188,7 @@ byte = BitVec("byte", 8)
 top = (ZeroExt(24, byte) + LEAST // STEP) * STEP
 by_f32 = look_up(top, bits)
 exponent = LShR(bits, 23)
-CELLS = int(source("plan.rs", r"assert!\(CELLS <= (\d+),"))
+CELLS = int(source(r"assert!\(CELLS <= (\d+),"))
 a = ZeroExt(32, (bits & 0x7FFFFF) | (1 << 23)) << 40
 a = LShR(a, ZeroExt(32, 126 - exponent))
 
@@ -277,7 +277,7 @@ valid(
 )
 
 # The joins. A share is a pair hi + lo of at most 48 bits, here in 2^-32; its words are cut to 2^-55.
-code("exposure.rs", "let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));", """let upper = x.hi as u32;
+code("let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));", """let upper = x.hi as u32;
     let rest = (x.hi - upper as f32) + x.lo; let rest = ((rest * power_of_two(23)) as i32 as i64) << 9;
     let words = ((upper as u64) << 32).wrapping_add(rest as u64);
     if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }""")
@@ -295,15 +295,14 @@ require(worst <= Fraction(2**9) + 2**9 and worst / 2**64 < Fraction(1, 2**54), "
 require(2**7 * 2**23 < 2**31, "what is behind the point fits 32 bits")
 # Each join is told by the lesser part. In words that is a sum of pairs, to 2^-46 (pairs.py), and in doubles one to 2^-53; or 1 less
 # a share, from 1/2 on, where the rounding of shares to pairs, 2^-49 each, and of 1 less it, 2^-54, may count, too.
-code("exposure.rs", "let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let (until, rest) = (near.plus(self.plateau), far.plus(self.plateau));
+code("let [near, far] = [self.ramps[0].share, self.ramps[1].share];", """let (until, rest) = (near.plus(self.plateau), far.plus(self.plateau));
     let is_less = [near.hi < 0.5 * WHOLE, until.hi < 0.5 * WHOLE];
     let joins = [ words(if is_less[0] { near } else { rest }, self.trace()), words(if is_less[1] { until } else { far }, self.trace()), ];
     [ if is_less[0] { joins[0] } else { (!joins[0]).saturating_add(1) }, if is_less[1] { joins[1] } else { (!joins[1]).saturating_add(1) }, ]""")
 CUT = worst / 2**64
 SHARE = Fraction(1, 2**46) + Fraction(1, 2**53)
 BY_HALF = CUT + SHARE / 2 + 3 * Fraction(1, 2**49) + 2 * Fraction(1, 2**54)
-off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(
-    "fit.rs", r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
+off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
 covers = lambda off0, off1: CUT <= off0 and SHARE <= off1 and BY_HALF <= off0 + off1 / 2
 require(covers(off0, off1) and not covers(off0 / 2, off1) and not covers(off0, SHARE / 2), "joins")
 proven(f"the joins in words are within 2^{log2(CUT):.2f} and 2^{log2(SHARE):.2f} of the lesser part of those in doubles, which OFF covers")
@@ -353,11 +352,11 @@ $ x in (0);
 """
 
 
-code("octave.rs", "const fn times_high(a: i32, x: i32) -> i32 {", "((a as i64 * x as i64) >> 32) as i32 }")
-TRUNCATION = Fraction(source("fit.rs", r"const TRUNCATION: f32 = ([\d.]+);"))
-TRUNCATED = Fraction(source("fit.rs", r"const TRUNCATED: f64 = (-[\d.]+);"))
+code("const fn times_high(a: i32, x: i32) -> i32 {", "((a as i64 * x as i64) >> 32) as i32 }")
+TRUNCATION = Fraction(source(r"const TRUNCATION: f32 = ([\d.]+);"))
+TRUNCATED = Fraction(source(r"const TRUNCATED: f64 = (-[\d.]+);"))
 least, most = TRUNCATED - TRUNCATION, TRUNCATED + TRUNCATION
-stated = source("fit.rs", r"in the unit of the coefficients: from (-[\d.]+) to ([\d.]+)")
+stated = source(r"in the unit of the coefficients: from (-[\d.]+) to ([\d.]+)")
 require([least, most] == [Fraction(x) for x in stated], "the comment's bounds are those of the constants")
 require(gappa(horner(float(least), float(most))), "Horner's truncation")
 near = Fraction(1, 500)
@@ -365,4 +364,4 @@ require(not gappa(horner(float(least + near), float(most))) and not gappa(horner
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is TRUNCATED and TRUNCATION about it, for |x| up to 0.4999")
 require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("fit.rs", "let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;", "")
+code("let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;", "")

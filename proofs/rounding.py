@@ -10,13 +10,13 @@ import numpy as np
 
 from common import *
 
-code("pair.rs", "let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo * first * second;
+code("let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo * first * second;
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 { return careful_sum(base, way, first, second); }
     sum.hi + rest }""")
-code("pair.rs", "const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
+code("const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
     if sum.lo == 0.0 || bits & 1 == 1 { return sum.hi; } let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
     f32::from_bits(if up { bits + 1 } else { bits - 1 }) }""")
-code("pair.rs", "let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_of_two(-78);
+code("let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_of_two(-78);
     let up = if is_small { 48 } else { 0 }; let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
     let near = Pair::sum(base, hi);

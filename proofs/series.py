@@ -5,17 +5,17 @@ Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|
 
 from majorant import *
 
-code("series.rs", "pub(crate) const fn at(self, x: f32) -> Pair {", """let x_high = upper(x); let x_low = x - x_high; let Pair { mut hi, mut lo } = self.last;
+code("pub(crate) const fn at(self, x: f32) -> Pair {", """let x_high = upper(x); let x_low = x - x_high; let Pair { mut hi, mut lo } = self.last;
     let mut k = core::hint::black_box(self.c.len());
     loop { let product = hi * x; let high = upper(hi); let low = hi - high;
     let lost = ((high * x_high - product) + high * x_low + low * x_high) + low * x_low;
     lo = lo * x + lost; k = k.wrapping_sub(1); if k >= self.c.len() { return Pair { hi: product, lo }; }
     let sum = Pair::sum(self.c[k].hi, product); hi = sum.hi; lo += self.c[k].lo + sum.lo; } }""")
-code("series.rs", "pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; let mut slope = (c.len() + 1) as f32 * self.last.hi;
+code("pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; let mut slope = (c.len() + 1) as f32 * self.last.hi;
     while let [lower @ .., highest] = c { slope = slope * x + c.len() as f32 * highest.hi; c = lower; } slope }""")
-code("solve.rs", "pub(crate) const fn value(&self, series: Series) -> Pair {", """let Pair { hi, lo } = series.at(self.x);
+code("pub(crate) const fn value(&self, series: Series) -> Pair {", """let Pair { hi, lo } = series.at(self.x);
     Pair { hi, lo: lo + series.slope(self.x) * self.rest } }""")
-code("ramp.rs", "pub(crate) fn noise(&self) -> f32 {", """let c = self.ramp.single(self.side);
+code("pub(crate) fn noise(&self) -> f32 {", """let c = self.ramp.single(self.side);
     let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
     size * per_unit_of_mass(self.ramp.share) / (1u64 << 40) as f32 }""")
 
@@ -53,7 +53,7 @@ def sizes(n):
 
 
 places = U * U
-comment = source("series.rs", r"It is within 2⁻(\S+) Σ")
+comment = source(r"It is within 2⁻(\S+) Σ")
 stated = int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in comment))
 for n in (3, 6):
     lo, error = at(n)
@@ -96,7 +96,7 @@ for n in (3, 6):
 
 # `noise` sums the first numbers' terms at x, with 12 roundings and one of the scaling, and takes 2^-40.
 least = (1 - U) ** 13 / (1 + U)
-down = int(source("ramp.rs", r"per_unit_of_mass\(self\.ramp\.share\) / \(1u64 << (\d+)\) as f32"))
+down = int(source(r"per_unit_of_mass\(self\.ramp\.share\) / \(1u64 << (\d+)\) as f32"))
 require(worst <= least / 2**down, "noise")
 require(worst > least / 2 ** (down + 1), "noise: half of it would not do")
 proven(f"noise, 2^-{down} of the terms as computed, bounds the error of a mass")

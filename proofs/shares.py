@@ -3,11 +3,11 @@
 from solver import *
 from transcribed import Fractions, cases
 
-code("fraction.rs", "pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
+code("pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
     let remainder = (1 << 63) - share * divisor; Self { n, share, rest: ((remainder * share) >> 31) as u32 } }""")
-code("fraction.rs", "let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
+code("let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
     if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }""")
-code("fraction.rs", "let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
+code("let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
     let low = near * self.rest as u64; let middle = near * (self.share as u32 as u64) + (low >> 32);
     let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
     let (words, low) = if edge.is_off == (side == 0) {
@@ -19,7 +19,7 @@ code("fraction.rs", "let (side, near) =", """if odd < n || odd == n && !edge.is_
     let zeros = words.leading_zeros() & 63; let bits = words << zeros | (low as u64) << zeros >> 32;
     let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
     let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);""")
-code("fraction.rs", "let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));", """
+code("let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));", """
     let share = (self.share as u128) << 32 | self.rest as u128;
     let half = (share * significand as u128).checked_shr(down).unwrap_or(0);""")
 
@@ -90,7 +90,7 @@ def exactness(n):
     return Fraction(1, 2**47) + Fraction(6 * n, 2**96) + 2 * n * Fraction(2**24, 2**96)
 
 
-frame = source("fraction.rs", r"to 2⁻⁴⁵; in frames of more than 2([²³⁵]+) pulses")
+frame = source(r"to 2⁻⁴⁵; in frames of more than 2([²³⁵]+) pulses")
 frame = int("".join(str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(digit)) for digit in frame))
 require(exactness(2**frame) <= Fraction(1, 2**45) < exactness(2 ** (frame + 1)), "exactly")
 require(exactness(2**32) <= Fraction(101, 100) * Fraction(1, 2**39), "exactly, all frames")

@@ -8,39 +8,39 @@ from math import comb
 
 from majorant import *
 
-code("solve.rs", "const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {", "let mut k = N - 1; while k > to { k -= 1; c[k] += c[k + 1] * x; } }")
-code("solve.rs", "const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {", """let mut c = *c; horner(&mut c, x, 0); let value = c[0] * x;
+code("const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {", "let mut k = N - 1; while k > to { k -= 1; c[k] += c[k + 1] * x; } }")
+code("const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {", """let mut c = *c; horner(&mut c, x, 0); let value = c[0] * x;
     horner(&mut c, x, 0); horner(&mut c, x, 1); Self { value, d1: c[0], d2: c[1] } }""")
-code("solve.rs", "let c = core::hint::black_box(c);", """let size = s.abs(); let y = x.abs() + size; let (mut cubes, mut j) = (0.0, N);
+code("let c = core::hint::black_box(c);", """let size = s.abs(); let y = x.abs() + size; let (mut cubes, mut j) = (0.0, N);
     while j > 2 { cubes = cubes * y + j as f32 * c[j - 1].abs(); j -= 1; }
     let bends = cubes * y + 2.0 * c[1].abs(); let slopes = bends * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
     first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s)) }""")
-code("solve.rs", "const fn distance(&self, p: f32) -> f32 {", "flipped((p - self.place.hi) - self.place.lo, self.back) }")
-code("ramp.rs", "let c5 = c5 + 6.0 * c6 * from_end;", "")
-code("ramp.rs", "fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {", """let x = Pair::new(x);
+code("const fn distance(&self, p: f32) -> f32 {", "flipped((p - self.place.hi) - self.place.lo, self.back) }")
+code("let c5 = c5 + 6.0 * c6 * from_end;", "")
+code("fn around([a, b]: [Pair; 2], c: Pair, x: f32) -> [f32; 3] {", """let x = Pair::new(x);
     let bend = c.thrice().times(x); let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
     [slope.rounded(), bend.plus(b).rounded(), c.hi] }""")
-code("ramp.rs", "let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
+code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * ONE && (c1 - SLOW) * thrice < c2 * c2 {
     let slowest = -c2 / thrice; let sought = target.difference(series.at(slowest)); if sought.abs() < target.hi {
     let [c1, c2, c3] = around(self.end(side).elapsed, self.cubic, slowest); let back = sought.to_bits() & 1 << 31;
     let c = [c1, flipped(c2, back), c3];
     anchor = Anchor { place: Pair::new(slowest), back, c, sought: sought.abs(), rounding: ROUNDING, }; } }""")
-code("ramp.rs", "solve(series, target, &anchor, seed, [FOR_TIME * target.hi; 2])", "")
-code("solve.rs", "let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
+code("solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2])", "")
+code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
     if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {""")
 
-ROUNDING = 1 / Fraction(2 ** int(source("solve.rs", r"const ROUNDING: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-MOVED = 1 / Fraction(2 ** int(source("solve.rs", r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-CUBES = Fraction(source("solve.rs", r"moved\.abs\(\) \* bends \+ (\d\.\d) \* cubes"))
-BENDS = int(source("solve.rs", r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
+ROUNDING = 1 / Fraction(2 ** int(source(r"const ROUNDING: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
+MOVED = 1 / Fraction(2 ** int(source(r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
+CUBES = Fraction(source(r"moved\.abs\(\) \* bends \+ (\d\.\d) \* cubes"))
+BENDS = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
 def factor(pattern):
-    return Fraction(source("ramp.rs", pattern))
+    return Fraction(source(pattern))
 
 
 # By how many ROUNDINGs each kind of anchor counts.
-source("ramp.rs", r"return Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};")
-source("ramp.rs", r"Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};\n        // From where `t'")
+source(r"return Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};")
+source(r"Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};\n        // From where `t'")
 OTHER_END = factor(r"place: Pair::new\(ONE\),\s+back: BACK,\s+c,\s+sought: -sought,\s+rounding: ([\d.]+) \* ROUNDING,")
 INSIDE = factor(r"Anchor \{ place, back, c, sought: sought\.abs\(\), rounding: ([\d.]+) \* ROUNDING \}")
 
@@ -89,7 +89,7 @@ class Degree:
 mass, time = Degree(6), Degree(3)
 N = mass.n
 
-stated = int(source("solve.rs", r"because at most (\d+) roundings of 2⁻²⁴\s+(?://! )?lead to them"))
+stated = int(source(r"because at most (\d+) roundings of 2⁻²⁴\s+(?://! )?lead to them"))
 require(stated - 1 < mass.count <= stated, "as many roundings as the comment says")
 require(ratio(by(mass.first_terms(2).error, s=-1), mass.slopes) / U > stated, "a coefficient that is known less exactly counts")
 proven(f"the first two terms are wrong by at most {float(mass.count):.4f} * 2^-24 |s| D: the {stated} roundings of the comment")
@@ -111,7 +111,7 @@ far = mass.near + BENDS * ONCE
 # the sum, so |c_5| counts once more and 6 |c_6| P four times. That 6 |c_6| P x^4 <= D(x) follows from the density's sign,
 # below.
 inside = mass.near + 2 * BENDS * ONCE + 1 + BENDS * 4 * ONCE
-stated = source("solve.rs", r"which makes (\d+), and `ρ` is\s+//! ([\d.]+) · 2⁻²⁰\.[^ρ]*which makes\s+//! (\d+), and `ρ` is (\d+) · 2⁻²⁰\. A time, of degree 3, takes (\d+) at most")
+stated = source(r"which makes (\d+), and `ρ` is\s+//! ([\d.]+) · 2⁻²⁰\.[^ρ]*which makes\s+//! (\d+), and `ρ` is (\d+) · 2⁻²⁰\. A time, of degree 3, takes (\d+) at most")
 for said, needed in zip((stated[0], stated[2], stated[4]), (far, inside, time.near + 2 * ONCE)):
     require(int(said) - 1 < needed <= int(said), f"as many roundings as the comment says: {said}")
 require([Fraction(stated[1]), Fraction(stated[3])] == [OTHER_END, INSIDE], "the factors that the comment says")
@@ -160,7 +160,7 @@ proven(f"a time's search takes {float(time.near):.3f} roundings from an end and 
 # there is t = m P + c P^3, so T P <= 12 t; and the target is at least t / 2. For Y <= P the step's error, |s| (1 + 2) of it
 # with |s| <= Y, is then a small part of the error asked for. For Y >= P it is one of D, since D >= m + 3 c Y^2 >= T / 4.
 PAIRS = 6 + 11 + 16 + 11 + 16
-FOR_TIME = Fraction(1, 1 << int(source("ramp.rs", r"const FOR_TIME: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
+FOR_TIME = Fraction(1, 1 << int(source(r"const FOR_TIME: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
 part = 3 * PAIRS * U * U * 12 * 2 / FOR_TIME
 m, c, y = z3.Reals("m c y")
 solver = z3.Solver()
@@ -172,7 +172,7 @@ proven(f"where the slope cancels there, that costs at most {float(part):.4f} of 
 
 # The end of the search: neighbours are 2^-23 of a place p apart, and p D <= 6 * 1083 times what is collected up to p. From the other
 # end D is at most that of all of the ramp, which has at most twice the target; from inside the factor is 2 by cases.
-markov = int(source("solve.rs", r"for degree 6 it is at most (\d+) times"))
+markov = int(source(r"for degree 6 it is at most (\d+) times"))
 POWERS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 for name, rounding, times, pattern in (
     ("the end that faces the side", Fraction(1), 1, r"without `r` are below 2⁻(\S+) of the target from the end that faces"),
@@ -180,7 +180,7 @@ for name, rounding, times, pattern in (
     ("a minimum inside", INSIDE, 2, r"and below 2⁻(\S+) from a minimum inside"),
 ):
     ends = times * rounding * ROUNDING * Fraction(1, 2**23) * N * markov * Fraction(1001, 1000)
-    stated = int("".join(str(POWERS.index(digit)) for digit in source("solve.rs", pattern)))
+    stated = int("".join(str(POWERS.index(digit)) for digit in source(pattern)))
     require(Fraction(1, 2 ** (stated + 1)) < ends < Fraction(1, 2**stated), f"the end from {name}: {log2(ends)}")
     require(ends < Fraction(3, 4) * Fraction(1, 2**26), "the end")
     proven(f"between neighbours the bound's terms without r are at most 2^{log2(ends):.2f} of the target from {name}: below 2^-{stated}")

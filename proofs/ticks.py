@@ -2,13 +2,13 @@
 
 from solver import *
 
-code("ticks.rs", "fn tick(&self, time: i64) -> u32 {", """let delay = time.wrapping_sub(self.start);
+code("fn tick(&self, time: i64) -> u32 {", """let delay = time.wrapping_sub(self.start);
     let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
     let low = ((low * self.up as u64) >> 32) as u32;
     let delay = (high.wrapping_mul(self.up).wrapping_add(low) as i32).max(0) as u64;
     let low = (delay * (self.factor as u32 as u64)) >> 32;
     ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32 }""")
-code("ticks.rs", "let up = length.leading_zeros().wrapping_sub(1) & 31;", """let down = unit + 96 - up as i32; let rate = tick_hz as u64;
+code("let up = length.leading_zeros().wrapping_sub(1) & 31;", """let down = unit + 96 - up as i32; let rate = tick_hz as u64;
     let factor = if down < 0 { rate.checked_shr(down.unsigned_abs()) } else { rate.checked_shl(down.unsigned_abs()) };
     Self { start, up: 1 << up, factor: factor.unwrap_or(0) }""")
 
@@ -49,7 +49,7 @@ valid(
 
 # The factor: rate 2^(unit + 96 - up), where the interval has at most 2^DIRECT_TICKS ticks: rate length 2^unit is at most that,
 # and length at least 2^(62 - up).
-direct = int(source("ticks.rs", r"const DIRECT_TICKS: i32 = (\d+);"))
+direct = int(source(r"const DIRECT_TICKS: i32 = (\d+);"))
 for up in range(27):
     factor = Fraction(2) ** (direct - (62 - up)) * Fraction(2) ** (96 - up)
     require(factor == 2 ** (direct + 34) and factor < 2**64, "the factor")
@@ -58,7 +58,7 @@ require(cut <= Fraction(1, 4) and Fraction(2 ** (direct + 5), 2**30) > Fraction(
 proven(f"TickScale: the factor is at most 2^{direct + 34}, and what is cut off a delay and the factor is at most 2^{log2(cut):.3f} tick")
 
 # `fixed` and `plus` aside, an exponent of ticks.
-code("ticks.rs", "let ticks = length as u128 * tick_hz as u128;", "u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }")
+code("let ticks = length as u128 * tick_hz as u128;", "u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }")
 t = BitVec("ticks", 128)
 for e in range(97):
     solver = Solver()
@@ -69,10 +69,10 @@ proven("exponent_of_ticks: the least power of two that is not below, for every n
 
 # Pulses. Ends that are half a share apart or more are in order: that is what triggers promise. All others in any order.
 # The last off of full pulses is the curve's end, by a search, which no other end is behind.
-code("pulse.rs", "let mut start = self.ticks.edge(i, on);", """if self.is_close && i > 0 { start = start.max(self.ticks.edge(i - 1, off)); }
+code("let mut start = self.ticks.edge(i, on);", """if self.is_close && i > 0 { start = start.max(self.ticks.edge(i - 1, off)); }
     let end = if self.is_full && i + 1 == self.n() { self.ticks.searched(2 * i as u64 + 1, off) } else { self.ticks.edge(i, off) };
     (start, end.max(start)) }""")
-code("pulse.rs", "let frame = Pulses { ticks, edges, is_close: duty >", "0.5, is_full: duty == 1.0 };")
+code("let frame = Pulses { ticks, edges, is_close: duty >", "0.5, is_full: duty == 1.0 };")
 duty = Real("duty")
 ends = [(Int(f"on{i}"), i - duty / 2, Int(f"off{i}"), i + duty / 2) for i in range(4)]
 flat = [(tick, place) for on, a, off, b in ends for tick, place in ((on, a), (off, b))]

@@ -225,7 +225,7 @@ def shares():
         yield [word(n), word(odd), width, word(int(is_off)), word(share.in_u64(odd, half, is_off)), word(side), hi, lo]
 
 
-def seeds():
+def guess():
     for k in range(1, 7):
         for x in [0, 1, -1, 2**29 - 1, -(2**29), *(random.randint(-(2**29), 2**29 - 1) for _ in range(6))]:
             reciprocal = -(-(2**30) // k)
@@ -233,7 +233,7 @@ def seeds():
 
 
 if __name__ == "__main__":
-    for name, rows in (("pairs", pairs), ("series", series), ("left", left), ("rounded", rounded), ("ticks", ticks), ("shares", shares), ("seeds", seeds)):
+    for name, rows in (("pairs", pairs), ("series", series), ("left", left), ("rounded", rounded), ("ticks", ticks), ("shares", shares), ("guess", guess)):
         path = HERE / "vectors" / f"{name}.csv"
         with np.errstate(all="raise", under="ignore"):
             text = "".join(",".join(row) + "\n" for row in rows())

@@ -3,7 +3,7 @@
 from solver import *
 
 # The plateau's line.
-code("plan.rs", "pub(crate) fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+code("pub(crate) fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
     let way = high * u as u64 + ((low * u as u64) >> 32); self.base.wrapping_add(way as i64) }""")
 # The two products, of 32 bits by 32, are exact in 64; here they are any numbers that such products may be.
 p, q = Ints("p q")
@@ -14,10 +14,10 @@ valid(
     Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**63)),
     Implies(products, q + p / 2**32 < 2**62),
 )
-code("plan.rs", "fn by_line(&self, bits: u32) -> i64 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+code("fn by_line(&self, bits: u32) -> i64 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
     self.on_line((bits << 8 | 1 << 31) >> (shift & 31)) }""")
-code("plan.rs", "let before = if from < FINE.to_bits()", "{ FINE.to_bits() } else { from };")
-FINE = 127 - (int(source("octave.rs", r"const FINE: f32 = 1\.0 / (\d+)\.0;")).bit_length() - 1)
+code("let before = if from < FINE.to_bits()", "{ FINE.to_bits() } else { from };")
+FINE = 127 - (int(source(r"const FINE: f32 = 1\.0 / (\d+)\.0;")).bit_length() - 1)
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
 whole = (bits << 8) | (1 << 31)
@@ -32,14 +32,14 @@ valid("by_line: a u from FINE to 1 is a whole number of 2^-32", line(FINE), line
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
-code("plan.rs", "let high = (time >> 32) as i32;", """if high.wrapping_add(1 << 25) as u32 >> 26 == 0 { return self.rounded_with_care(u, time); }
+code("let high = (time >> 32) as i32;", """if high.wrapping_add(1 << 25) as u32 >> 26 == 0 { return self.rounded_with_care(u, time); }
     (high | (time as u32 != 0) as i32) as f32 * self.scale""")
-code("plan.rs", "let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == sign; let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
+code("let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == sign; let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
     let (high, low) = ((time >> 32) as i32, time as u32);
     let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
     let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
     filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale""")
-LEAST_BITS = int(source("plan.rs", r"high\.wrapping_add\(1 << (\d+)\) as u32 >> 26 == 0"))
+LEAST_BITS = int(source(r"high\.wrapping_add\(1 << (\d+)\) as u32 >> 26 == 0"))
 
 time, even = BitVec("time", 64), BitVec("even", 72)
 
@@ -92,7 +92,7 @@ proven("rounded_with_care: the word is full, and rounds as the exact time rounds
 
 # src/pair.rs: bits of f32.
 x = BitVec("x", 32)
-code("pair.rs", "pub(crate) const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
+code("pub(crate) const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
 significand = (x & 0x7FFFFF) | (1 << 23)
 high = significand & 0xFFFFF000
 is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
@@ -101,7 +101,7 @@ valid(
     Implies(is_normal, And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(significand - high, 1 << 12), ULT(LShR(high, 12), 1 << 12))),
     Implies(is_normal, ULT(significand - high, (1 << 12) - 1)),
 )
-code("pair.rs", "pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {", "f32::from_bits(x.to_bits() ^ sign) }")
+code("pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {", "f32::from_bits(x.to_bits() ^ sign) }")
 valid(
     "flipped: the sign bit alone changes, for every f32 and NaN",
     And((x ^ (1 << 31)) << 1 == x << 1, LShR(x ^ (1 << 31), 31) == 1 - LShR(x, 31), x ^ 0 == x),
@@ -110,8 +110,8 @@ valid(
 
 # `exponent`, `fixed` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
 # with the bits of a significand is the same for all: a shift.
-code("pair.rs", "pub(crate) const fn exponent(x: f32) -> i32 {", "(x.to_bits() >> 23 & 0xFF) as i32 - 127 }")
-code("pair.rs", "pub(crate) const fn fixed(x: f32, e: i32) -> i64 {", """let (bits, exponent) = (x.to_bits(), exponent(x));
+code("pub(crate) const fn exponent(x: f32) -> i32 {", "(x.to_bits() >> 23 & 0xFF) as i32 - 127 }")
+code("pub(crate) const fn fixed(x: f32, e: i32) -> i64 {", """let (bits, exponent) = (x.to_bits(), exponent(x));
     let significand = (bits & 0x7F_FFFF) as i64;
     let (significand, exponent) = if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
     let up = exponent - 23 - e;
@@ -128,7 +128,7 @@ valid(
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
 )
-code("pair.rs", "pub(crate) const fn from_u32(x: u32) -> Self {", "Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32) }")
+code("pub(crate) const fn from_u32(x: u32) -> Self {", "Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32) }")
 valid(
     "from_u32: both parts have at most 24 bits, so they and their sum are exact",
     And(ULT(LShR(x & 0xFFFFFF00, 8), 1 << 24), ULT(x & 0xFF, 1 << 24), (x & 0xFFFFFF00) + (x & 0xFF) == x),
@@ -137,7 +137,7 @@ valid(
 
 # `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
 # has one less, also across a power of two.
-code("octave.rs", "pub(crate) const fn floor_bits(x: f64) -> u32 {", "let rounded = x as f32; let bits = rounded.to_bits(); if rounded as f64 > x { bits - 1 } else { bits } }")
+code("pub(crate) const fn floor_bits(x: f64) -> u32 {", "let rounded = x as f32; let bits = rounded.to_bits(); if rounded as f64 > x { bits - 1 } else { bits } }")
 y = FP("y", Float64())
 rounded = fpFPToFP(RNE(), y, Float32())
 below = fpBVToFP(fpToIEEEBV(rounded) - 1, Float32())
@@ -152,7 +152,7 @@ valid(
 )
 
 # `significand` cuts a double's 53 bits: 24 and 24 more.
-code("exposure.rs", "pub(crate) const fn significand(x: f64) -> (Pair, i32) {", """const UNIT: f32 = 1.0 / (1u64 << 47) as f32; let bits = x.to_bits();
+code("pub(crate) const fn significand(x: f64) -> (Pair, i32) {", """const UNIT: f32 = 1.0 / (1u64 << 47) as f32; let bits = x.to_bits();
     let hi = f32::from_bits(127 << 23 | (bits >> 29) as u32 & 0x7F_FFFF);
     let lo = (bits as u32 >> 5 & 0xFF_FFFF) as f32 * UNIT; (Pair { hi, lo }, (bits >> 52) as i32 - 1023) }""")
 double = BitVec("double", 64)

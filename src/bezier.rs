@@ -1,7 +1,7 @@
 //! A cubic Bezier curve in (time, openness), and the checks that make it a ramp.
 
 use crate::cubic::{cubic_range, differences, quadratic_min, widened};
-use crate::error::{CurveError, Ramp};
+use crate::error::{CurveError, Part};
 
 /// A cubic Bezier `c(p) = (t(p), f(p))`, `p` in [0, 1], by its control points:
 /// `c(p) = P0 (1-p)³ + P1 3 (1-p)² p + P2 3 (1-p) p² + P3 p³`.
@@ -94,7 +94,7 @@ impl CubicBezier {
     }
 
     /// Is every coordinate finite?
-    pub(crate) const fn check_finite(&self, ramp: Ramp) -> Result<(), CurveError> {
+    pub(crate) const fn check_finite(&self, ramp: Part) -> Result<(), CurveError> {
         let mut i = 0;
         while i < 4 {
             if !self.points[i].0.is_finite() || !self.points[i].1.is_finite() {
@@ -109,7 +109,7 @@ impl CubicBezier {
     ///
     /// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound
     /// by [`GRAZE`] of the ramp's length or of the greatest |f|.
-    pub(crate) const fn check_ramp(&self, ramp: Ramp, most: f64) -> Result<(), CurveError> {
+    pub(crate) const fn check_ramp(&self, ramp: Part, most: f64) -> Result<(), CurveError> {
         let t = widened(self.times());
         // Grazing is for the inside: before its start and after its end there is no ramp. But rounding may put the
         // first control time before the start. Then t' is -GRAZE there at worst, and time, with the second control time

@@ -5,7 +5,7 @@ use core::fmt;
 /// The part of a curve that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Ramp {
+pub enum Part {
     /// The ramp from `open_start` to `open_end`.
     Opening,
     /// The ramp from `close_start` to `close_end`.
@@ -20,7 +20,7 @@ pub enum Ramp {
 #[non_exhaustive]
 pub enum CurveError {
     /// A control point of the ramp is NaN or infinite, which is also what becomes of a number above 3.4e38 in `f32`.
-    NotFinite(Ramp),
+    NotFinite(Part),
     /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`
     /// (for a single curve: it ends before it starts).
     TimesOutOfOrder,
@@ -30,14 +30,14 @@ pub enum CurveError {
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
     /// Time turns back along the ramp: `t'(p) < 0` somewhere in [0, 1].
-    TimeTurnsBack(Ramp),
+    TimeTurnsBack(Part),
     /// Time turns back because of the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening),
     /// whose times are fractions of the whole interval, not of their ramp, nor times themselves.
-    InnerTimesTurnBack(Ramp),
+    InnerTimesTurnBack(Part),
     /// The openness falls below 0 somewhere on the ramp.
-    NegativeOpenness(Ramp),
+    NegativeOpenness(Part),
     /// The openness rises above 1 somewhere on the ramp.
-    OpennessAboveOne(Ramp),
+    OpennessAboveOne(Part),
     /// The area under the curve is 0: nothing is ever exposed.
     ZeroArea,
     /// The area under the curve, or its reciprocal, is beyond the normal range of `f32`: it is outside [2⁻¹²⁶, 2¹²⁶].
@@ -47,9 +47,9 @@ pub enum CurveError {
 macro_rules! at {
     ($ramp:expr, $reason:literal) => {
         match $ramp {
-            Ramp::Opening => concat!("opening ramp: ", $reason),
-            Ramp::Closing => concat!("closing ramp: ", $reason),
-            Ramp::Single => concat!("curve: ", $reason),
+            Part::Opening => concat!("opening ramp: ", $reason),
+            Part::Closing => concat!("closing ramp: ", $reason),
+            Part::Single => concat!("curve: ", $reason),
         }
     };
 }
@@ -73,7 +73,7 @@ impl CurveError {
             E::TimeTurnsBack(r) => {
                 at!(r, "time turns back along it; with control times in order it does not")
             }
-            E::InnerTimesTurnBack(Ramp::Closing) => {
+            E::InnerTimesTurnBack(Part::Closing) => {
                 "closing ramp: time turns back along it; \
                  t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end"
             }

@@ -8,7 +8,7 @@
 //! relative to `a`. A mirrored curve gives mirrored times.
 
 use crate::bezier::CubicBezier;
-use crate::error::{CurveError, Ramp as Part};
+use crate::error::{CurveError, Part};
 use crate::moment::Moment;
 use crate::pair::{Pair, power_of_two, rounded_sum};
 use crate::ramp::{Ramp, RampPoint, WHOLE, WHOLE_EXPONENT};

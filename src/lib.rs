@@ -29,7 +29,7 @@
 #![forbid(unsafe_code)]
 
 // To read in this order: two `f32` as one number, `pair`; polynomials of these, `series`; where such a polynomial
-// reaches a target, `solve` and its first guess, `seed`. One Bezier: `bezier`, `cubic`, `shape`; seen from either end,
+// reaches a target, `solve` and its first `guess`. One Bezier: `bezier`, `cubic`, `shape`; seen from either end,
 // `ramp`; a time as it is found, `moment`. Two ramps and a plateau, `exposure`. Without a search: `octave`, `fit`. All
 // of it together is a `plan`, which lists the steps of one answer; `batch` shortens them on large processors. The
 // public types stand on that: `shutter`, `pdf`, `schedule` (with `fraction` and `ticks`), `pulse`, `error`.
@@ -41,6 +41,7 @@ mod error;
 mod exposure;
 mod fit;
 mod fraction;
+mod guess;
 mod moment;
 mod octave;
 mod pair;
@@ -50,7 +51,7 @@ mod plan;
 mod pulse;
 mod ramp;
 mod schedule;
-mod seed;
+
 mod series;
 mod shape;
 mod shutter;
@@ -58,7 +59,7 @@ mod solve;
 mod ticks;
 
 pub use bezier::CubicBezier;
-pub use error::{CurveError, Ramp, ScheduleError, valid};
+pub use error::{CurveError, Part, ScheduleError, valid};
 pub use pdf::BezierPdf;
 pub use pulse::PulseTicks;
 pub use schedule::{TriggerTicks, TriggerTimes};

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::batch;
 use crate::bezier::CubicBezier;
-use crate::error::{CurveError, Ramp};
+use crate::error::{CurveError, Part};
 use crate::plan::Plan;
 
 /// One cubic Bezier taken as a probability density over time: any non-negative scale of `f`, and any unit of time, the
@@ -66,7 +66,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
         let end = curve.points()[3].0;
         let end = if end.is_finite() { end } else { 0.0 };
         let nothing = CubicBezier::new([(end, 0.0); 4]);
-        match Plan::new(&curve, &nothing, Ramp::Single, f64::INFINITY) {
+        match Plan::new(&curve, &nothing, Part::Single, f64::INFINITY) {
             Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }

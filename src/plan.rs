@@ -10,7 +10,7 @@
 //! 5. The ramp on which `a` is collected, and how much of it there ([`exposure`](crate::exposure)).
 //! 6. That ramp, seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The nearest of four places on it from which a search may start, its *anchors*.
-//! 8. A root of the leading term there is the first guess ([`seed`](crate::seed)).
+//! 8. A root of the leading term there is the first guess ([`guess`](crate::guess)).
 //! 9. Halley's steps, what is then missing in pairs, and one step for that, with a proof ([`solve`](crate::solve)).
 //! 10. One rounding to `f32`.
 //!
@@ -22,7 +22,7 @@
 //! order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
-use crate::error::{CurveError, Ramp as Part};
+use crate::error::{CurveError, Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::fit::{Span, fit};
 use crate::octave::{self, FINE, NO_TIME, Octave, floor_bits};

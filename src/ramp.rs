@@ -12,9 +12,9 @@
 
 use crate::bezier::CubicBezier;
 use crate::cubic::integral;
+use crate::guess::guess;
 use crate::moment::Moment;
 use crate::pair::{Pair, exponent, flipped, power_of_two};
-use crate::seed::seed;
 use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ONE, Offset, ROUNDING, solve};
@@ -211,10 +211,10 @@ impl Ramp {
         let unit = unit_of_mass(self.share);
         let target = target.scaled(unit);
         let anchor = self.anchor(side, target);
-        let seed = seed(&anchor.c, anchor.sought);
+        let guess = guess(&anchor.c, anchor.sought);
         self.moment(
             side,
-            solve(self.collected(side), target, &anchor, seed, [error[0] * unit, error[1] * unit]),
+            solve(self.collected(side), target, &anchor, guess, [error[0] * unit, error[1] * unit]),
         )
     }
 
@@ -274,8 +274,8 @@ impl Ramp {
                 };
             }
         }
-        let seed = seed(&anchor.c, anchor.sought);
-        solve(series, target, &anchor, seed, [FOR_TIME * target.hi; 2])
+        let guess = guess(&anchor.c, anchor.sought);
+        solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2])
     }
 }
 

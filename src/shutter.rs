@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::batch;
 use crate::bezier::CubicBezier;
-use crate::error::{CurveError, Ramp};
+use crate::error::{CurveError, Part};
 use crate::octave::NO_TIME;
 use crate::pair::{Pair, rounded_sum};
 use crate::plan::Plan;
@@ -75,14 +75,14 @@ impl ShutterCurve {
     /// ramp as well.
     ///
     /// ```
-    /// use shutter_curve::{CurveError, Ramp, ShutterCurve};
+    /// use shutter_curve::{CurveError, Part, ShutterCurve};
     /// // In ms. The opening ramp takes the first quarter of the interval, so t1 and t2 are below 0.25.
     /// let times = [0.0, 2.5, 7.5, 10.0];
     /// let curve = ShutterCurve::shutteropening(times, [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0])?;
     /// assert_eq!(curve.close_end(), 10.0);
     /// // Fractions of each ramp, as an easing curve has them, are refused.
     /// let error = ShutterCurve::shutteropening(times, [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0]);
-    /// assert_eq!(error, Err(CurveError::InnerTimesTurnBack(Ramp::Opening)));
+    /// assert_eq!(error, Err(CurveError::InnerTimesTurnBack(Part::Opening)));
     /// # Ok::<(), CurveError>(())
     /// ```
     ///
@@ -115,7 +115,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        match Plan::new(&opening, &closing, Ramp::Opening, 1.0) {
+        match Plan::new(&opening, &closing, Part::Opening, 1.0) {
             Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }
@@ -164,7 +164,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
         // ramp's.
         if times[0].is_finite() && times[1].is_finite() && !times[3].is_finite() {
-            return Err(CurveError::NotFinite(Ramp::Closing));
+            return Err(CurveError::NotFinite(Part::Closing));
         }
         match Self::with_cells(opening, closing) {
             Err(CurveError::TimeTurnsBack(ramp)) => Err(CurveError::InnerTimesTurnBack(ramp)),

@@ -202,7 +202,7 @@ pub(crate) const fn solve<const N: usize>(
     series: Series,
     target: Pair,
     anchor: &Anchor<N>,
-    seed: f32,
+    guess: f32,
     [wanted, accepted]: [f32; 2],
 ) -> Offset {
     let Anchor { place, back, c, sought, rounding } = *anchor;
@@ -213,7 +213,7 @@ pub(crate) const fn solve<const N: usize>(
     let in_pairs = (PAIRS_BELOW * sought + wanted).to_bits() as i32;
     let reach = anchor.reach();
     // At the end of the ramp the density may be 0.
-    let mut x = if seed < 0.75 * reach { seed } else { 0.75 * reach };
+    let mut x = if guess < 0.75 * reach { guess } else { 0.75 * reach };
     let reach = reach.to_bits() as i32;
     // The place, once it is measured in pairs.
     let mut p = f32::NAN;

@@ -1,6 +1,6 @@
 //! Every kind of bad input, and what happens: its own error, a clamp, or an empty answer.
 
-use shutter_curve::{BezierPdf, CubicBezier, CurveError, Ramp, ScheduleError, ShutterCurve};
+use shutter_curve::{BezierPdf, CubicBezier, CurveError, Part, ScheduleError, ShutterCurve};
 
 type Points = [(f32, f32); 4];
 
@@ -17,13 +17,13 @@ fn single(points: Points) -> Result<BezierPdf, CurveError> {
 
 /// The good curve with one coordinate changed.
 fn with(
-    ramp: Ramp,
+    ramp: Part,
     point: usize,
     t: Option<f32>,
     f: Option<f32>,
 ) -> Result<ShutterCurve, CurveError> {
     let (mut opening, mut closing) = (OPENING, CLOSING);
-    let points = if ramp == Ramp::Opening { &mut opening } else { &mut closing };
+    let points = if ramp == Part::Opening { &mut opening } else { &mut closing };
     points[point].0 = t.unwrap_or(points[point].0);
     points[point].1 = f.unwrap_or(points[point].1);
     shutter(opening, closing)
@@ -39,14 +39,14 @@ fn a_good_curve_is_built() {
 fn control_points_must_be_finite() {
     for bad in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for point in 0..4 {
-            for ramp in [Ramp::Opening, Ramp::Closing] {
+            for ramp in [Part::Opening, Part::Closing] {
                 let expected = Err(CurveError::NotFinite(ramp));
                 assert_eq!(with(ramp, point, Some(bad), None), expected);
                 assert_eq!(with(ramp, point, None, Some(bad)), expected);
             }
             let mut points = OPENING;
             points[point].0 = bad;
-            assert_eq!(single(points), Err(CurveError::NotFinite(Ramp::Single)));
+            assert_eq!(single(points), Err(CurveError::NotFinite(Part::Single)));
         }
     }
 }
@@ -67,14 +67,14 @@ fn time_must_not_turn_back() {
     let back = |ramp, point, t| {
         assert_eq!(with(ramp, point, Some(t), None), Err(CurveError::TimeTurnsBack(ramp)))
     };
-    back(Ramp::Opening, 1, -0.01);
-    back(Ramp::Opening, 2, 0.26);
-    back(Ramp::Closing, 1, 0.74);
-    back(Ramp::Closing, 2, 1.01);
+    back(Part::Opening, 1, -0.01);
+    back(Part::Opening, 2, 0.26);
+    back(Part::Closing, 1, 0.74);
+    back(Part::Closing, 2, 1.01);
     // Both ends run forward, the middle does not: d1² > d0 d2.
     let s = [(0.0, 0.0), (0.3, 0.0), (0.0, 1.0), (0.25, 1.0)];
-    assert_eq!(shutter(s, CLOSING), Err(CurveError::TimeTurnsBack(Ramp::Opening)));
-    assert_eq!(single(s), Err(CurveError::TimeTurnsBack(Ramp::Single)));
+    assert_eq!(shutter(s, CLOSING), Err(CurveError::TimeTurnsBack(Part::Opening)));
+    assert_eq!(single(s), Err(CurveError::TimeTurnsBack(Part::Single)));
     // And just forward: d1² = d0 d2.
     assert!(shutter([(0.0, 0.0), (0.25, 0.0), (0.0, 1.0), (0.25, 1.0)], CLOSING).is_ok());
 }
@@ -84,19 +84,19 @@ fn openness_must_stay_in_bounds() {
     let negative = |ramp, point, f| {
         assert_eq!(with(ramp, point, None, Some(f)), Err(CurveError::NegativeOpenness(ramp)))
     };
-    negative(Ramp::Opening, 0, -1e-3);
-    negative(Ramp::Opening, 1, -0.1);
-    negative(Ramp::Closing, 2, -0.1);
-    negative(Ramp::Closing, 3, -1e-3);
+    negative(Part::Opening, 0, -1e-3);
+    negative(Part::Opening, 1, -0.1);
+    negative(Part::Closing, 2, -0.1);
+    negative(Part::Closing, 3, -1e-3);
     let above = |ramp, point, f| {
         assert_eq!(with(ramp, point, None, Some(f)), Err(CurveError::OpennessAboveOne(ramp)))
     };
-    above(Ramp::Opening, 3, 1.001);
-    above(Ramp::Opening, 2, 1.1);
-    above(Ramp::Closing, 0, 1.001);
-    above(Ramp::Closing, 1, 1.1);
+    above(Part::Opening, 3, 1.001);
+    above(Part::Opening, 2, 1.1);
+    above(Part::Closing, 0, 1.001);
+    above(Part::Closing, 1, 1.1);
     let dip = [(0.0, 1.0), (0.1, -0.4), (0.2, -0.4), (0.3, 1.0)];
-    assert_eq!(single(dip), Err(CurveError::NegativeOpenness(Ramp::Single)));
+    assert_eq!(single(dip), Err(CurveError::NegativeOpenness(Part::Single)));
     // A single density may have any scale.
     assert!(single([(0.0, 0.0), (0.1, 1e30), (0.2, 1e30), (0.3, 0.0)]).is_ok());
 }
@@ -140,18 +140,18 @@ fn grazing_ends_at_2_to_the_minus_22() {
     };
     assert!(shutter(dip(0.75 * GRAZE), CLOSING).is_ok());
     let below = CurveError::NegativeOpenness;
-    assert_eq!(shutter(dip(1.25 * GRAZE), CLOSING), Err(below(Ramp::Opening)));
-    assert_eq!(single(dip(1.25 * GRAZE)), Err(below(Ramp::Single)));
-    assert_eq!(single(dip(2.0 * GRAZE)), Err(below(Ramp::Single)));
+    assert_eq!(shutter(dip(1.25 * GRAZE), CLOSING), Err(below(Part::Opening)));
+    assert_eq!(single(dip(1.25 * GRAZE)), Err(below(Part::Single)));
+    assert_eq!(single(dip(2.0 * GRAZE)), Err(below(Part::Single)));
     // The same upside down.
     let bump = |by: f32| dip(by).map(|(t, f)| (t, 1.0 - f));
     assert!(shutter(bump(0.75 * GRAZE), CLOSING).is_ok());
-    let error = Err(CurveError::OpennessAboveOne(Ramp::Opening));
+    let error = Err(CurveError::OpennessAboveOne(Part::Opening));
     assert_eq!(shutter(bump(1.5 * GRAZE), CLOSING), error);
     assert_eq!(shutter(bump(2.0 * GRAZE), CLOSING), error);
     // t' = 3/4 t2 at p = 1/2, nearly.
     let turn = |by: f32| [(0.0, 0.0), (1.0, 0.3), (-by * 4.0 / 3.0, 0.6), (1.0, 1.0)];
-    let back = CurveError::TimeTurnsBack(Ramp::Single);
+    let back = CurveError::TimeTurnsBack(Part::Single);
     assert!(single(turn(0.75 * GRAZE)).is_ok());
     assert_eq!(single(turn(1.25 * GRAZE)), Err(back));
     assert_eq!(single(turn(2.0 * GRAZE)), Err(back));
@@ -330,21 +330,21 @@ fn shutteropening_is_told_from_times() {
     let (times, inner) = ([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]);
     assert_eq!(curve(times, inner), Ok(()));
     let of_ramps = [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0];
-    assert_eq!(curve(times, of_ramps), Err(CurveError::InnerTimesTurnBack(Ramp::Opening)));
+    assert_eq!(curve(times, of_ramps), Err(CurveError::InnerTimesTurnBack(Part::Opening)));
     let of_closing = [0.1, 0.0, 0.15, 1.0, 0.4, 1.0, 0.6, 0.0];
-    assert_eq!(curve(times, of_closing), Err(CurveError::InnerTimesTurnBack(Ramp::Closing)));
+    assert_eq!(curve(times, of_closing), Err(CurveError::InnerTimesTurnBack(Part::Closing)));
     // The ramp whose number it is.
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for i in 0..4 {
             let mut times = times;
             times[i] = bad;
-            let ramp = if i < 2 { Ramp::Opening } else { Ramp::Closing };
+            let ramp = if i < 2 { Part::Opening } else { Part::Closing };
             assert_eq!(curve(times, inner), Err(CurveError::NotFinite(ramp)), "times[{i}] = {bad}");
         }
         for i in 0..8 {
             let mut inner = inner;
             inner[i] = bad;
-            let ramp = if i < 4 { Ramp::Opening } else { Ramp::Closing };
+            let ramp = if i < 4 { Part::Opening } else { Part::Closing };
             assert_eq!(curve(times, inner), Err(CurveError::NotFinite(ramp)), "inner[{i}] = {bad}");
         }
     }
@@ -356,7 +356,7 @@ fn errors_say_which_and_why() {
     use CurveError as E;
     for (error, text) in [
         (
-            E::NotFinite(Ramp::Opening),
+            E::NotFinite(Part::Opening),
             "opening ramp: a control point is NaN, infinite or beyond f32 (3.4e38)",
         ),
         (
@@ -373,21 +373,21 @@ fn errors_say_which_and_why() {
             "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)",
         ),
         (
-            E::TimeTurnsBack(Ramp::Closing),
+            E::TimeTurnsBack(Part::Closing),
             "closing ramp: time turns back along it; with control times in order it does not",
         ),
         (
-            E::InnerTimesTurnBack(Ramp::Opening),
+            E::InnerTimesTurnBack(Part::Opening),
             "opening ramp: time turns back along it; \
              t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end",
         ),
         (
-            E::InnerTimesTurnBack(Ramp::Closing),
+            E::InnerTimesTurnBack(Part::Closing),
             "closing ramp: time turns back along it; \
              t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end",
         ),
-        (E::NegativeOpenness(Ramp::Single), "curve: the openness falls below 0"),
-        (E::OpennessAboveOne(Ramp::Closing), "closing ramp: the openness rises above 1"),
+        (E::NegativeOpenness(Part::Single), "curve: the openness falls below 0"),
+        (E::OpennessAboveOne(Part::Closing), "closing ramp: the openness rises above 1"),
         (E::ZeroArea, "the area under the curve is 0"),
         (
             E::AreaOutOfRange,

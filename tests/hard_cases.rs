@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, Ramp, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, Part, ShutterCurve};
 use support::baseline::InverseTable;
 use support::cases::{
     ANIMATION, CASES, NO_ROOT, S_RAMP, case, evenly, exact, judge, shutter, worst,
@@ -135,8 +135,8 @@ fn others_negative_openness_and_folding_time_are_accepted() {
     let below = [(0.0, 0.0), (0.1, -0.8), (0.2, 0.2), (0.25, 1.0)];
     let folded = [(0.0, 0.0), (0.6, 0.0), (-0.4, 1.0), (0.25, 1.0)];
     for (opening, error) in [
-        (below, CurveError::NegativeOpenness(Ramp::Opening)),
-        (folded, CurveError::TimeTurnsBack(Ramp::Opening)),
+        (below, CurveError::NegativeOpenness(Part::Opening)),
+        (folded, CurveError::TimeTurnsBack(Part::Opening)),
     ] {
         let parts = Parts::<f32>::new(opening, closing);
         let inverse = |u| parts.inverse_cdf(u, renderer).0;
@@ -184,7 +184,7 @@ fn time_may_not_dip_below_its_start() {
         [(0.0, 0.0), (2.6676002e-25, 0.0), (-3.862075e-20, 0.21662693), (3.127673e-16, 0.0)];
     let closing = [(2.3521328e-15, 0.0), (2.36e-15, 1.0), (2.37e-15, 1.0), (2.3844592e-15, 0.0)];
     let [opening, closing] = [opening, closing].map(CubicBezier::new);
-    let error = CurveError::TimeTurnsBack(Ramp::Opening);
+    let error = CurveError::TimeTurnsBack(Part::Opening);
     assert_eq!(ShutterCurve::new(opening, closing), Err(error));
 }
 

@@ -7,7 +7,7 @@ use shutter::scene::{Scene, Values};
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
 use shutter::unit::Unit;
-use shutter_curve::{CubicBezier, CurveError, Ramp};
+use shutter_curve::{CubicBezier, CurveError, Part as CurvePart};
 
 use crate::answer::{Wrong, json};
 use crate::bar::Bar;
@@ -215,9 +215,9 @@ fn ramp(error: CurveError) -> Option<&'static str> {
         | E::InnerTimesTurnBack(ramp)
         | E::NegativeOpenness(ramp)
         | E::OpennessAboveOne(ramp) => Some(match ramp {
-            Ramp::Opening => "opening",
-            Ramp::Closing => "closing",
-            Ramp::Single => return None,
+            CurvePart::Opening => "opening",
+            CurvePart::Closing => "closing",
+            CurvePart::Single => return None,
         }),
         _ => None,
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bezier::CubicBezier;
-use crate::error::Ramp;
+use crate::error::Part;
 use crate::octave::top;
 use crate::plan::unit_for;
 use crate::support::aimed::{FAMILIES, aimed};
@@ -36,7 +36,7 @@ impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
     fn judge<const CELLS: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
-        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1], Ramp::Opening, f64::INFINITY) else {
+        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1], Part::Opening, f64::INFINITY) else {
             return;
         };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];

@@ -1,19 +1,19 @@
-"""src/seed.rs: the division by a constant, and that logarithms fit their words. By exact arithmetic and z3."""
+"""src/guess.rs: the division by a constant, and that logarithms fit their words. By exact arithmetic and z3."""
 
 from solver import *
 
-code("seed.rs", "const fn divided(x: i32, k: i32) -> i32 {", "(((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32 }")
-code("seed.rs", "const fn rough_log(x: f32) -> i32 {", "(x.to_bits() as i32 >> 3) - 127 * LOG_ONE }")
-code("seed.rs", "let root = divided(log - rough_log(c[i]), k);", "")
-LOG_ONE = 1 << int(source("seed.rs", r"const LOG_ONE: i32 = 1 << (\d+);"))
-words = source("seed.rs", r"const RECIPROCALS: \[i32; 8\] = \[([^\]]*)\];").split(",")
+code("const fn divided(x: i32, k: i32) -> i32 {", "(((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32 }")
+code("const fn rough_log(x: f32) -> i32 {", "(x.to_bits() as i32 >> 3) - 127 * LOG_ONE }")
+code("let root = divided(log - rough_log(c[i]), i as i32 + 1);", "")
+LOG_ONE = 1 << int(source(r"const LOG_ONE: i32 = 1 << (\d+);"))
+words = source(r"const RECIPROCALS: \[i32; 8\] = \[([^\]]*)\];").split(",")
 reciprocals = [1 << int(word.split("<<")[1]) if "<<" in word else int(word) for word in words]
 
 a, b = BitVecs("a b", 32)
 log_a, log_b = (a >> 3) - 127 * LOG_ONE, (b >> 3) - 127 * LOG_ONE
 wide = SignExt(32, log_a) - SignExt(32, log_b)
 valid(
-    "seed: a difference of two logarithms, of any f32 and NaN, fits 30 bits, so neither it nor four times it overflows",
+    "guess: a difference of two logarithms, of any f32 and NaN, fits 30 bits, so neither it nor four times it overflows",
     And(SignExt(32, log_a - log_b) == wide, SignExt(32, (log_a - log_b) << 2) == wide << 2),
     wide < (1 << 29) - 1,
 )
