@@ -222,7 +222,7 @@ proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f
 # --- What a fraction may be off by: `OFF`.
 off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
 terms, roundings = (int(x) for x in source(r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))
-require(terms == int(source(r"for degree 6 it is at most (\d+) times")), "Markov's constant")
+require(terms == int(documented(r"without their signs are at most (\d+) times the mass")), "Markov's constant")
 on_path = terms * roundings * LAST_PLACE
 require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
 proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
@@ -250,7 +250,7 @@ require(LAST_PLACE / 2 <= off0 and LAST_PLACE > off0, "OFF[0]")
 proven(f"what rounds joins, given the ramps' masses, is within OFF wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = OFF[0]")
 
 # --- `Limits::share`: how far a stretch goes in which so much time passes.
-code("let [_, t1, t2, t3] = self.elapsed;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+code("let [_, t1, t2, t3] = self.time;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
     let slowest = slowest - most / (1 << 20) as f32; let mut way = error / most;
     while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error { way *= 2.0; }""")

@@ -10,6 +10,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 # All of src/: what a script reads there is found wherever it stands.
 SOURCE = "".join(path.read_text() for path in sorted((HERE.parent / "src").rglob("*.rs")))
+DOCS = (HERE.parent / "docs" / "proofs.md").read_text()
 
 # Half the distance between the f32 around 1, and the greatest relative error of one rounding.
 U = Fraction(1, 2**24)
@@ -20,6 +21,14 @@ def source(pattern):
     found = re.findall(pattern, SOURCE)
     if len(found) != 1:
         sys.exit(f"src: {len(found)} matches of {pattern!r}, not 1: read the constant anew")
+    return found[0]
+
+
+def documented(pattern):
+    """The same of docs/proofs.md: a number that it states, which a script then holds it to."""
+    found = re.findall(pattern, DOCS)
+    if len(found) != 1:
+        sys.exit(f"docs/proofs.md: {len(found)} matches of {pattern!r}, not 1: see what it states now")
     return found[0]
 
 

@@ -41,7 +41,7 @@ def holds(quotient):
     return True
 
 
-stated = int(source(r"for degree 6 it is at most (\d+) times"))
+stated = int(documented(r"without their signs are at most (\d+) times the mass"))
 require(holds(Fraction(stated)), f"Markov's constant is below {stated}")
 require(not holds(Fraction(stated - 1)), f"{stated - 1} would do")
 least, most = Fraction(stated - 1), Fraction(stated)

@@ -11,26 +11,26 @@ code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
 code("let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
     Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))""")
 code("let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-    let significand = significand & !(1 << 31);
+    let significand = significand & !(1 << 31); const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
     let top = octave::top(self.tops[side & 1][is_beyond as usize]);
     let below = (top << 9 >> 1) as i32 - significand as i32;
     let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
-    let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
+    let octave = self.octaves[side & 1].get(index.wrapping_sub(OF_HALF) as usize)?;
     let position = significand as i32 | below & i32::MIN;""")
 code("const fn center(&self) -> u64 {", """(self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
-    if top < LEAST || from >= to { return None; }
+    if top < LEAST_TOP || from >= to { return None; }
     let to = to as f32; let octave = power_of_two(exponent(high));
     let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave; let middle = 0.5 * (from as f32 + to);
     let (mut width, mut finer) = (octave, 0);
     while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
 code("const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
-    let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
+    let top = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP } + steps * TOP_STEP;
     let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }""")
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }""")
 code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
     while k > 0 && k <= DEGREE { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
     most = if bound > most { bound } else { most }; k = unknown(k - 1); }
@@ -41,20 +41,20 @@ code("octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
 code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
-code("let before_last = self.before_last(u.to_bits());", """if before_last < self.plateau[1] { return self.by_line(u.to_bits()); }
-    let (side, bits) = Self::nearer(u); match self.octave(side, before_last >> 31, bits) {""")
+code("let before_last = self.last.wrapping_sub(u.to_bits());", """if before_last < self.count { return self.by_line(u.to_bits()); }
+    let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize; match self.octave(side, ramp, bits) {""")
 code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
     return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
     let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
 code("pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
     let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
-    let before = near.saturating_sub(1).max(1 << 55);
-    let serves = self.slope >> 40 != 0;
+    let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
+    let serves = Self::is_fine(self.slope);
     PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } } }""")
 
 FINER = int(source(r"const FINER: u32 = (\d+);"))
-STEP = 1 << int(source(r"const STEP: u32 = 1 << (\d+);"))
-LEAST_EXPONENT = 127 - int(source(r"const LEAST: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
+STEP = 1 << int(source(r"const TOP_STEP: u32 = 1 << (\d+);"))
+LEAST_EXPONENT = 127 - int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
 LEAST = LEAST_EXPONENT << 23
 
 

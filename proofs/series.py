@@ -1,4 +1,4 @@
-"""src/series.rs: how exact a series' value is; solve.rs: `Offset::value`; ramp.rs: `noise`. By exact rational arithmetic.
+"""src/series.rs: how exact a series' value is; solve.rs: `Series::at_pair`; ramp.rs: `noise`. By exact rational arithmetic.
 
 Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|^k. Two-sum and Dekker's product are exact.
 """
@@ -13,11 +13,12 @@ code("pub(crate) const fn at(self, x: f32) -> Pair {", """let x_high = upper(x);
     let sum = Pair::sum(self.c[k].hi, product); hi = sum.hi; lo += self.c[k].lo + sum.lo; } }""")
 code("pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; let mut slope = (c.len() + 1) as f32 * self.last.hi;
     while let [lower @ .., highest] = c { slope = slope * x + c.len() as f32 * highest.hi; c = lower; } slope }""")
-code("pub(crate) const fn value(&self, series: Series) -> Pair {", """let Pair { hi, lo } = series.at(self.x);
-    Pair { hi, lo: lo + series.slope(self.x) * self.rest } }""")
-code("pub(crate) fn noise(&self) -> f32 {", """let c = self.ramp.single(self.side);
-    let size = c.iter().rev().fold(0.0, |size, c| (size + c.abs()) * self.offset.x);
-    size * per_unit_of_mass(self.ramp.share) / (1u64 << 40) as f32 }""")
+code("pub(crate) const fn at_pair(self, place: Pair) -> Pair {", """let Pair { hi, lo } = self.at(place.hi);
+    Pair { hi, lo: lo + self.slope(place.hi) * place.lo } }""")
+code("pub(crate) fn noise(&self) -> f32 {", """let terms = |side, x| { let c = self.ramp.mass_in_single(side);
+    c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
+    let here = self.place.hi; let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
+    terms * per_mass_unit(self.ramp.share.hi) / (1u64 << 40) as f32 }""")
 
 
 def first(j, k):
@@ -91,12 +92,13 @@ for n in (3, 6):
     worst = ratio(total, sizes(n))
     share = ratio(along, sizes(n))
     require(share <= n * U * (1 + 100 * U) and share > n * U, "the second term")
-    require(worst < Fraction(1, 2**40), "Offset::value is within 2^-40")
-    proven(f"Offset::value of degree {n}: the second term is at most {n} * 2^-24 of the terms; the value errs by at most {float(worst / places):.2f} * 2^-48 of them")
+    require(worst < Fraction(1, 2**40), "Series::at_pair is within 2^-40")
+    proven(f"Series::at_pair of degree {n}: the second term is at most {n} * 2^-24 of the terms; the value errs by at most {float(worst / places):.2f} * 2^-48 of them")
 
-# `noise` sums the first numbers' terms at x, with 12 roundings and one of the scaling, and takes 2^-40.
-least = (1 - U) ** 13 / (1 + U)
-down = int(source(r"per_unit_of_mass\(self\.ramp\.share\) / \(1u64 << (\d+)\) as f32"))
+# `noise` sums the first numbers' terms at x, with 12 roundings, one more of the sum with the other end's, and one of the scaling,
+# and takes 2^-40.
+least = (1 - U) ** 14 / (1 + U)
+down = int(source(r"per_mass_unit\(self\.ramp\.share\.hi\) / \(1u64 << (\d+)\) as f32"))
 require(worst <= least / 2**down, "noise")
 require(worst > least / 2 ** (down + 1), "noise: half of it would not do")
 proven(f"noise, 2^-{down} of the terms as computed, bounds the error of a mass")

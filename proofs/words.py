@@ -3,7 +3,7 @@
 from solver import *
 
 # The plateau's line.
-code("pub(crate) fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+code("fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
     let way = high * u as u64 + ((low * u as u64) >> 32); self.base.wrapping_add(way as i64) }""")
 # The two products, of 32 bits by 32, are exact in 64; here they are any numbers that such products may be.
 p, q = Ints("p q")

@@ -20,8 +20,8 @@ struct Line {
 impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(plan: &Plan<CELLS>) -> Self {
-        let (base, slope, [from, to]) = plan.line();
-        Self { base, slope, slack: 4096.0 * plan.unit_of_time() as f64, from, to }
+        let (base, slope, unit, [from, to]) = plan.line();
+        Self { base, slope, slack: 4096.0 * unit, from, to }
     }
 
     /// The time, and whether it is the answer.

@@ -1,7 +1,4 @@
-//! A cubic Bezier curve in (time, openness), and the checks that make it a ramp.
-
-use crate::cubic::{cubic_range, differences, quadratic_min, widened};
-use crate::error::{CurveError, Part};
+//! A cubic Bezier curve in (time, openness).
 
 /// A cubic Bezier `c(p) = (t(p), f(p))`, `p` in [0, 1], by its control points:
 /// `c(p) = P0 (1-p)³ + P1 3 (1-p)² p + P2 3 (1-p) p² + P3 p³`.
@@ -92,50 +89,9 @@ impl CubicBezier {
         let p = &self.points;
         [p[0].1 + 0.0, p[1].1 + 0.0, p[2].1 + 0.0, p[3].1 + 0.0]
     }
-
-    /// Is every coordinate finite?
-    pub(crate) const fn check_finite(&self, ramp: Part) -> Result<(), CurveError> {
-        let mut i = 0;
-        while i < 4 {
-            if !self.points[i].0.is_finite() || !self.points[i].1.is_finite() {
-                return Err(CurveError::NotFinite(ramp));
-            }
-            i += 1;
-        }
-        Ok(())
-    }
-
-    /// Does time run forward, and does the openness stay in [0, `most`]?
-    ///
-    /// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound
-    /// by [`GRAZE`] of the ramp's length or of the greatest |f|.
-    pub(crate) const fn check_ramp(&self, ramp: Part, most: f64) -> Result<(), CurveError> {
-        let t = widened(self.times());
-        // Grazing is for the inside: before its start and after its end there is no ramp. But rounding may put the
-        // first control time before the start. Then t' is -GRAZE there at worst, and time, with the second control time
-        // a third in, runs as -GRAZE p + p², which dips by GRAZE²/4.
-        let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
-        let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
-        let leaves = first < -slack || last > t[3] - t[0] + slack;
-        if leaves || quadratic_min(differences(t)).0 < -GRAZE / 3.0 * (t[3] - t[0]) {
-            return Err(CurveError::TimeTurnsBack(ramp));
-        }
-        let (low, high) = cubic_range(widened(self.opennesses()));
-        let size = if -low > high { -low } else { high };
-        if low < -GRAZE * size {
-            return Err(CurveError::NegativeOpenness(ramp));
-        }
-        if high > most * (1.0 + GRAZE) {
-            return Err(CurveError::OpennessAboveOne(ramp));
-        }
-        Ok(())
-    }
 }
 
 /// A time, or a bound that it passes by no more than a trace.
 const fn snapped(time: f64, bound: f64, trace: f64) -> f32 {
     (if time > bound && time <= bound + trace { bound } else { time }) as f32
 }
-
-/// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
-const GRAZE: f64 = 1.0 / (1 << 22) as f64;

@@ -75,7 +75,7 @@ pub(crate) const fn errors(
     while i <= points {
         let position = nearest(value(&along.fraction, s));
         let rest = octave.rest(octave.ahead_of_center(position));
-        let error = (rest as f64 - value(&along.elapsed, s)).abs() as f32;
+        let error = (rest as f64 - value(&along.time, s)).abs() as f32;
         let mut kind = KINDS;
         loop {
             kind = unknown(kind).wrapping_sub(1);

@@ -1,7 +1,7 @@
 //! The fractions of the exposure at which triggers and the ends of pulses are due, to 96 bits.
 
-use crate::pair::{Pair, power_of_two};
-use crate::ramp::WHOLE_EXPONENT;
+use crate::pair::Pair;
+use crate::units::{WHOLE_EXPONENT, power_of_two};
 
 /// The fractions `(2i + 1) / 2n` of the exposure.
 #[derive(Clone)]
@@ -37,7 +37,7 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
-    /// [`WHOLE`](crate::ramp::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
+    /// [`WHOLE`](crate::units::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
     /// 2⁻³⁸ (`proofs/shares.py`).
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
         let n = self.n as u64;
@@ -89,24 +89,4 @@ pub(crate) struct Edge {
 
 impl Edge {
     pub(crate) const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pair::tests::rows;
-
-    /// What `proofs/shares.py` takes for these functions is what they are.
-    #[test]
-    fn fractions_are_as_transcribed() {
-        for [n, odd, duty, is_off, word, side, hi, lo] in
-            rows(include_str!("../proofs/vectors/shares.csv"))
-        {
-            let fractions = Fractions::new(n as u32);
-            let edge = fractions.edges(f32::from_bits(duty as u32))[is_off as usize];
-            assert_eq!(fractions.in_u64(odd as u32, &edge), word);
-            let [hi, lo] = [hi, lo].map(|half| f32::from_bits(half as u32));
-            assert_eq!(fractions.exactly(odd, &edge), (side as usize, Pair { hi, lo }));
-        }
-    }
 }

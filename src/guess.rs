@@ -39,7 +39,7 @@ const fn rough_log(x: f32) -> i32 {
 /// compiler would check.
 // proofs/guess.py: divided
 #[inline(always)]
-const fn divided(x: i32, k: i32) -> i32 {
+pub(crate) const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
@@ -49,18 +49,4 @@ const fn power(log: i32) -> f32 {
     let log = log + 127 * LOG_ONE;
     let log = if log < 0 { 0 } else { log };
     f32::from_bits(if log < 1 << 28 { (log as u32) << 3 } else { f32::INFINITY.to_bits() })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pair::tests::rows;
-
-    /// What `proofs/guess.py` takes for the quotient is it.
-    #[test]
-    fn quotients_are_as_transcribed() {
-        for [x, k, quotient] in rows(include_str!("../proofs/vectors/guess.csv")) {
-            assert_eq!(divided(x as i32, k as i32), quotient as i32);
-        }
-    }
 }

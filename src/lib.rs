@@ -28,22 +28,31 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// To read in this order: two `f32` as one number, `pair`; polynomials of these, `series`; where such a polynomial
-// reaches a target, `solve` and its first `guess`. One Bezier: `bezier`, `cubic`, `shape`; seen from either end,
-// `ramp`; a time as it is found, `moment`. Two ramps and a plateau, `exposure`. Without a search: `octave`, `fit`. All
-// of it together is a `plan`, which lists the steps of one answer; `batch` shortens them on large processors. The
-// public types stand on that: `shutter`, `pdf`, `schedule` (with `fraction` and `ticks`), `pulse`, `error`.
+// To read in this order; each file needs only those before it.
+//
+// Numbers    `units`: every scale and its reason. `pair`: two `f32` as one number. `series`: polynomials of these.
+// Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
+// A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
+//            is found. `ramp`: when a mass has been collected. `by_time`: the same ramp, asked by time.
+// A curve    `exposure`: two ramps and a plateau, by fraction. `cdf`: the same by time.
+// Directly   `octave`: a polynomial that needs no search. `path`, `certificate`, `octaves`: how it is built and judged.
+// An answer  `plan`: the steps from one `u` to its time. `batch`: many at once.
+// Outside    `error`, `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
 mod batch;
 mod bezier;
+mod by_time;
+mod cdf;
 mod certificate;
 mod cubic;
 mod error;
 mod exposure;
-mod fit;
 mod fraction;
+mod frame;
 mod guess;
+mod lift;
 mod moment;
 mod octave;
+mod octaves;
 mod pair;
 mod path;
 mod pdf;
@@ -51,12 +60,12 @@ mod plan;
 mod pulse;
 mod ramp;
 mod schedule;
-
 mod series;
 mod shape;
 mod shutter;
 mod solve;
 mod ticks;
+mod units;
 
 pub use bezier::CubicBezier;
 pub use error::{CurveError, Part, ScheduleError, valid};
@@ -66,6 +75,9 @@ pub use schedule::{TriggerTicks, TriggerTimes};
 pub use shutter::ShutterCurve;
 pub use solve::MAX_EVALUATIONS;
 
+#[cfg(test)]
+#[path = "../tests/inside/mod.rs"]
+mod inside;
 /// The oracle and the curves of the integration tests, for tests of what is not public.
 #[cfg(test)]
 #[path = "../tests/support/mod.rs"]

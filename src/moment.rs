@@ -1,14 +1,70 @@
-//! A moment: a time as it is found, more exact than an `f32`.
+//! A moment: a time as it is found, more exact than an `f32`; and how it is rounded to one, once.
 
-use crate::pair::{Pair, rounded_sum};
+use crate::pair::Pair;
+use crate::units::power_of_two;
 
-/// A time, `time + elapsed` or, if `back`, `time - elapsed`: an exact `f32` and the way from it.
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
+/// [-252, 22].
+///
+/// Where the two cancel, so that the way's second number is more than 3/8 ulp of the sum, that holds except next to a
+/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of what is added (`proofs/rounding.py`).
+#[inline(always)]
+pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
+    // The power of two by halves, for it may not be a normal number itself.
+    let half = unit >> 1;
+    let (first, second) = (power_of_two(unit - half), power_of_two(half));
+    let second = if back { -second } else { second };
+    let hi = way.hi * first * second;
+    let sum = Pair::sum(base, hi);
+    let rest = sum.lo + way.lo * first * second;
+    // Less may be subnormal, or have a subnormal second half. And a sum midway between two `f32` has a power of two as
+    // its rest; so may others by rounding.
+    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
+        return careful_sum(base, way, first, second);
+    }
+    sum.hi + rest
+}
+
+/// `base + way first second`, where rounding takes more care.
+// proofs/rounding.py: careful_sum
+#[cold]
+#[inline(never)]
+const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
+    // If it is small, a greater unit makes all of them normal numbers.
+    let is_small = base.abs() + (way.hi * first * second).abs() < power_of_two(-78);
+    let up = if is_small { 48 } else { 0 };
+    let (base, second) = (base * power_of_two(up), second * power_of_two(up));
+    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
+    // A sum that will be subnormal is rounded to the last place of the least `f32` by adding a number with that last
+    // place. It has the sum's sign, which the second number decides where the first cancels the base.
+    let near = Pair::sum(base, hi);
+    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    let sum = Pair::sum(places, near.hi);
+    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
+}
+
+/// `a + b` rounded to odd: if it is not exact, the neighbour whose last bit is set. To round that once more rounds once
+/// in all.
+#[inline(always)]
+const fn odd_sum(a: f32, b: f32) -> f32 {
+    let sum = Pair::sum(a, b);
+    let bits = sum.hi.to_bits();
+    if sum.lo == 0.0 || bits & 1 == 1 {
+        return sum.hi;
+    }
+    // Away from 0 where both have the same sign.
+    let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
+    f32::from_bits(if up { bits + 1 } else { bits - 1 })
+}
+
+/// A time, `base + way` or, if `back`, `base - way`: an exact `f32` and the way from it.
 #[derive(Clone, Copy)]
 pub(crate) struct Moment {
-    pub(crate) time: f32,
+    pub(crate) base: f32,
     pub(crate) back: bool,
     /// In units of `2^unit`, at least 0.
-    pub(crate) elapsed: Pair,
+    pub(crate) way: Pair,
     pub(crate) unit: i32,
     /// No time on the way is beyond this.
     pub(crate) until: f32,
@@ -17,29 +73,28 @@ pub(crate) struct Moment {
 }
 
 impl Moment {
-    /// A moment on the plateau, on the way from one end of it to the other.
-    pub(crate) const fn on_way(
-        time: f32,
-        until: f32,
-        back: bool,
-        elapsed: Pair,
-        unit: i32,
-    ) -> Self {
-        Self { time, until, back, elapsed, unit, evaluations: 0 }
+    /// A time as it stands.
+    pub(crate) const fn at(time: f32) -> Self {
+        Self { base: time, back: false, way: Pair::ZERO, unit: 0, until: time, evaluations: 0 }
     }
 
     /// The time, rounded once.
     #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
-        let time = rounded_sum(self.time, self.elapsed, self.unit, self.back);
+        let time = rounded_sum(self.base, self.way, self.unit, self.back);
         let is_beyond = if self.back { time < self.until } else { time > self.until };
         if is_beyond { self.until } else { time }
     }
 
     /// The time since `start`, in units of `2^unit`.
-    pub(crate) const fn since(self, start: f32, unit: i32) -> Pair {
-        let base = Pair::sum(self.time, -start).shifted(-unit);
-        let way = self.elapsed.shifted(self.unit - unit);
-        if self.back { base.minus(way) } else { base.plus(way) }
+    pub(crate) fn since(self, start: f32, unit: i32) -> Pair {
+        let [base, until] =
+            [self.base, self.until].map(|time| Pair::sum(time, -start).shifted(-unit));
+        let way = self.way.shifted(self.unit - unit);
+        let time = if self.back { base.minus(way) } else { base.plus(way) };
+        // By so little as a search may err, it leads beyond the end of a ramp; but next to a dark end that takes long.
+        let beyond = time.difference(until);
+        let is_beyond = if self.back { beyond < 0.0 } else { beyond > 0.0 };
+        if is_beyond { until } else { time }
     }
 }

@@ -10,7 +10,7 @@
 //! exponent is the upper part of the bits. The offset within the octave is exact: the significand of `a` minus that of
 //! the octave's middle.
 
-use crate::exposure::Exposure;
+use crate::units::{LEAST_TOP, TOP_STEP};
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
 /// the part of the octave that it serves, or a narrower interval.
@@ -35,32 +35,10 @@ pub(crate) const DEGREE: usize = 8;
 /// The bits of a center that are its shift.
 pub(crate) const FINER: u32 = 31;
 
-/// The bits of 2⁻²⁸, the least top. There are no octaves below it, so `a = 0` falls into none.
-pub(crate) const LEAST: u32 = (1.0 / (1 << 28) as f32).to_bits();
-
-/// A `u` from here on has no bit below 2⁻³², which is the unit of the plateau's line.
-pub(crate) const FINE: f32 = 1.0 / 512.0;
-
-/// Tops are multiples of so many bits, eight to a power of two. So each fits a byte.
-pub(crate) const STEP: u32 = 1 << 20;
-
 /// The bits of a top.
 #[inline(always)]
 pub(crate) const fn top(steps: u8) -> u32 {
-    (steps as u32 + LEAST / STEP) * STEP
-}
-
-/// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
-pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
-    let [near, far] = exposure.joins(side);
-    if ramp != side {
-        return [far, 0.5];
-    }
-    // If the near ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it for
-    // a part of this ramp. So this ramp gets no octaves.
-    let is_hidden = near < far && near < FINE as f64;
-    let to = if near < 0.5 { near } else { 0.5 };
-    [0.0, if is_hidden { 0.0 } else { to }]
+    (steps as u32 + LEAST_TOP / TOP_STEP) * TOP_STEP
 }
 
 /// The bits of the top that is so many octaves below another one.
@@ -90,7 +68,7 @@ impl Octave {
 
     /// The `x` of a position that is doubled where it has to be.
     ///
-    /// The difference and its multiple fit the word, even if one of the numbers does not ([`fit`](crate::fit)).
+    /// The difference and its multiple fit the word, even if one of the numbers does not ([`octaves`](crate::octaves)).
     #[inline(always)]
     pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
         doubled.wrapping_sub(self.center as i32) << (self.center & FINER)
@@ -122,11 +100,4 @@ impl Octave {
 #[inline(always)]
 const fn times_high(a: i32, x: i32) -> i32 {
     ((a as i64 * x as i64) >> 32) as i32
-}
-
-/// The bits of the greatest `f32` at or below a non-negative `x` that is at most about 1.
-pub(crate) const fn floor_bits(x: f64) -> u32 {
-    let rounded = x as f32;
-    let bits = rounded.to_bits();
-    if rounded as f64 > x { bits - 1 } else { bits }
 }

@@ -6,6 +6,8 @@
 //! are the same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes
 //! subnormal; who calls them scales by powers of two to see to that.
 
+use crate::units::power_of_two;
+
 /// `hi + lo`
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
@@ -152,133 +154,13 @@ pub(crate) const fn upper(x: f32) -> f32 {
     f32::from_bits(x.to_bits() & 0xFFFF_F000)
 }
 
-/// `2^n`, a normal number.
+/// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.
+// proofs/words.py: significand
 #[inline(always)]
-pub(crate) const fn power_of_two(n: i32) -> f32 {
-    f32::from_bits(((n + 127) as u32) << 23)
-}
-
-/// The exponent of the power of two at or below a normal `x`; -127 for what is less.
-#[inline(always)]
-pub(crate) const fn exponent(x: f32) -> i32 {
-    (x.to_bits() >> 23 & 0xFF) as i32 - 127
-}
-
-/// `x` in units of `2^e`, rounded towards 0; below 2⁶³ of them.
-// proofs/words.py: fixed
-pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
-    let (bits, exponent) = (x.to_bits(), exponent(x));
-    let significand = (bits & 0x7F_FFFF) as i64;
-    let (significand, exponent) =
-        if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
-    let up = exponent - 23 - e;
-    let units = if up >= 0 {
-        significand << (up & 63)
-    } else if up > -24 {
-        significand >> (-up & 63)
-    } else {
-        0
-    };
-    if x < 0.0 { -units } else { units }
-}
-
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
-/// [-252, 22].
-///
-/// Where the two cancel, so that the way's second number is more than 3/8 ulp of the sum, that holds except next to a
-/// middle between two `f32`: the error may be half an ulp and 2⁻²⁴ of what is added (`proofs/rounding.py`).
-#[inline(always)]
-pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
-    // The power of two by halves, for it may not be a normal number itself.
-    let half = unit >> 1;
-    let (first, second) = (power_of_two(unit - half), power_of_two(half));
-    let second = if back { -second } else { second };
-    let hi = way.hi * first * second;
-    let sum = Pair::sum(base, hi);
-    let rest = sum.lo + way.lo * first * second;
-    // Less may be subnormal, or have a subnormal second half. And a sum midway between two `f32` has a power of two as
-    // its rest; so may others by rounding.
-    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
-        return careful_sum(base, way, first, second);
-    }
-    sum.hi + rest
-}
-
-/// `base + way first second`, where rounding takes more care.
-// proofs/rounding.py: careful_sum
-#[cold]
-#[inline(never)]
-const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
-    // If it is small, a greater unit makes all of them normal numbers.
-    let is_small = base.abs() + (way.hi * first * second).abs() < power_of_two(-78);
-    let up = if is_small { 48 } else { 0 };
-    let (base, second) = (base * power_of_two(up), second * power_of_two(up));
-    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    // A sum that will be subnormal is rounded to the last place of the least `f32` by adding a number with that last
-    // place. It has the sum's sign, which the second number decides where the first cancels the base.
-    let near = Pair::sum(base, hi);
-    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
-    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
-    let sum = Pair::sum(places, near.hi);
-    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
-}
-
-/// `a + b` rounded to odd: if it is not exact, the neighbour whose last bit is set. To round that once more rounds once
-/// in all.
-#[inline(always)]
-const fn odd_sum(a: f32, b: f32) -> f32 {
-    let sum = Pair::sum(a, b);
-    let bits = sum.hi.to_bits();
-    if sum.lo == 0.0 || bits & 1 == 1 {
-        return sum.hi;
-    }
-    // Away from 0 where both have the same sign.
-    let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
-    f32::from_bits(if up { bits + 1 } else { bits - 1 })
-}
-
-#[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-
-    /// The rows of a file of `proofs/vectors`: hexadecimal words.
-    pub(crate) fn rows<const N: usize>(csv: &str) -> impl Iterator<Item = [u64; N]> {
-        csv.lines().map(|line| {
-            let mut words = line.split(',').map(|word| u64::from_str_radix(word, 16).unwrap());
-            let row = core::array::from_fn(|_| words.next().unwrap());
-            assert!(words.next().is_none());
-            row
-        })
-    }
-
-    /// The same, of which all are `f32` by their bits.
-    pub(crate) fn numbers<const N: usize>(csv: &str) -> impl Iterator<Item = [f32; N]> {
-        rows::<N>(csv).map(|row| row.map(|word| f32::from_bits(word as u32)))
-    }
-
-    /// What `proofs/pairs.py` takes for these functions is what they are.
-    #[test]
-    fn pairs_are_as_transcribed() {
-        let pair = |hi, lo| Pair { hi, lo };
-        for row in numbers(include_str!("../proofs/vectors/pairs.csv")) {
-            let [a, al, b, bl, s, sl, m, ml, t, tl, q, ql, difference] = row;
-            let (a, b) = (pair(a, al), pair(b, bl));
-            assert_eq!(a.plus(b), pair(s, sl));
-            assert_eq!(a.minus_loose(b), pair(m, ml));
-            assert_eq!(a.times(b), pair(t, tl));
-            assert_eq!(a.over(b), pair(q, ql));
-            assert_eq!(a.difference(b), difference);
-        }
-    }
-
-    /// Sums are the exact ones, rounded once: those expected are computed with fractions. The last one is the
-    /// exception.
-    #[test]
-    fn sums_are_rounded_once() {
-        for [base, hi, lo, unit, back, sum] in rows(include_str!("../proofs/vectors/rounded.csv")) {
-            let [base, hi, lo, sum] = [base, hi, lo, sum].map(|word| f32::from_bits(word as u32));
-            let found = rounded_sum(base, Pair { hi, lo }, unit as i32, back == 1);
-            assert_eq!(found, sum, "{base:e} {hi:e} {lo:e} {unit} {back}");
-        }
-    }
+pub(crate) const fn significand(x: f64) -> (Pair, i32) {
+    const UNIT: f32 = 1.0 / (1u64 << 47) as f32;
+    let bits = x.to_bits();
+    let hi = f32::from_bits(127 << 23 | (bits >> 29) as u32 & 0x7F_FFFF);
+    let lo = (bits as u32 >> 5 & 0xFF_FFFF) as f32 * UNIT;
+    (Pair { hi, lo }, (bits >> 52) as i32 - 1023)
 }

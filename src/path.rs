@@ -13,7 +13,7 @@ use crate::shape::Shape;
 pub(crate) struct Path {
     pub(crate) openness: [f64; 4],
     /// The time since the side's start.
-    pub(crate) elapsed: [f64; 4],
+    pub(crate) time: [f64; 4],
     /// The fraction collected since then.
     pub(crate) fraction: [f64; 7],
 }
@@ -21,16 +21,16 @@ pub(crate) struct Path {
 impl Path {
     /// The ramp with this shape and index: places count from 0 at the end that faces a side to 1 at the other one.
     pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: usize, ramp: usize) -> Self {
-        let shape = if side == 0 { *shape } else { shape.reversed() };
-        let way = exposure.plateau_start(side ^ 1) as f64 - exposure.start(side) as f64;
+        let shape = shape.from(side);
+        let way = exposure.inner(side ^ 1) as f64 - exposure.outer(side) as f64;
         let (t0, u0) =
             if ramp == side { (0.0, 0.0) } else { (way.abs(), exposure.exact_joins(side)[1]) };
         let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
-        let Cubic { c: [t1, t2, t3], .. } = shape.elapsed();
-        let [u1, u2, u3, u4, u5, u6] = shape.collected();
+        let Cubic { c: [t1, t2, t3], .. } = shape.time();
+        let [u1, u2, u3, u4, u5, u6] = shape.mass();
         let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
-        Self { openness: [f, f1, f2, f3], elapsed: [t0, t1, t2, t3], fraction }
+        Self { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
     }
 
     /// A place in [0, 1] at which the fraction is `u` at most or, if `up`, at least; 0 or 1 where there is none. Close,
@@ -63,7 +63,7 @@ impl Path {
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
         let mut stretch = *self;
         recentred(&mut stretch.openness, middle, half);
-        recentred(&mut stretch.elapsed, middle, half);
+        recentred(&mut stretch.time, middle, half);
         recentred(&mut stretch.fraction, middle, half);
         stretch
     }

@@ -129,8 +129,8 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
 impl<const CELLS: usize> fmt::Debug for BezierPdf<CELLS> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.debug_struct("BezierPdf")
-            .field("start", &self.plan.exposure.start(0))
-            .field("end", &self.plan.exposure.start(1))
+            .field("start", &self.plan.exposure.outer(0))
+            .field("end", &self.plan.exposure.outer(1))
             .field("area", &self.area())
             .finish_non_exhaustive()
     }
@@ -139,7 +139,7 @@ impl<const CELLS: usize> fmt::Debug for BezierPdf<CELLS> {
 #[cfg(feature = "defmt")]
 impl<const CELLS: usize> defmt::Format for BezierPdf<CELLS> {
     fn format(&self, out: defmt::Formatter<'_>) {
-        let (start, end) = (self.plan.exposure.start(0), self.plan.exposure.start(1));
+        let (start, end) = (self.plan.exposure.outer(0), self.plan.exposure.outer(1));
         defmt::write!(
             out,
             "BezierPdf {{ start: {}, end: {}, area: {}, .. }}",

@@ -18,44 +18,40 @@
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
-//! ([`fit`]). A search's is below a quarter of that distance if its step was accepted ([`solve`](crate::solve)), so the
-//! order holds where a search follows a polynomial or the line.
+//! ([`octaves`](crate::octaves)). A search's is below a quarter of that distance if its step was accepted, so the order
+//! holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
-use crate::fit::{Span, fit};
-use crate::octave::{self, FINE, NO_TIME, Octave, floor_bits};
-use crate::pair::{Pair, exponent, fixed, power_of_two};
-use crate::ramp::WHOLE;
+use crate::octave::{self, NO_TIME, Octave};
+use crate::octaves::{self, Span};
+use crate::pair::Pair;
 use crate::shape::Shape;
+use crate::units::{
+    FINE, FINE_DOUBLE_WORD, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64,
+    time_unit,
+};
 
-/// The plateau by `u` in units of 2⁻⁶⁴: the last one, and how many there are.
-#[derive(Clone)]
-pub(crate) struct PlateauU64 {
-    last: u64,
-    count: u64,
-}
+/// Does the processor have doubles? One of 64 bits does.
+pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
     scale: f32,
-    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are. So a `u` is on
-    /// the line if `last - u < count`, wrapping; and beyond the last one, on the closing ramp, if that is negative.
-    plateau: [u32; 2],
+    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are.
+    last: u32,
+    count: u32,
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
-    /// For each side, the tops of its octaves by ramp ([`fit`]).
+    /// For each side, the tops of its octaves by ramp ([`octaves::build`]).
     tops: [[u8; 2]; 2],
     /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
     octaves: [[Octave; CELLS]; 2],
 }
-
-/// Does the processor have doubles? One of 64 bits does.
-pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 impl<const CELLS: usize> Plan<CELLS> {
     /// The plan of two ramps with an openness of at most `most`. Errors call the first one `part`: the opening ramp, or
@@ -72,35 +68,41 @@ impl<const CELLS: usize> Plan<CELLS> {
             Ok(exposure) => exposure,
             Err(error) => return Err(error),
         };
-        let [open, close] = [exposure.plateau_start(0), exposure.plateau_start(1)];
-        let unit = unit_for(exposure.start(0), exposure.start(1));
+        let shapes = [Shape::new(opening), Shape::new(closing)];
+        let unit = time_unit(exposure.outer(0), exposure.outer(1));
+        let [open, close] = [exposure.inner(0), exposure.inner(1)];
         let [from, to] = exposure.joins(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
-        let shapes = [Shape::new(opening), Shape::new(closing)];
-        let (mut base, mut slope, mut plateau) = (0, 0, [to, 0]);
+        let (mut base, mut slope, mut last, mut count) = (0, 0, to, 0);
         let mut serves = true;
         if open < close {
-            base = in_units(open as f64, unit) - in_units(shapes[0].mass(), unit);
-            slope = in_units(close as f64, unit) + in_units(shapes[1].mass(), unit) - base;
-            // If the curve is so far from time 0 that the line has fewer than 40 bits, every `u` is searched for.
-            serves = slope >> 40 != 0;
+            let per_unit = power_of_two_f64(-unit);
+            base = (open as f64 * per_unit) as i64 - (shapes[0].area() * per_unit) as i64;
+            slope = (close as f64 * per_unit) as i64 + (shapes[1].area() * per_unit) as i64 - base;
+            serves = Self::is_fine(slope);
             if serves {
                 // 1 itself has the exact end.
                 let before_end = 1.0f32.to_bits() - 1;
-                let last = if to < before_end { to } else { before_end };
+                last = if to < before_end { to } else { before_end };
                 let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
-                plateau = [last, last.saturating_sub(before)];
+                count = last.saturating_sub(before);
             }
         }
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        // `CELLS > 0` lets the compiler leave the fitting out where there are no octaves.
+        // `CELLS > 0` lets the compiler leave the building out where there are no octaves.
         while CELLS > 0 && serves && side < 2 {
-            tops[side] = fit(&exposure, &shapes, unit, side, &mut octaves[side]);
+            tops[side] = octaves::build(&exposure, &shapes, unit, side, &mut octaves[side]);
             side += 1;
         }
         let scale = power_of_two(unit + 32);
-        Ok(Self { exposure, scale, plateau, base, slope, tops, octaves })
+        Ok(Self { exposure, scale, last, count, base, slope, tops, octaves })
+    }
+
+    /// Has a line with this slope enough bits? If the curve is so far from time 0 that it has fewer than 40, every `u`
+    /// is searched for.
+    const fn is_fine(slope: i64) -> bool {
+        slope >> 40 != 0
     }
 
     /// The exponent of the unit of time.
@@ -108,91 +110,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         exponent(self.scale) - 32
     }
 
-    pub(crate) const fn unit_of_time(&self) -> f32 {
-        power_of_two(self.unit())
-    }
-
-    /// The time from which a side counts, in units.
-    pub(crate) const fn start_in_units(&self, side: usize) -> i64 {
-        fixed(self.exposure.start(side), self.unit())
-    }
-
-    /// The plateau's line in doubles: its time at `u = 0`, its slope, and the `u` that it serves.
-    #[inline(always)]
-    pub(crate) fn line(&self) -> (f64, f64, [f32; 2]) {
-        let unit = self.unit_of_time() as f64;
-        let [last, count] = self.plateau;
-        let bounds = [last.wrapping_sub(count), last].map(f32::from_bits);
-        (self.base as f64 * unit, self.slope as f64 * unit, bounds)
-    }
-
-    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those
-    /// of no octave.
-    ///
-    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
-    /// unpredictable.
-    #[inline(always)]
-    fn nearer(u: f32) -> (usize, u32) {
-        let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
-        // Signed, so that a negative number remains one.
-        let is_late = bits as i32 > 0.5f32.to_bits() as i32;
-        (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
-    }
-
-    /// The side from which `u` is counted, and `min(u, 1 - u)`: negative outside [0, 1], and NaN for NaN.
-    #[inline(always)]
-    fn count(u: f32) -> (usize, f32) {
-        let late = 1.0 - u;
-        if late < u { (1, late) } else { (0, u) }
-    }
-
-    /// The time on the plateau, in units, at a `u` in units of 2⁻³².
-    #[inline(always)]
-    pub(crate) fn on_line(&self, u: u32) -> i64 {
-        let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
-        let way = high * u as u64 + ((low * u as u64) >> 32);
-        self.base.wrapping_add(way as i64)
-    }
-
-    /// How far the bits of a `u` on the plateau's line are before those of the last one; at least the plateau's count
-    /// for all others, and with the sign bit for those beyond.
-    #[inline(always)]
-    fn before_last(&self, bits: u32) -> u32 {
-        self.plateau[0].wrapping_sub(bits)
-    }
-
-    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
-    /// outside [0, 1] and for NaN.
-    #[inline(always)]
-    fn octave(&self, side: usize, ramp: u32, bits: u32) -> Option<(&Octave, i32)> {
-        let top = octave::top(self.tops[side & 1][(ramp & 1) as usize]);
-        let below = top.wrapping_sub(bits);
-        let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is
-        // in the lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and
-        // their difference.
-        Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
-    }
-
-    /// The time on the plateau's line, in units, of a `u` with these bits.
-    #[inline(always)]
-    fn by_line(&self, bits: u32) -> i64 {
-        let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-        self.on_line((bits << 8 | 1 << 31) >> (shift & 31))
-    }
-
-    /// The time, in units, by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
-    #[inline(always)]
-    pub(crate) fn direct(&self, u: f32) -> i64 {
-        let before_last = self.before_last(u.to_bits());
-        if before_last < self.plateau[1] {
-            return self.by_line(u.to_bits());
-        }
-        let (side, bits) = Self::nearer(u);
-        match self.octave(side, before_last >> 31, bits) {
-            Some((octave, position)) => octave.time(octave.offset(position)),
-            None => NO_TIME,
-        }
+    /// The time of the curve's end at a side, in units.
+    pub(crate) const fn outer_in_units(&self, side: usize) -> i64 {
+        fixed(self.exposure.outer(side), self.unit())
     }
 
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
@@ -201,6 +121,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let time = self.direct(u);
         // A small processor converts 32 bits, not 64. If the upper word has 25 bits or more, all that counts of the
         // lower one is whether it is 0.
+        // proofs/words.py
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
             return self.rounded_with_care(u, time);
@@ -209,6 +130,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The same for a time near 0, and the search where there is none.
+    // proofs/words.py
     #[inline(always)]
     fn rounded_with_care(&self, u: f32, time: i64) -> f32 {
         if time == NO_TIME {
@@ -226,37 +148,109 @@ impl<const CELLS: usize> Plan<CELLS> {
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
+    /// The time, in units, by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
+    // proofs/octaves.py: both look-ups find the octave that was built
+    #[inline(always)]
+    pub(crate) fn direct(&self, u: f32) -> i64 {
+        // Below `count` on the line alone; and negative beyond the plateau, on the closing ramp.
+        let before_last = self.last.wrapping_sub(u.to_bits());
+        if before_last < self.count {
+            return self.by_line(u.to_bits());
+        }
+        let (side, bits) = Self::nearer(u);
+        let ramp = (before_last >> 31) as usize;
+        match self.octave(side, ramp, bits) {
+            Some((octave, position)) => octave.time(octave.offset(position)),
+            None => NO_TIME,
+        }
+    }
+
+    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those
+    /// of no octave, and of no number above 0.
+    ///
+    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
+    /// unpredictable.
+    #[inline(always)]
+    fn nearer(u: f32) -> (usize, u32) {
+        let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
+        // Signed, so that a negative number remains one.
+        let is_late = bits as i32 > 0.5f32.to_bits() as i32;
+        (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
+    }
+
+    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
+    /// outside [0, 1] and for NaN.
+    #[inline(always)]
+    fn octave(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
+        let top = octave::top(self.tops[side & 1][ramp & 1]);
+        let below = top.wrapping_sub(bits);
+        let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
+        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is
+        // in the lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and
+        // their difference.
+        Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
+    }
+
+    /// The time on the plateau's line, in units, of a `u` with these bits.
+    // proofs/words.py
+    #[inline(always)]
+    fn by_line(&self, bits: u32) -> i64 {
+        let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+        self.on_line((bits << 8 | 1 << 31) >> (shift & 31))
+    }
+
+    /// The same at a `u` in units of 2⁻³².
+    // proofs/words.py
+    #[inline(always)]
+    fn on_line(&self, u: u32) -> i64 {
+        let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+        let way = high * u as u64 + ((low * u as u64) >> 32);
+        self.base.wrapping_add(way as i64)
+    }
+
     /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
     /// Out of line, so that the direct way saves no registers for it.
     #[cold]
     #[inline(never)]
     fn searched(&self, u: f32) -> f32 {
-        let (side, a) = Self::count(u);
+        let (side, bits) = Self::nearer(u);
+        let a = f32::from_bits(bits);
         if a > 0.0 {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).time()
         } else {
-            self.exposure.start(side)
+            self.exposure.outer((u >= 1.0) as usize)
+        }
+    }
+
+    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
+    pub(crate) fn evaluations(&self, u: f32) -> u32 {
+        let (side, bits) = Self::nearer(u);
+        let a = f32::from_bits(bits);
+        if a > 0.0 && self.direct(u) == NO_TIME {
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
+        } else {
+            0
         }
     }
 
     /// No fraction from a side that is above this, up to 1/2, needs a search, as an `f32` or in units of 2⁻⁶⁴.
     pub(crate) const fn least_direct(&self, side: usize) -> f64 {
         let [near, far] = self.exposure.joins(side);
-        let mut least = self.served(side, side ^ 1, 0.5);
+        let mut least = self.least_served(side, side ^ 1, 0.5);
         if least <= far && near < far && near < least {
             // The plateau, by its line.
-            if self.plateau[1] == 0 {
+            if self.count == 0 {
                 return least;
             }
             least = if near < FINE as f64 { FINE as f64 } else { near };
         }
-        if least <= far { self.served(side, side, least) } else { least }
+        if least <= far { self.least_served(side, side, least) } else { least }
     }
 
     /// The same after one ramp's octaves, if it holds above `least` without them.
-    const fn served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
-        let part = octave::range(&self.exposure, side, ramp);
+    const fn least_served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
+        let part = octaves::range(&self.exposure, side, ramp);
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let mut index = 0;
         while index < CELLS {
@@ -271,29 +265,20 @@ impl<const CELLS: usize> Plan<CELLS> {
         least
     }
 
-    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
-    pub(crate) fn evaluations(&self, u: f32) -> u32 {
-        let (side, a) = Self::count(u);
-        if a > 0.0 && self.direct(u) == NO_TIME {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
-        } else {
-            0
-        }
-    }
-
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
         // With a plateau both joins are on the line, 1/2 too. Without one, a join at 1/2 has to be on the closing ramp, since
         // 1/2 in 64 bits counts from side 1.
         let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
-        let before = near.saturating_sub(1).max(1 << 55);
-        // Also where the plateau holds no `f32`. Without a line, the slope is 0 or has too few bits.
-        let serves = self.slope >> 40 != 0;
+        let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
+        // Also where the plateau holds no `f32`.
+        let serves = Self::is_fine(self.slope);
         PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } }
     }
 
     /// The time, in units, at a `u` in units of 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
+    // proofs/octaves.py
     #[inline(always)]
     pub(crate) fn direct_u64(&self, u: u64, plateau: &PlateauU64) -> Option<i64> {
         let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
@@ -307,25 +292,29 @@ impl<const CELLS: usize> Plan<CELLS> {
         let zeros = high.leading_zeros();
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31);
-        // As in `octave`, but that the exponents stand apart.
+        // As in `octave`, but that the exponents stand apart: that of `a` is the one of 1/2, less the zeros.
+        const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
         let top = octave::top(self.tops[side & 1][is_beyond as usize]);
         let below = (top << 9 >> 1) as i32 - significand as i32;
         let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
-        let octave = self.octaves[side & 1].get(index.wrapping_sub(126) as usize)?;
+        let octave = self.octaves[side & 1].get(index.wrapping_sub(OF_HALF) as usize)?;
         let position = significand as i32 | below & i32::MIN;
         octave.exists().then(|| octave.time(octave.offset(position)))
     }
+
+    /// The plateau's line in doubles: its time at `u = 0`, its slope, the time of a unit, and the `u` that it serves:
+    /// above the first, up to the second.
+    #[inline(always)]
+    pub(crate) fn line(&self) -> (f64, f64, f64, [f32; 2]) {
+        let unit = power_of_two(self.unit()) as f64;
+        let bounds = [self.last.wrapping_sub(self.count), self.last].map(f32::from_bits);
+        (self.base as f64 * unit, self.slope as f64 * unit, unit, bounds)
+    }
 }
 
-/// The exponent of the unit in which times from `start` to `end` and their differences count at most 2⁶².
-pub(crate) const fn unit_for(start: f32, end: f32) -> i32 {
-    let (start, end) = (start as f64, end as f64);
-    let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
-    let most = if end - start > most { end - start } else { most };
-    (most.to_bits() >> 52) as i32 - 1023 - 61
-}
-
-/// A time in units of `2^e`, rounded towards 0.
-const fn in_units(time: f64, e: i32) -> i64 {
-    (time * f64::from_bits(((1023 - e) as u64) << 52)) as i64
+/// The plateau by `u` in units of 2⁻⁶⁴: the last one, and how many there are.
+#[derive(Clone)]
+pub(crate) struct PlateauU64 {
+    last: u64,
+    count: u64,
 }

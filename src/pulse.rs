@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::error::ScheduleError;
 use crate::fraction::Edge;
-use crate::schedule::iterate;
+use crate::frame::iterate;
 use crate::shutter::ShutterCurve;
 use crate::ticks::Ticks;
 
@@ -72,7 +72,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(pulses.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
-        let mut last = None;
+        let mut last: Option<u32> = None;
         for (i, (place, (on, off))) in
             (0..n).zip(pulses.iter_mut().zip(self.pulse_ticks(n, duty, tick_hz)?))
         {
@@ -80,10 +80,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
             if length < min_pulse {
                 return Err(ScheduleError::PulseTooShort { pulse: i, length, min_pulse });
             }
-            if let Some(last) = last
-                && on - last < min_gap
-            {
-                return Err(ScheduleError::GapTooSmall { trigger: i, gap: on - last, min_gap });
+            let gap = last.map_or(u32::MAX, |last| on.saturating_sub(last));
+            if gap < min_gap {
+                return Err(ScheduleError::GapTooSmall { trigger: i, gap, min_gap });
             }
             *place = (on, off);
             last = Some(off);

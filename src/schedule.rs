@@ -4,8 +4,10 @@ use core::ops::Range;
 
 use crate::error::ScheduleError;
 use crate::fraction::{Edge, Fractions};
+use crate::frame::iterate;
 use crate::shutter::ShutterCurve;
 use crate::ticks::{DIRECT_TRIGGERS, Ticks, moment};
+use crate::units::DOUBLE_WORD;
 
 /// Up to here `i + 1/2` is an `f32`.
 const EXACT_HALVES: u32 = 1 << 23;
@@ -28,8 +30,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 
     /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the
-    /// openness is at most 1 (a curve whose control points pass 1 by their rounding may miss the gap by 2⁻²² of it). A
-    /// curve that never fully opens may take more. The gap is in the curve's unit;
+    /// openness is at most 1. A quotient within 2⁻⁵⁰ of the next integer counts as that, since the area is rounded, so the
+    /// gap may be missed by as little; and by 2⁻²² of it on a curve whose control points pass 1 by their rounding.
+    /// A curve that never fully opens may take more. The gap is in the curve's unit;
     /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required: for a gap of 0,
     /// a negative one, or NaN.
     ///
@@ -44,8 +47,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if min_gap <= 0.0 || min_gap.is_nan() {
             return u32::MAX;
         }
-        // The area is known to about 2⁻⁵¹, so a quotient so near to the next integer counts as that. The cast rounds
-        // down, and saturates.
+        // The areas of plain numbers are rounded by no more than this. The cast rounds down, and saturates.
         let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
         let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
         if most > 1 { most } else { 1 }
@@ -83,7 +85,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let least = if least[0] > least[1] { least[0] } else { least[1] };
         // The first and the last trigger come nearest to the ends, to 1/2n. In units of 2⁻⁶⁴, and 2⁻²⁴ more for the
         // rounding of `f32`. Saturating, so that the compiler sees that the divisor is not 0.
-        let least = ((least * 18446744073709551616.0) as u64).saturating_add(1 << 40);
+        let least = ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / least;
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }
@@ -109,7 +111,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most 3/4 tick from
     /// that, for intervals of any length up to 2³¹ ticks: above 2²⁴, triggers are searched for, and placed to a
     /// thousandth of a tick. If the openness touches 0 between the ends, many times have nearly the same exposure.
-    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ by proof, to 2⁻³⁶ in all tests.
+    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ by proof, to 2⁻³⁵ in all tests.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
@@ -240,7 +242,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     fn keeps(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<bool, ScheduleError> {
         let mut last = None;
         Ok(self.trigger_ticks(n, tick_hz)?.all(|tick| {
-            let gap = last.map_or(u32::MAX, |last| tick - last);
+            let gap = last.map_or(u32::MAX, |last| tick.saturating_sub(last));
             last = Some(tick);
             gap >= min_gap
         }))
@@ -317,87 +319,6 @@ impl<const CELLS: usize> Times<'_, CELLS> {
         }
     }
 }
-
-/// The iterators: what is left of a frame, whose trigger `i` is at `frame.at(i)`.
-macro_rules! iterate {
-    ($name:ident, $item:ty) => {
-        impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
-            type Item = $item;
-
-            // Into the caller's loop; there is mostly one.
-            #[inline(always)]
-            fn next(&mut self) -> Option<$item> {
-                let i = self.left.next()?;
-                Some(self.frame.at(i))
-            }
-
-            #[inline]
-            fn nth(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth(n)?;
-                Some(self.frame.at(i))
-            }
-
-            #[inline]
-            fn size_hint(&self) -> (usize, Option<usize>) {
-                self.left.size_hint()
-            }
-
-            #[inline]
-            fn count(self) -> usize {
-                self.left.count()
-            }
-
-            #[inline]
-            fn last(mut self) -> Option<$item> {
-                self.next_back()
-            }
-        }
-
-        impl<const CELLS: usize> DoubleEndedIterator for $name<'_, CELLS> {
-            #[inline]
-            fn next_back(&mut self) -> Option<$item> {
-                let i = self.left.next_back()?;
-                Some(self.frame.at(i))
-            }
-
-            #[inline]
-            fn nth_back(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth_back(n)?;
-                Some(self.frame.at(i))
-            }
-        }
-
-        impl<const CELLS: usize> ExactSizeIterator for $name<'_, CELLS> {}
-
-        impl<const CELLS: usize> core::iter::FusedIterator for $name<'_, CELLS> {}
-
-        impl<const CELLS: usize> core::fmt::Debug for $name<'_, CELLS> {
-            fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                let (n, left) = (self.frame.n(), &self.left);
-                out.debug_struct(stringify!($name))
-                    .field("n", &n)
-                    .field("left", left)
-                    .finish_non_exhaustive()
-            }
-        }
-
-        #[cfg(feature = "defmt")]
-        impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
-            fn format(&self, out: defmt::Formatter<'_>) {
-                let (n, left) = (self.frame.n(), &self.left);
-                defmt::write!(
-                    out,
-                    "{=str} {{ n: {}, left: {}..{}, .. }}",
-                    stringify!($name),
-                    n,
-                    left.start,
-                    left.end
-                );
-            }
-        }
-    };
-}
-pub(crate) use iterate;
 
 iterate!(TriggerTimes, f32);
 iterate!(TriggerTicks, u32);

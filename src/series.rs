@@ -14,9 +14,8 @@ pub(crate) struct Series<'a> {
 impl Series<'_> {
     /// The value at `x`, by Horner's rule with what each sum and each product loses carried along.
     ///
-    /// It is within 2⁻⁴¹ Σ |c_k| |x|^k: of N = 6 products and 5 sums each loses at most 2⁻²⁴ of that sum, so what is
-    /// carried along is at most 12 · 2⁻²⁴ of it. It grows as it is carried, so its own roundings are 118 · 2⁻⁴⁸ in all
-    /// (Graillat, Langlois and Louvet 2005; counted by `proofs/series.py`).
+    /// It is within 2⁻⁴¹ Σ |c_k| |x|^k (Graillat, Langlois and Louvet 2005).
+    // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at(self, x: f32) -> Pair {
         let x_high = upper(x);
@@ -40,6 +39,15 @@ impl Series<'_> {
         }
     }
 
+    /// The value at a place. Its second number counts by the slope, which is at most N · 2⁻²⁴ of the sum of the series'
+    /// terms without their signs, so single precision is enough: the value is within 2⁻⁴⁰ of that sum.
+    // proofs/series.py
+    #[inline(always)]
+    pub(crate) const fn at_pair(self, place: Pair) -> Pair {
+        let Pair { hi, lo } = self.at(place.hi);
+        Pair { hi, lo: lo + self.slope(place.hi) * place.lo }
+    }
+
     /// The slope at `x`, in single precision.
     #[inline(always)]
     pub(crate) const fn slope(self, x: f32) -> f32 {
@@ -50,27 +58,5 @@ impl Series<'_> {
             c = lower;
         }
         slope
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pair::tests::numbers;
-    use crate::solve::Offset;
-
-    /// What `proofs/series.py` takes for these functions is what they are.
-    #[test]
-    fn series_are_as_transcribed() {
-        for row in numbers::<18>(include_str!("../proofs/vectors/series.csv")) {
-            let c: [Pair; 6] =
-                core::array::from_fn(|k| Pair { hi: row[2 * k], lo: row[2 * k + 1] });
-            let [.., x, rest, hi, lo, slope, with_rest] = row;
-            let series = Series { c: &c[..5], last: c[5] };
-            assert_eq!(series.at(x), Pair { hi, lo });
-            assert_eq!(series.slope(x), slope);
-            let offset = Offset { x, rest, evaluations: 0 };
-            assert_eq!(offset.value(series), Pair { hi, lo: with_rest });
-        }
     }
 }

@@ -1,7 +1,55 @@
-//! The shape of a ramp: one Bezier in `f64`, as a curve's construction integrates it.
+//! The shape of a ramp: what makes one Bezier a ramp, and that Bezier as it is integrated, in `f64`.
 
 use crate::bezier::CubicBezier;
-use crate::cubic::{Cubic, differences, forward, integral, lifted, widened};
+use crate::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
+use crate::error::{CurveError, Part};
+use crate::lift::{forward, lifted};
+
+/// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
+const GRAZE: f64 = 1.0 / (1 << 22) as f64;
+
+/// Is every coordinate finite?
+pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), CurveError> {
+    let (t, f) = (curve.times(), curve.opennesses());
+    let mut i = 0;
+    while i < 4 {
+        if !t[i].is_finite() || !f[i].is_finite() {
+            return Err(CurveError::NotFinite(part));
+        }
+        i += 1;
+    }
+    Ok(())
+}
+
+/// Does time run forward, and does the openness stay in [0, `most`]?
+///
+/// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound by [`GRAZE`] of the
+/// ramp's length or of the greatest |f|.
+pub(crate) const fn check_ramp(
+    curve: &CubicBezier,
+    part: Part,
+    most: f64,
+) -> Result<(), CurveError> {
+    let t = widened(curve.times());
+    // Grazing is for the inside: before its start and after its end there is no ramp. But rounding may put the first
+    // control time before the start. Then t' is -GRAZE there at worst, and time, with the second control time a third
+    // in, runs as -GRAZE p + p², which dips by GRAZE²/4.
+    let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
+    let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
+    let leaves = first < -slack || last > t[3] - t[0] + slack;
+    if leaves || quadratic_min(differences(t)).0 < -GRAZE / 3.0 * (t[3] - t[0]) {
+        return Err(CurveError::TimeTurnsBack(part));
+    }
+    let (low, high) = cubic_range(widened(curve.opennesses()));
+    let size = if -low > high { -low } else { high };
+    if low < -GRAZE * size {
+        return Err(CurveError::NegativeOpenness(part));
+    }
+    if high > most * (1.0 + GRAZE) {
+        return Err(CurveError::OpennessAboveOne(part));
+    }
+    Ok(())
+}
 
 /// A Bezier as it is integrated: lifted where it grazes a bound, and seen from one of its ends.
 #[derive(Clone, Copy)]
@@ -20,10 +68,10 @@ impl Shape {
         Self { f: lifted(curve.opennesses()), d }
     }
 
-    /// Seen from the other end.
-    pub(crate) const fn reversed(self) -> Self {
+    /// Seen from a side: from the earlier end as it is, or from the later one.
+    pub(crate) const fn from(self, side: usize) -> Self {
         let Self { f, d } = self;
-        Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] }
+        if side == 0 { self } else { Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] } }
     }
 
     pub(crate) const fn openness(&self) -> Cubic {
@@ -35,19 +83,19 @@ impl Shape {
         [self.d[0] as f32, self.d[1] as f32, self.d[2] as f32]
     }
 
-    /// The time passed since the end.
-    pub(crate) const fn elapsed(&self) -> Cubic {
+    /// The time since the end.
+    pub(crate) const fn time(&self) -> Cubic {
         Cubic::new(0.0, self.d)
     }
 
-    /// The mass collected since the end: `∫ f t' dp`, of degree 6.
-    pub(crate) const fn collected(&self) -> [f64; 6] {
-        integral(self.openness(), self.elapsed())
+    /// The mass since the end: `∫ f t' dp`, of degree 6.
+    pub(crate) const fn mass(&self) -> [f64; 6] {
+        integral(self.openness(), self.time())
     }
 
     /// `∫ f dt` over the ramp, the same seen from both ends.
-    pub(crate) const fn mass(&self) -> f64 {
-        let (m, n) = (self.collected(), self.reversed().collected());
+    pub(crate) const fn area(&self) -> f64 {
+        let (m, n) = (self.mass(), self.from(1).mass());
         let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
         let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
         0.5 * (first + last)

@@ -5,8 +5,9 @@ use core::fmt;
 use crate::batch;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
+use crate::moment::rounded_sum;
 use crate::octave::NO_TIME;
-use crate::pair::{Pair, rounded_sum};
+use crate::pair::Pair;
 use crate::plan::Plan;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
@@ -183,22 +184,22 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     pub const fn open_start(&self) -> f32 {
-        self.plan.exposure.start(0)
+        self.plan.exposure.outer(0)
     }
 
     /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
     pub const fn open_end(&self) -> f32 {
-        self.plan.exposure.plateau_start(0)
+        self.plan.exposure.inner(0)
     }
 
     /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
     pub const fn close_start(&self) -> f32 {
-        self.plan.exposure.plateau_start(1)
+        self.plan.exposure.inner(1)
     }
 
     /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
     pub const fn close_end(&self) -> f32 {
-        self.plan.exposure.start(1)
+        self.plan.exposure.outer(1)
     }
 
     /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
@@ -321,8 +322,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`: above 0, and at most 1 + 2⁻²², by the rounding that
-    /// control points are forgiven.
+    /// The shutter efficiency `A / (close_end - open_start)`: from 0, where it is too little for an `f32`, to 1 + 2⁻²², by
+    /// the rounding that control points are forgiven.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

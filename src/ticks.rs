@@ -4,8 +4,9 @@ use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
 use crate::fraction::{Edge, Fractions};
 use crate::moment::Moment;
-use crate::pair::{Pair, fixed};
+use crate::pair::Pair;
 use crate::plan::{Plan, PlateauU64};
+use crate::units::fixed;
 
 /// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
 const DIRECT_TICKS: i32 = 24;
@@ -31,8 +32,8 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         if tick_hz == 0 {
             return Err(ScheduleError::TickRateZero);
         }
-        let start = plan.start_in_units(0);
-        let length = (plan.start_in_units(1) - start) as u64;
+        let start = plan.outer_in_units(0);
+        let length = (plan.outer_in_units(1) - start) as u64;
         let exponent = exponent_of_ticks(length, tick_hz, plan.unit());
         if exponent > MOST_TICKS {
             return Err(too_high(length, tick_hz, plan.unit()));
@@ -76,7 +77,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     #[cold]
     #[inline(never)]
     pub(crate) fn too_close(&self, i: u32, min_gap: u32) -> ScheduleError {
-        let gap = self.at(i) - self.at(i.saturating_sub(1));
+        let gap = self.at(i).saturating_sub(self.at(i.saturating_sub(1)));
         ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
     }
 
@@ -86,7 +87,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
     pub(crate) fn searched(&self, odd: u64, edge: &Edge) -> u32 {
         let unit = self.plan.unit();
         let moment = moment(self.plan, &self.fractions, odd, edge);
-        let delay = moment.since(self.plan.exposure.start(0), unit);
+        let delay = moment.since(self.plan.exposure.outer(0), unit);
         if let Some(scale) = &self.scale {
             // Rounded as the direct way rounds, so that neighbours keep their order.
             return scale.tick(scale.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
@@ -113,8 +114,7 @@ pub(crate) fn moment<const CELLS: usize>(
     let (side, a) = fractions.exactly(odd, edge);
     if a.hi == 0.0 {
         // The end itself, though no light may fall there.
-        let end = plan.exposure.start(side);
-        return Moment::on_way(end, end, false, Pair::ZERO, 0);
+        return Moment::at(plan.exposure.outer(side));
     }
     plan.exposure.at_fraction(side, a, FOR_TICK)
 }
@@ -142,7 +142,7 @@ fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
 
 /// From times in the plan's unit to ticks, in fixed point.
 #[derive(Clone)]
-struct TickScale {
+pub(crate) struct TickScale {
     start: i64,
     /// The power of two that brings a time after the start to 31 bits in the upper word.
     up: u32,
@@ -152,7 +152,7 @@ struct TickScale {
 
 impl TickScale {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
-    fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
+    pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
         // An `f32` interval has from 2³⁷ units to 2⁶².
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         let down = unit + 96 - up as i32;
@@ -169,7 +169,7 @@ impl TickScale {
     /// The tick of a time: exact but for what is cut off the delay and the factor, at most 2⁻⁶ of one.
     // proofs/ticks.py: tick
     #[inline(always)]
-    fn tick(&self, time: i64) -> u32 {
+    pub(crate) fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
         let low = ((low * self.up as u64) >> 32) as u32;
@@ -177,22 +177,5 @@ impl TickScale {
         let delay = (high.wrapping_mul(self.up).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pair::tests::rows;
-
-    /// What `proofs/ticks.py` takes for a tick is one.
-    #[test]
-    fn ticks_are_as_transcribed() {
-        for [start, length, hz, unit, time, tick] in
-            rows(include_str!("../proofs/vectors/ticks.csv"))
-        {
-            let scale = TickScale::new(start as i64, length, hz as u32, unit as i32);
-            assert_eq!(scale.tick(time as i64), tick as u32);
-        }
     }
 }

@@ -7,6 +7,8 @@
 #[path = "../src/cubic.rs"]
 #[allow(dead_code)]
 mod cubic;
+#[path = "../src/lift.rs"]
+mod lift;
 mod support;
 
 use shutter_curve::{BezierPdf, CubicBezier};
@@ -240,7 +242,7 @@ fn lifting_moves_as_little_as_it_can() {
 
                 let t = points.map(|p| f64::from(p.0));
                 let differences = cubic::differences(t);
-                let steps = cubic::forward(differences, length);
+                let steps = lift::forward(differences, length);
                 assert!(
                     steps.iter().zip(lifted.steps).all(|(ours, exact)| {
                         (Dd::from(*ours) - exact).hi.abs() <= exp2(-50) * exact.hi.abs()
@@ -249,7 +251,7 @@ fn lifting_moves_as_little_as_it_can() {
                     at("t'")
                 );
                 let [d2, d1, d0] =
-                    cubic::forward([differences[2], differences[1], differences[0]], length);
+                    lift::forward([differences[2], differences[1], differences[0]], length);
                 assert_eq!(
                     steps.map(f64::to_bits),
                     [d0, d1, d2].map(f64::to_bits),
@@ -267,9 +269,9 @@ fn lifting_moves_as_little_as_it_can() {
                 }
 
                 let f = points.map(|p| p.1 + 0.0);
-                let ours = cubic::lifted(f);
+                let ours = lift::lifted(f);
                 assert_eq!(ours, lifted.openness, "{}", at("f"));
-                let [d, c, b, a] = cubic::lifted([f[3], f[2], f[1], f[0]]);
+                let [d, c, b, a] = lift::lifted([f[3], f[2], f[1], f[0]]);
                 assert_eq!(ours, [a, b, c, d], "{}", at("f mirrored"));
                 let [_, most] = range(f.map(f64::from));
                 if ours != f {

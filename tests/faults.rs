@@ -6,7 +6,9 @@ use shutter_curve::{BezierPdf, CubicBezier, ScheduleError, ShutterCurve};
 use support::cases::shutter;
 use support::oracle::lift::Lifted;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{BACKWARD, EVALUATIONS, FORWARD, TICKS, VALUE, tick_error, tick_error_at};
+use support::promise::{
+    BACKWARD, DIRECT_TICKS, EVALUATIONS, FORWARD, TICKS, VALUE, tick_error, tick_error_at,
+};
 
 /// A ramp without length.
 const fn instant(t: f32, f: f32) -> Points {
@@ -675,5 +677,224 @@ fn the_last_full_pulse_ends_with_the_curve() {
     for n in 1..100 {
         let (_, off) = curve.pulse_ticks(n, 1.0, 1).unwrap().next_back().unwrap();
         assert_eq!(off, 252_000, "of {n}");
+    }
+}
+
+/// Where a single curve's area is beyond 2¹⁰⁰, the unit of its light was subnormal or 0 when its octaves were certified:
+/// answers were off by up to 74 ulp of `u`, and stepped back.
+#[test]
+fn a_single_curve_of_any_scale() {
+    let curves = [
+        [
+            (-1.0, 6.1921535e35),
+            (-0.8601784, -3.5380955e36),
+            (-0.56516194, 1.4345648e37),
+            (0.0, 2.1267648e37),
+        ],
+        [(1.0, 2.1267648e37), (1.0062985, 1.0957435e37), (0.93337935, 0.0), (2.0, 0.0)],
+        [(1.0, 2.1267648e37), (1.0609146, 2.091668e37), (0.78935254, 0.0), (2.0, 0.0)],
+    ];
+    for points in curves {
+        for scale in [1.0, exp2(-60), exp2(-124), exp2(-150), exp2(-200)] {
+            let points = points.map(|(t, f): (f32, f32)| (t, (f64::from(f) * scale) as f32));
+            let Ok(ours) = BezierPdf::new(CubicBezier::new(points)) else { continue };
+            let exact = Exact::new(&Curve::single(points));
+            let us = [3.258366e-3, 4.480506e-3, 0.09375, 0.3, 0.7].map(|u| around(u, 40));
+            let mut last = f32::NEG_INFINITY;
+            for u in us.into_iter().flatten() {
+                let time = ours.inverse_cdf(u);
+                let errors = exact.judge(u, time);
+                assert!(errors.backward <= BACKWARD, "{time:e} at {u:e}: {errors:?} {points:?}");
+                assert!(time >= last, "back to {time:e} from {last:e} at {u:e}");
+                last = time;
+            }
+        }
+    }
+}
+
+/// A search next to the dark inner end of a ramp ended beyond that end, and the tick was hundreds too late.
+#[test]
+fn no_trigger_is_beyond_its_ramp() {
+    let ramp = |points: [(f32, f32); 4], end: f32| Curve::shutter(points, instant(end, 1.0));
+    let frames: [(Curve, u32, u32, u32); 6] = [
+        (
+            ramp(
+                [
+                    (0.0, 0.9),
+                    (0.06622612, -0.3036056),
+                    (-0.21775882, 0.07681351),
+                    (1.0, 1.7496717e-7),
+                ],
+                1.0202826,
+            ),
+            3_327_964,
+            16_443_694,
+            1_658_143,
+        ),
+        (
+            ramp(
+                [
+                    (0.0, 0.9),
+                    (0.06622612, -0.3036056),
+                    (-0.21775882, 0.07681351),
+                    (1.0, 1.7496717e-7),
+                ],
+                1.0202826,
+            ),
+            8_232_272,
+            2_104_792_917,
+            4_101_693,
+        ),
+        (
+            ramp(
+                [
+                    (0.0, 0.9),
+                    (0.07204671, -0.28748026),
+                    (-0.22503921, 0.06887071),
+                    (1.0, 7.605897e-8),
+                ],
+                1.0402455,
+            ),
+            2_289_871,
+            16_128_130,
+            774_551,
+        ),
+        (
+            ramp(
+                [
+                    (-1.0, 0.9),
+                    (-0.9279533, -0.2874707),
+                    (-1.2250392, 0.068869285),
+                    (0.0, 7.605897e-8),
+                ],
+                0.020572096,
+            ),
+            1,
+            2_104_195_716,
+            0,
+        ),
+        (
+            ramp(
+                [
+                    (-1.0, 0.9),
+                    (-0.9279533, -0.28746474),
+                    (-1.2250392, 0.06887321),
+                    (0.0, 7.605897e-8),
+                ],
+                0.034289874,
+            ),
+            4,
+            2_076_287_786,
+            1,
+        ),
+        // A mass next to a dip, measured as a sum of terms 577 times as great.
+        (
+            ramp(
+                [(0.0, 0.0), (0.55103207, 2.441999), (-0.29308096, -0.4703094), (1.0, 0.0679332)],
+                1.547705,
+            ),
+            4_263_241_400,
+            1_387_527_707,
+            1_061_997_291,
+        ),
+    ];
+    for (curve, n, hz, at) in frames {
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        let frame = ours.trigger_ticks(n, hz).unwrap();
+        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let most = TICKS[usize::from(length * f64::from(hz) > DIRECT_TICKS)];
+        let near = at.saturating_sub(200)..n.min(at + 200);
+        let ticks: Vec<u32> =
+            near.clone().map(|i| frame.clone().nth(i as usize).unwrap()).collect();
+        assert!(ticks.is_sorted(), "{ticks:?}");
+        for (i, tick) in near.zip(ticks) {
+            let error = tick_error(&exact, tick, [i, n], hz);
+            assert!(error <= most, "trigger {i} of {n} at {tick}: {error}");
+        }
+    }
+    let (curve, n, hz, _) = frames[2];
+    let ours = shutter::<8>(&curve);
+    ours.schedule_into(&mut vec![0; n as usize], hz, 0).unwrap();
+    assert_eq!(ours.most_triggers(n, hz, 0), Ok(n));
+    let pulses = ours.pulse_ticks(8_570_554, 0.5, 2_064_400_737).unwrap();
+    let pulses: Vec<(u32, u32)> = pulses.skip(2_898_900).take(200).collect();
+    assert!(pulses.is_sorted_by(|a, b| a.1 <= b.0), "{pulses:?}");
+}
+
+/// Where a ramp is measured from its other end, the noise changes: the last time before was settled by the inverse, the
+/// next one by its own mass, which was within the noise of the inverse.
+#[test]
+fn the_cdf_where_a_ramp_changes_ends() {
+    let ramp = |points: [(f32, f32); 4], end: f32| Curve::shutter(points, instant(end, 1.0));
+    let cases = [
+        (
+            ramp(
+                [
+                    (0.7781116, 0.990099),
+                    (0.9402255, -0.12617572),
+                    (0.5329293, 0.012059636),
+                    (1.5562232, 0.0),
+                ],
+                1.6831726,
+            ),
+            1.1671674f32,
+        ),
+        (
+            ramp(
+                [
+                    (0.9951655, 0.990099),
+                    (1.0856684, -0.13246524),
+                    (0.7507236, 0.013291884),
+                    (1.990331, 0.0),
+                ],
+                2.070436,
+            ),
+            1.4927484,
+        ),
+        (
+            ramp(
+                [
+                    (-0.88865644, 0.990099),
+                    (-0.76812714, -0.12795477),
+                    (-1.138575, 0.012402111),
+                    (0.0, 0.0),
+                ],
+                0.039733905,
+            ),
+            -0.4443282,
+        ),
+    ];
+    for (curve, t) in cases {
+        let ours = shutter::<8>(&curve);
+        let first = t.to_bits() - 2000;
+        let mut ts: Vec<f32> = (first..first + 4000).map(f32::from_bits).collect();
+        ts.sort_by(f32::total_cmp);
+        let values: Vec<f32> = ts.iter().map(|t| ours.cdf(*t)).collect();
+        assert!(values.is_sorted(), "{curve:?}");
+    }
+}
+
+/// In a dip the openness is what is left of terms 27 times as great as the greatest openness.
+#[test]
+fn the_openness_in_a_deep_dip() {
+    let cases = [
+        ([(0.0, 0.0), (0.0, 2.3838537), (0.0, -1.4847157), (1.0, 0.6935348)], 0.4433879f32),
+        (
+            [
+                (0.0, 5.179933e-7),
+                (0.28752717, 1.559024),
+                (-0.0058819656, -1.1125908),
+                (1.0, 0.595498),
+            ],
+            0.44178855,
+        ),
+    ];
+    for (points, t) in cases {
+        let curve = Curve::shutter(points, instant(2.0, 1.0));
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        for t in around(t, 200) {
+            let error = exact.openness_ulp(ours.opening(t), t);
+            assert!(error <= VALUE, "{error} at {t:e}");
+        }
     }
 }

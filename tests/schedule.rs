@@ -62,7 +62,7 @@ fn worst(curve: &Curve, n: u32, hz: u32) -> f64 {
     ticks.iter().enumerate().map(error).fold(0.0, f64::max)
 }
 
-/// The same on a curve of any kind, where a u-error of 2⁻³⁶ is forgiven.
+/// The same on a curve of any kind, where a u-error of 2⁻³⁴ is forgiven.
 fn worst_but_for_u(curve: &Curve, n: u32, hz: u32) -> f64 {
     let exact = Exact::new(curve);
     let ticks: Vec<u32> = shutter::<8>(curve).trigger_ticks(n, hz).unwrap().collect();

@@ -161,7 +161,9 @@ pub fn random_single(seed: u64, index: u64) -> Curve {
     drawn_until_valid(|| {
         let curve = hard(&mut rng);
         let points = if rng.chance(0.5) { curve.opening } else { curve.closing };
-        let scale = rng.power_of_ten(-8.0, 8.0);
+        // Most of all that leaves area and openness numbers.
+        let most = if rng.chance(0.5) { 8.0 } else { 36.0 };
+        let scale = rng.power_of_ten(-most, most);
         Curve::single(points.map(|(t, f)| (t, (f as f64 * scale) as f32)))
     })
 }

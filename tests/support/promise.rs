@@ -545,7 +545,7 @@ impl fmt::Display for Figures {
     }
 }
 
-/// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁶ of `min(u, 1 - u)` is forgiven.
+/// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁴ of `min(u, 1 - u)` is forgiven.
 ///
 /// Where next to no light falls, the mass is the small sum of great terms: of 570 times its size where the families of `aimed` come
 /// nearest to the 1083 that the text of `solve` bounds it by. Pairs have 2⁻⁴¹ of the terms for their bound, 2⁻³² of such a mass, and
@@ -570,6 +570,6 @@ pub fn tick_error_at(exact: &Exact, tick: u32, u: Dd, hz: u32) -> f64 {
     if error <= 0.5 {
         return error;
     }
-    let forgiven = u.min(Dd::ONE - u).scale(exp2(-36));
+    let forgiven = u.min(Dd::ONE - u).scale(exp2(-34));
     (delay(u - forgiven) - tick).max(tick - delay(u + forgiven)).max(0.0)
 }

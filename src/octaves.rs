@@ -1,15 +1,17 @@
-//! How the octaves of a side are fitted, when a curve is built: the polynomial through the exact times at a few nodes,
-//! which is kept if a certificate says that it keeps the promise.
+//! How the octaves of a side are built: the polynomial through the exact times at a few nodes, which is kept if a
+//! certificate says that it keeps the promise.
 
 use crate::certificate::{KINDS, WAYS, errors};
 use crate::exposure::Exposure;
-use crate::octave::{DEGREE, FINE, FINER, LEAST, Octave, STEP, below, floor_bits, range};
-use crate::pair::{exponent, fixed, power_of_two};
+use crate::octave::{DEGREE, FINER, Octave, below};
 use crate::path::{Path, absolute, root, scale, singles, unknown, value};
 use crate::shape::Shape;
+use crate::units::{
+    FINE, LEAST_TOP, TOP_STEP, WORD, exponent, fixed, floor_bits, power_of_two, power_of_two_f64,
+};
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
-const NODES: [f32; DEGREE + 1] = [
+pub(crate) const NODES: [f32; DEGREE + 1] = [
     -0.984_807_7,
     -0.8660254,
     -0.64278764,
@@ -22,13 +24,13 @@ const NODES: [f32; DEGREE + 1] = [
 ];
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
-const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
+pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
 /// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
-const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
+pub(crate) const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
 /// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the lesser
 /// one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
-const ULP_ERROR: f32 = 0.49;
+pub(crate) const ULP_ERROR: f32 = 0.49;
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
 /// (`proofs/octaves.py`). A polynomial's middle makes up for the middle of that.
@@ -38,11 +40,9 @@ const TRUNCATED: f64 = -0.664;
 /// How far off a fraction may be, by this and by this share of it: where an octave's ramp is looked up, for joins are
 /// rounded, and on a path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
-const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
+pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
 /// The same of a time.
 const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
-
-const WORD: f32 = 4294967296.0;
 
 /// As long as half of a part is at most this share of the width, the unit is halved; so the half is at most 0.48 of it. The
 /// 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the most.
@@ -55,21 +55,34 @@ const MOST_FINER: u32 = 17;
 /// taken that leaves no octave without a polynomial, or else the last.
 const STRETCHES: [u32; 4] = [0, 5, 6, 4];
 
-/// A side of the curve, as its octaves are fitted to it.
-struct Side<'a> {
-    exposure: &'a Exposure,
-    shapes: &'a [Shape; 2],
-    side: usize,
-    /// The exponent of the unit of time.
-    unit: i32,
+/// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
+pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
+    let [near, far] = exposure.joins(side);
+    if ramp != side {
+        return [far, 0.5];
+    }
+    // If the near ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it for
+    // a part of this ramp. So this ramp gets no octaves.
+    let is_hidden = near < far && near < FINE as f64;
+    let to = if near < 0.5 { near } else { 0.5 };
+    [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// Fits the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`STEP`]s above [`LEAST`].
+/// A side of the curve, as its octaves are built.
+pub(crate) struct Side<'a> {
+    pub(crate) exposure: &'a Exposure,
+    pub(crate) shapes: &'a [Shape; 2],
+    pub(crate) side: usize,
+    /// The exponent of the unit of time.
+    pub(crate) unit: i32,
+}
+
+/// Builds the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`TOP_STEP`]s above [`LEAST_TOP`].
 /// The far ramp's octaves come first, and the near ramp's top is raised by one octave for each of them.
 ///
 /// Out of line, and with a slice, so that it is the same for any number of octaves.
 #[inline(never)]
-pub(crate) const fn fit(
+pub(crate) const fn build(
     exposure: &Exposure,
     shapes: &[Shape; 2],
     unit: i32,
@@ -96,11 +109,11 @@ pub(crate) const fn fit(
                 let top = below(highest, index - first);
                 // An octave below the least top has a place, too, or a fraction there would be looked up in the next
                 // ramp's.
-                if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST {
+                if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {
-                    octaves[index] = this.fitted(ramp, &path, &span);
+                    octaves[index] = this.octave(ramp, &path, &span);
                     if !octaves[index].exists() && stretch < STRETCHES.len() {
                         // To be tried with the next top.
                         break;
@@ -112,7 +125,7 @@ pub(crate) const fn fit(
                 break;
             }
         }
-        tops[ramp & 1] = ((highest - LEAST + ((first as u32) << 23)) / STEP) as u8;
+        tops[ramp & 1] = ((highest - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
     }
@@ -124,23 +137,24 @@ const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
     // At or above the end, or a 64-bit fraction below it would be looked up in the octave above.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
-    let top = if end > LEAST { end.div_ceil(STEP) * STEP } else { LEAST } + steps * STEP;
+    let top = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP }
+        + steps * TOP_STEP;
     // If the range began within some ulp of an octave's end, rounding might put its first fraction into the octave
     // below.
     let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + STEP } else { top }
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }
 }
 
 /// The part of an octave that its polynomial serves, in `a`.
 pub(crate) struct Span {
     /// Where it begins, and where it ends.
     pub(crate) from: f64,
-    to: f32,
+    pub(crate) to: f32,
     /// The middle, and how far the polynomial reaches from there: some ulp beyond what it serves.
-    middle: f32,
-    half: f32,
+    pub(crate) middle: f32,
+    pub(crate) half: f32,
     /// The power of two that is in the octave, or at its end: what positions count 2⁻³² of.
-    octave: f32,
+    pub(crate) octave: f32,
     /// What offsets count 2⁻³² of: 2 to minus `finer` of that.
     width: f32,
     finer: u32,
@@ -152,7 +166,7 @@ impl Span {
         let high = f32::from_bits(top);
         let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
         let to = if range[1] < high as f64 { range[1] } else { high as f64 };
-        if top < LEAST || from >= to {
+        if top < LEAST_TOP || from >= to {
             return None;
         }
         let to = to as f32;
@@ -177,7 +191,7 @@ impl Span {
     }
 
     /// A stretch, its fractions counted as positions are, from the power of two on.
-    const fn counted(&self, mut stretch: Path) -> Path {
+    pub(crate) const fn counted(&self, mut stretch: Path) -> Path {
         stretch.fraction[0] -= self.octave as f64;
         scale(&mut stretch.fraction, (WORD / self.octave) as f64, 1.0);
         stretch
@@ -208,7 +222,7 @@ impl Span {
             let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
-            d[i] = value(&along.elapsed, place);
+            d[i] = value(&along.time, place);
         }
         let mut order = 1;
         while order <= DEGREE {
@@ -228,8 +242,8 @@ impl Span {
 }
 
 /// A polynomial as it is held against the exact time.
-struct Served {
-    octave: Octave,
+pub(crate) struct Candidate {
+    pub(crate) octave: Octave,
     /// The time from the side's start that its value is added to.
     middle: f64,
     /// The unit of its value, in time.
@@ -241,18 +255,18 @@ struct Served {
 }
 
 impl Side<'_> {
-    const fn path(&self, ramp: usize) -> Path {
+    pub(crate) const fn path(&self, ramp: usize) -> Path {
         Path::new(self.exposure, &self.shapes[ramp & 1], self.side, ramp)
     }
 
     /// The octave of a part of a ramp, with a polynomial where one keeps the promise.
     #[inline(never)]
-    const fn fitted(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
+    const fn octave(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
         let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
-        let Some(served) = self.served(span, &stretch) else { return Octave::NONE };
-        let mut is_certain = certain(&self.certificate(&served, span, stretch, ramp, places));
+        let Some(candidate) = self.candidate(span, &stretch) else { return Octave::NONE };
+        let mut is_certain = certain(&self.certificate(&candidate, span, stretch, ramp, places));
         // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
         // what is beyond the join, too.
         let join = self.exposure.exact_joins(self.side)[0];
@@ -260,15 +274,15 @@ impl Side<'_> {
             let path = self.path(ramp ^ 1);
             let places = [0.0, path.place(ends[1], true)];
             let stretch = span.counted(path.stretch(places));
-            let beyond = self.certificate(&served, span, stretch, ramp ^ 1, places);
+            let beyond = self.certificate(&candidate, span, stretch, ramp ^ 1, places);
             is_certain = is_certain && certain(&beyond);
         }
-        if is_certain { served.octave } else { Octave::NONE }
+        if is_certain { candidate.octave } else { Octave::NONE }
     }
 
     /// The polynomial along a stretch, in the unit in which its coefficients fill their words.
     #[inline(always)]
-    const fn served(&self, span: &Span, stretch: &Path) -> Option<Served> {
+    pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
         let c = span.interpolated(stretch);
         // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
@@ -298,10 +312,10 @@ impl Side<'_> {
             k = unknown(k - 1);
         }
         let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;
-        let start = fixed(self.exposure.start(self.side), self.unit);
+        let start = fixed(self.exposure.outer(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
-        Some(Served {
+        Some(Candidate {
             octave,
             middle: middle as f64 * power_of_two_f64(self.unit),
             unit,
@@ -312,37 +326,38 @@ impl Side<'_> {
 
     /// Bounds of a polynomial's errors along a stretch of a ramp between two places, in what they may be at most.
     #[inline(never)]
-    const fn certificate(
+    pub(crate) const fn certificate(
         &self,
-        served: &Served,
+        candidate: &Candidate,
         span: &Span,
         mut along: Path,
         ramp: usize,
         [first, last]: [f64; 2],
     ) -> [f32; 4] {
-        let Served { ref octave, middle, unit, steep, truncated } = *served;
+        let Candidate { ref octave, middle, unit, steep, truncated } = *candidate;
         let (exposure, side) = (self.exposure, self.side);
         // What an error may be is 1 in each of these units.
-        let ends = [value(&along.elapsed, -1.0), value(&along.elapsed, 1.0)];
+        let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
         let (off, ulp) = (
             OFF[0] + OFF[1] * span.to,
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
         let per = unit as f32;
-        let per_tick = per / (exposure.start(1) - exposure.start(0)) / TICK_ERROR;
-        let per_light = per / (exposure.area as f32) / (ULP_ERROR * ulp - off);
+        let per_tick = per / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
+        // In `f64`, since the openness of a single curve may have any scale.
+        let per_light = unit / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
-            per / exposure.size_of_time(side, ends[0]) / FORWARD_ERROR,
-            per / exposure.size_of_time(side, ends[1]) / FORWARD_ERROR,
+            per / self.size_of_time(ends[0]) / FORWARD_ERROR,
+            per / self.size_of_time(ends[1]) / FORWARD_ERROR,
         ];
         // In the unit of the coefficients.
-        along.elapsed[0] -= middle;
-        scale(&mut along.elapsed, 1.0 / unit, 1.0);
-        let elapsed = singles(&along.elapsed, 0.0, 1.0);
-        let openness = singles(&along.openness, 0.0, per_light as f64);
+        along.time[0] -= middle;
+        scale(&mut along.time, 1.0 / unit, 1.0);
+        let time = singles(&along.time, 0.0, 1.0);
+        let openness = singles(&along.openness, 0.0, per_light);
         // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in time, so
         // it lies below the chord between both ends.
-        let [_, t1, t2, t3] = elapsed;
+        let [_, t1, t2, t3] = time;
         let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
         let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];
         let (center, per_position) = span.offsets();
@@ -354,11 +369,11 @@ impl Side<'_> {
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                self.greatest_beyond(ramp, per / per_tick) * per_light
+                (self.greatest_beyond(ramp, per / per_tick) * per_light) as f32
             } else {
                 0.0
             },
-            elapsed,
+            time,
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
@@ -377,9 +392,25 @@ impl Side<'_> {
         bounds
     }
 
+    /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
+    /// at most the interval, since ticks are counted from its start.
+    #[inline(never)]
+    pub(crate) const fn size_of_time(&self, since: f64) -> f32 {
+        let [start, end] = [self.exposure.outer(0), self.exposure.outer(1)];
+        let time = if self.side == 0 { start as f64 + since } else { end as f64 - since };
+        let size = if !(start < 0.0 && end > 0.0) {
+            (time as f32).abs()
+        } else if end > -start {
+            end
+        } else {
+            -start
+        };
+        if size < end - start { size } else { end - start }
+    }
+
     /// A bound of the openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
     #[inline(never)]
-    const fn greatest_beyond(&self, ramp: usize, time: f32) -> f32 {
+    const fn greatest_beyond(&self, ramp: usize, time: f32) -> f64 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
@@ -395,7 +426,8 @@ impl Side<'_> {
             doublings = unknown(doublings - 1);
         }
         // f' is three times the differences, or between.
-        f0 + 3.0 * p * ((f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs())
+        let bends = (f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs();
+        f0 as f64 + 3.0 * p as f64 * bends as f64
     }
 }
 
@@ -410,7 +442,7 @@ struct Limits {
     per_size: f32,
     /// The light in a unit of time beyond the ramp's inner end.
     beyond: f32,
-    elapsed: [f32; 4],
+    time: [f32; 4],
     openness: [f32; 4],
 }
 
@@ -422,7 +454,7 @@ impl Limits {
         let error = time + self.rounding;
         // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
         // never falls rises at least as fast as around a point where it stands still.
-        let [_, t1, t2, t3] = self.elapsed;
+        let [_, t1, t2, t3] = self.time;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest =
             if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
@@ -477,13 +509,6 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
     c[0] = constant - c[0] * root;
 }
 
-const fn power_of_two_f64(exponent: i32) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
-}
-
 const fn round(x: f64) -> i32 {
     (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
 }
-
-#[cfg(test)]
-mod tests;

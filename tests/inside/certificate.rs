@@ -1,13 +1,16 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
-use super::*;
 use crate::bezier::CubicBezier;
 use crate::error::Part;
-use crate::octave::top;
-use crate::plan::unit_for;
+use crate::exposure::Exposure;
+use crate::octave::{DEGREE, Octave, below, top};
+use crate::octaves::{FORWARD_ERROR, NODES, OFF, Side, Span, TICK_ERROR, ULP_ERROR, build, range};
+use crate::path::Path;
+use crate::shape::Shape;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
+use crate::units::{WORD, fixed, power_of_two_f64, time_unit};
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
 fn chebyshev(x: f64) -> f64 {
@@ -40,11 +43,11 @@ impl Truth {
             return;
         };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
-        let (exact, unit) = (Exact::new(curve), unit_for(exposure.start(0), exposure.start(1)));
+        let (exact, unit) = (Exact::new(curve), time_unit(exposure.outer(0), exposure.outer(1)));
         for side in 0..2 {
             let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
             let mut octaves = [Octave::NONE; CELLS];
-            let tops = fit(&exposure, &shapes, unit, side, &mut octaves);
+            let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in tops.into_iter().enumerate() {
                 let (range, path) = (range(&exposure, side, ramp), this.path(ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
@@ -73,11 +76,11 @@ impl Side<'_> {
         let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
-        let served = self.served(span, &stretch).expect("it was fitted");
-        assert_eq!(served.octave, *octave);
-        let bounds = self.certificate(&served, span, stretch, ramp, places).map(f64::from);
-        let interval = f64::from(self.exposure.start(1)) - f64::from(self.exposure.start(0));
-        let start = fixed(self.exposure.start(self.side), self.unit);
+        let candidate = self.candidate(span, &stretch).expect("it was built");
+        assert_eq!(candidate.octave, *octave);
+        let bounds = self.certificate(&candidate, span, stretch, ramp, places).map(f64::from);
+        let interval = f64::from(self.exposure.outer(1)) - f64::from(self.exposure.outer(0));
+        let start = fixed(self.exposure.outer(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
         // The span itself rounds its end.
@@ -93,9 +96,8 @@ impl Side<'_> {
                 let doubled = ((a / f64::from(span.octave) - 1.0) * f64::from(WORD)).floor() as i64;
                 let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
                 let time = octave.time(octave.offset(position)) - start;
-                let elapsed = time as f64 * power_of_two_f64(self.unit);
-                let served =
-                    Dd::from(f64::from(self.exposure.start(self.side))) + Dd::from(elapsed);
+                let time = time as f64 * power_of_two_f64(self.unit);
+                let served = Dd::from(f64::from(self.exposure.outer(self.side))) + Dd::from(time);
                 let u = if self.side == 0 { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
@@ -103,7 +105,7 @@ impl Side<'_> {
                 let mut share = [0.0; 3];
                 share[0] = off / (f64::from(TICK_ERROR) * interval) / bounds[0];
                 if is_single {
-                    let size = f64::from(self.exposure.size_of_time(self.side, elapsed.abs()));
+                    let size = f64::from(self.size_of_time(time.abs()));
                     share[1] = off / (f64::from(FORWARD_ERROR) * size) / bounds[1];
                     // Counted from the side, so that no bits are lost next to the later end.
                     let light = if self.side == 0 {

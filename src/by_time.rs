@@ -1,0 +1,130 @@
+//! A ramp by time: the place at which a time is reached, and mass and openness there.
+
+use crate::guess::guess;
+use crate::pair::{Pair, flipped};
+use crate::ramp::{BACK, Ramp};
+use crate::series::Series;
+use crate::solve::{Anchor, ROUNDING, solve};
+use crate::units::{LAST_PLACE, LENGTH, exponent, per_mass_unit, power_of_two};
+
+/// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between
+/// neighbours, also of those of [`on_grid`], so that these keep their order.
+const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
+
+/// A slope from a quarter to half of a ramp's mean `t'`. If the least `t'` is below, a time may be searched for from
+/// there.
+const SLOW: f32 = 0.25 * LENGTH / LAST_PLACE;
+
+/// A point of a ramp, found by its time: its place from the end that faces a side.
+pub(crate) struct RampPoint<'a> {
+    ramp: &'a Ramp,
+    pub(crate) side: usize,
+    place: Pair,
+}
+
+impl Ramp {
+    /// Where the ramp is at `t`, which lies on it: from the nearer end, by the exact time since.
+    #[inline(always)]
+    pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
+        let [start, end] = [self.time(0), self.time(1)];
+        let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
+        let (before, after) = (Pair::sum(t, -start), Pair::sum(end, -t));
+        let (side, way) = if before.difference(after) > 0.0 { (1, after) } else { (0, before) };
+        RampPoint { ramp: self, side, place: self.place(side, way.shifted(-self.unit())) }
+    }
+
+    /// The place at which a time has passed since the end that faces a side, in the ramp's unit.
+    #[inline(always)]
+    const fn place(&self, side: usize, target: Pair) -> Pair {
+        let series = self.time_since(side);
+        let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
+        let mut anchor =
+            Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
+        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there and the target near.
+        let thrice = 3.0 * c3;
+        if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
+            let slowest = -c2 / thrice;
+            let sought = target.difference(series.at(slowest));
+            if sought.abs() < target.hi {
+                let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest);
+                let (back, sought) = (sought.to_bits() & BACK, sought.abs());
+                let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
+                anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
+            }
+        }
+        let guess = guess(&anchor.c, anchor.sought);
+        solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2]).0
+    }
+
+    /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
+    #[inline(never)]
+    pub(crate) fn openness_at(&self, t: f32) -> (Pair, i32) {
+        let RampPoint { side, place, .. } = self.at_time(t);
+        let [f0, f1, f2, f3] = self.openness;
+        let f = if side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
+        // Scaled so that the second halves of all coefficients, and their products with the least place, keep their
+        // bits.
+        let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
+        let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
+        let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
+        let bend = d[1].minus_loose(d[0]);
+        let one = 1.0 / LAST_PLACE;
+        let (two, three) = (one / LAST_PLACE, one / LAST_PLACE / LAST_PLACE);
+        let c = [d[0].thrice().scaled(one), bend.thrice().scaled(two)];
+        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend).scaled(three) };
+        let value = Pair::new(f[0]).plus(series.at_pair(place));
+        (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
+    }
+}
+
+impl RampPoint<'_> {
+    /// The fraction collected between the end that faces the side and here, in [`WHOLE`](crate::units::WHOLE).
+    #[inline(always)]
+    pub(crate) const fn mass(&self) -> Pair {
+        let mass = self.ramp.mass_since(self.side).at_pair(self.place);
+        mass.scaled(per_mass_unit(self.ramp.share.hi))
+    }
+
+    /// A bound of the rounding error of [`mass`](Self::mass) and of a search for a mass that is next to it, which may
+    /// measure from the other end: see [`Series::at`].
+    // proofs/series.py
+    pub(crate) fn noise(&self) -> f32 {
+        let terms = |side, x| {
+            let c = self.ramp.mass_in_single(side);
+            c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
+        };
+        let here = self.place.hi;
+        let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
+        terms * per_mass_unit(self.ramp.share.hi) / (1u64 << 40) as f32
+    }
+}
+
+/// `t` rounded to half an ulp of the farther end of a ramp that runs across time 0: next to 0, `f32` are denser than a
+/// search is exact.
+#[inline(never)]
+const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
+    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
+    if t.abs() >= half || t == start || t == end {
+        return t;
+    }
+    // The sum is at most 2.5 half.
+    let t = (t + 1.5 * half) - 1.5 * half;
+    if t < start {
+        start
+    } else if t > end {
+        end
+    } else {
+        t
+    }
+}
+
+/// The coefficients of a time around `x` in single precision, computed in pairs, because they may be differences of
+/// nearly equal numbers.
+#[cold]
+#[inline(never)]
+const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
+    let x = Pair::new(x);
+    let bend = c.thrice().times(x);
+    let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
+    [slope.rounded(), bend.plus(b).rounded(), c.hi]
+}

@@ -1,0 +1,145 @@
+//! The exposure by time: where a time lies on the curve, the openness there, its density, and the fraction collected
+//! until then.
+
+use crate::by_time::RampPoint;
+use crate::exposure::{Exposure, FOR_TICK};
+use crate::moment::rounded_sum;
+use crate::pair::{Pair, significand};
+use crate::units::{WHOLE, WHOLE_EXPONENT};
+
+/// A mass may be what a measured part leaves of a ramp's share. If the mass is more than this fraction of the part, the
+/// part's noise, relative to the mass, is at most four times what it is relative to the part.
+const LITTLE: f32 = 0.25;
+
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: the
+/// noise of a measured part is below 2⁻³⁰ of it (`proofs/markov.py`), and so below this of the mass.
+const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
+
+/// Where a time lies on the curve.
+enum At {
+    Outside,
+    Plateau,
+    /// On a ramp, by its index.
+    Ramp(usize),
+}
+
+impl Exposure {
+    #[inline]
+    fn at(&self, t: f32) -> At {
+        let [start, end] = [self.outer(0), self.outer(1)];
+        let [open, close] = [self.inner(0), self.inner(1)];
+        // An instant that is a plateau without length belongs to a ramp that has length.
+        let plateau = open < close;
+        if !(t >= start && t <= end) {
+            At::Outside
+        } else if t < open || (t == open && !plateau && start < open) {
+            At::Ramp(0)
+        } else if plateau && t <= close {
+            At::Plateau
+        } else {
+            At::Ramp(1)
+        }
+    }
+
+    /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
+    #[inline]
+    pub(crate) fn openness(&self, t: f32) -> (Pair, i32) {
+        match self.at(t) {
+            At::Outside => (Pair::ZERO, 0),
+            At::Plateau => (Pair::new(1.0), 0),
+            At::Ramp(ramp) => self.ramp(ramp).openness_at(t),
+        }
+    }
+
+    /// `K f` for an openness `f` in units of `2^unit`.
+    #[inline]
+    pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
+        let (area, exponent) = significand(self.area);
+        rounded_sum(0.0, f.over(area), unit - exponent, false)
+    }
+
+    /// The fraction collected by `t`.
+    #[inline]
+    pub(crate) fn cdf(&self, t: f32) -> f32 {
+        match self.at(t) {
+            At::Outside if t > self.outer(1) => 1.0,
+            At::Outside => 0.0,
+            At::Plateau => self.cdf_on_plateau(t),
+            At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
+        }
+    }
+
+    /// The same on the plateau. Out of line, so that a ramp's way saves no registers for it.
+    #[inline(never)]
+    fn cdf_on_plateau(&self, t: f32) -> f32 {
+        let (area, exponent) = significand(self.area);
+        // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
+        let way = Pair::sum(t, -self.inner(0)).shifted(WHOLE_EXPONENT - exponent);
+        self.nearest(t, self.ramps[0].share.plus(way.over(area)), 0.0, None)
+    }
+
+    /// The same on a ramp.
+    #[inline(never)]
+    fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
+        let on = self.ramp(ramp).at_time(t);
+        let part = on.mass();
+        // From the start of the ramp, or back from its end. What the part leaves of a share may be little.
+        let little = LITTLE * part.hi;
+        let (mass, little) = match (ramp, on.side) {
+            (0, 0) => (part, 0.0),
+            (0, _) => (self.ramps[0].share.minus(part), little),
+            (_, 0) => (self.ramps[0].share.plus(self.plateau).plus(part), 0.0),
+            _ => (Pair::new(WHOLE).minus(part), little),
+        };
+        self.nearest(t, mass, little, Some(on))
+    }
+
+    /// The `f32` nearest to the mass that `t` has, as a fraction; settled where pairs cannot tell which that is, as
+    /// where the mass is `little` or less, or none.
+    #[inline(always)]
+    fn nearest(&self, t: f32, mass: Pair, little: f32, on: Option<RampPoint>) -> f32 {
+        let nearest = mass.rounded();
+        // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
+        let rest = (mass.hi - nearest) + mass.lo;
+        let next =
+            f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
+        let distance = (0.5 * (next - nearest) - rest).abs();
+        let is_told = nearest > little && distance >= nearest * NEAR_MIDDLE;
+        let nearest =
+            if is_told { nearest } else { self.settled(t, [nearest, next], distance, on) };
+        if nearest < WHOLE { nearest / WHOLE } else { 1.0 }
+    }
+
+    /// Which of two neighbouring `f32` is the cdf, if the mass is so near to their middle that pairs cannot tell; 0 for
+    /// no mass.
+    ///
+    /// The middle has exactly one time, which the inverse finds. Times before that get the lesser neighbour, all others
+    /// the greater one. So the cdf does not step back, not even where next to no light falls and neighbouring times
+    /// have the same mass except for its rounding. If the mass is farther from the middle than `noise`, both ways
+    /// agree.
+    // docs/proofs.md: `cdf` never steps back
+    #[cold]
+    #[inline(never)]
+    fn settled(
+        &self,
+        t: f32,
+        [nearest, next]: [f32; 2],
+        distance: f32,
+        on: Option<RampPoint>,
+    ) -> f32 {
+        if nearest <= 0.0 {
+            return 0.0;
+        }
+        // The search for the middle is itself not exact.
+        let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
+        if distance > noise {
+            return nearest;
+        }
+        let middle = Pair::sum(nearest, 0.5 * (next - nearest));
+        // The side by the lesser neighbour, so that both ask for the same time.
+        let (least, greatest) = if next < nearest { (next, nearest) } else { (nearest, next) };
+        let (side, a) =
+            if least < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
+        if t >= self.at_fraction(side, a, FOR_TICK).time() { greatest } else { least }
+    }
+}

@@ -1,0 +1,83 @@
+//! The iterators over a frame: any item in constant time, from either end.
+
+/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the range
+/// of those that are `left`.
+macro_rules! iterate {
+    ($name:ident, $item:ty) => {
+        impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
+            type Item = $item;
+
+            // Into the caller's loop; there is mostly one.
+            #[inline(always)]
+            fn next(&mut self) -> Option<$item> {
+                let i = self.left.next()?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn nth(&mut self, n: usize) -> Option<$item> {
+                let i = self.left.nth(n)?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn size_hint(&self) -> (usize, Option<usize>) {
+                self.left.size_hint()
+            }
+
+            #[inline]
+            fn count(self) -> usize {
+                self.left.count()
+            }
+
+            #[inline]
+            fn last(mut self) -> Option<$item> {
+                self.next_back()
+            }
+        }
+
+        impl<const CELLS: usize> DoubleEndedIterator for $name<'_, CELLS> {
+            #[inline]
+            fn next_back(&mut self) -> Option<$item> {
+                let i = self.left.next_back()?;
+                Some(self.frame.at(i))
+            }
+
+            #[inline]
+            fn nth_back(&mut self, n: usize) -> Option<$item> {
+                let i = self.left.nth_back(n)?;
+                Some(self.frame.at(i))
+            }
+        }
+
+        impl<const CELLS: usize> ExactSizeIterator for $name<'_, CELLS> {}
+
+        impl<const CELLS: usize> core::iter::FusedIterator for $name<'_, CELLS> {}
+
+        impl<const CELLS: usize> core::fmt::Debug for $name<'_, CELLS> {
+            fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                let (n, left) = (self.frame.n(), &self.left);
+                out.debug_struct(stringify!($name))
+                    .field("n", &n)
+                    .field("left", left)
+                    .finish_non_exhaustive()
+            }
+        }
+
+        #[cfg(feature = "defmt")]
+        impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
+            fn format(&self, out: defmt::Formatter<'_>) {
+                let (n, left) = (self.frame.n(), &self.left);
+                defmt::write!(
+                    out,
+                    "{=str} {{ n: {}, left: {}..{}, .. }}",
+                    stringify!($name),
+                    n,
+                    left.start,
+                    left.end
+                );
+            }
+        }
+    };
+}
+pub(crate) use iterate;

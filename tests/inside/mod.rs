@@ -1,0 +1,5 @@
+//! Tests of what is not public, compiled into the crate's own test.
+
+mod bound;
+mod certificate;
+mod transcribed;
