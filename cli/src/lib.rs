@@ -15,6 +15,7 @@ pub mod picture;
 pub mod plan;
 #[cfg(feature = "terminal")]
 pub mod report;
+mod rows;
 pub mod scene;
 pub mod set_up;
 pub mod shape;

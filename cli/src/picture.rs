@@ -14,7 +14,8 @@ use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
 use crate::unit::short;
 use drawing::{
-    Drawn, POINTS, SCALE, below, centred, dot, draw_curve, graph, lit, pen, picture, time_range,
+    Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, lit, pen, picture,
+    time_range,
 };
 pub use set_ups::set_ups;
 use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
@@ -24,8 +25,6 @@ const SIZE: (i32, i32) = (900, 704);
 const HEADING: i32 = 88;
 const OPENNESS: i32 = 330;
 
-/// With more triggers than this, their marks would run into each other.
-const MOST_MARKS: usize = 50;
 /// The height of the ticks that stand for so many.
 const TICK: f64 = 0.04;
 

@@ -8,7 +8,7 @@ use crate::shape::Shape;
 use crate::unit::{Unit, count};
 
 /// The most triggers of one scene.
-const MOST_TRIGGERS: u32 = 10_000;
+pub const MOST_TRIGGERS: u32 = 10_000;
 
 /// When to trigger.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,10 +8,9 @@ use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 use crate::facts;
 use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
+use crate::rows::hidden_rows;
 use crate::unit::{Unit, decimals, short};
 
-/// Longer tables lose their middle; half as many rows stay at each end.
-const MOST_ROWS: usize = 25;
 /// With more triggers than this, a full line at each would hide the curve.
 const MOST_LINES: usize = 36;
 /// The drawing's size in dots, 2 by 4 a character: with its labels it fits in 80 columns.
@@ -82,8 +81,7 @@ fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
     let gap = if has_pulses { "apart" } else { "gap" };
     let gap = format!("{gap} ({})", unit.name());
     writeln!(out, "    #        u  {time:>13}       ticks{}  {gap:>13}", pulse(&"on", &"off"))?;
-    let n = plan.triggers.len();
-    let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };
+    let hidden = hidden_rows(plan.triggers.len());
     let mut last: Option<f64> = None;
     for (i, trigger) in plan.triggers.iter().enumerate() {
         if i == hidden.start {

@@ -17,6 +17,8 @@ pub type Drawn = Result<(), Box<dyn Error>>;
 pub const SCALE: i32 = 8;
 /// The points along a curve, or along all shares of it.
 pub const POINTS: usize = 800;
+/// With more triggers than this, their marks would run into each other.
+pub const MOST_MARKS: usize = 50;
 
 /// An SVG of this size with what `draw` draws on it.
 pub fn picture(

@@ -6,7 +6,7 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::drawing::{Axis, Drawn, SCALE, axes, centred, dot, pen, picture};
+use super::drawing::{Axis, Drawn, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
 use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
 use crate::fit::Fit;
 use crate::unit::{Unit, decimals, short, trimmed};
@@ -18,8 +18,6 @@ const SIGNAL: i32 = 340;
 const MOST: usize = 3000;
 /// The points along the curve.
 const POINTS: usize = 1500;
-/// With more triggers than this, their marks would run into each other.
-const MOST_MARKS: usize = 50;
 
 /// The fit of the trace `name`, as an SVG.
 ///
