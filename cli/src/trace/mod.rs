@@ -1,11 +1,14 @@
-//! A measured trace: how its file is read, what is wrong with it, and where its pulses are.
+//! A measured trace: [`decode`] and [`read`] take a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
+//! Whatever is wrong with it on the way is a [`Refusal`] or a [`Warning`].
 
 mod pulse;
 mod read;
 mod samples;
 mod told;
 
-pub use pulse::{Frame, Light, Pulses, pulses};
+pub(crate) use pulse::QUARTERS;
+pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
 pub use read::{Column, Options, decode, read};
 pub use samples::Trace;
+pub(crate) use samples::sampling_interval;
 pub use told::{Refusal, Warning};

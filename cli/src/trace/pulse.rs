@@ -1,23 +1,34 @@
 //! Where the pulses of a trace are: its levels in the dark and in the light, its noise, its frames.
 
+use std::ops::Range;
+
 use super::samples::{LARGEST, Trace};
 use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
 const SPIKE: f64 = 6.0;
 /// The least contrast, in standard deviations of the (smoothed) noise.
-const CONTRAST: f64 = 8.0;
-/// The fewest samples of a trace, of a pulse, and in the dark on either side of it.
-const FEWEST: (usize, usize, usize) = (16, 8, 3);
+pub(super) const CONTRAST: f64 = 8.0;
+/// The fewest samples of a trace.
+const FEWEST: usize = 16;
+/// The fewest samples of a pulse.
+const FEWEST_LIT: usize = 8;
+/// The fewest samples in the dark on either side of a pulse.
+const FEWEST_DARK: usize = 3;
+/// The shares of the light at which a pulse's ramps are timed.
+pub const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
 /// The beginning and the end of a trace that differ by this share of the light are not both dark.
 const CUT: f64 = 0.3;
 /// Between these shares of the light the state stays what it was.
 const SWITCH: (f64, f64) = (0.4, 0.6);
+/// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
+const GLITCH: f64 = 0.2;
 
 /// Which way light moves the signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Light {
-    /// As the trace looks: it begins and ends in the dark.
+    /// It begins and ends in the dark.
     #[default]
     Auto,
     /// Light raises it.
@@ -26,13 +37,16 @@ pub enum Light {
     Down,
 }
 
+/// When a quarter, half and three quarters of the light are reached, and left again: six times in order.
+pub type Crossings = [f64; 6];
+
 /// The samples of one opening of the shutter, from the dark before to the dark after.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Which samples of the trace.
-    pub samples: std::ops::Range<usize>,
-    /// When a quarter, half and three quarters of the light are reached, and left again: six times in order.
-    pub crossings: [f64; 6],
+    pub samples: Range<usize>,
+    /// In seconds.
+    pub crossings: Crossings,
     /// The integral over the light's level above the dark, in seconds; as the samples have it.
     pub exposure: f64,
 }
@@ -59,6 +73,16 @@ impl Pulses {
     pub fn light(&self) -> f64 {
         self.levels.1
     }
+
+    /// The noise as a share of the light.
+    pub(crate) fn relative_noise(&self) -> f64 {
+        self.noise / self.light()
+    }
+
+    /// A value as it was measured from one with light upwards, or the other way round.
+    pub(crate) fn turned(&self, value: f64) -> f64 {
+        if self.inverted { -value } else { value }
+    }
 }
 
 /// Finds the pulses.
@@ -66,93 +90,62 @@ impl Pulses {
 /// # Errors
 /// No pulse, an incomplete one, too few samples.
 pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
-    if trace.times.len() < FEWEST.0 {
-        return Err(Refusal::TooFewSamples { samples: trace.times.len(), required: FEWEST.0 });
-    }
-    let is_sound = trace.times.len() == trace.values.len()
-        && trace.times.iter().chain(&trace.values).all(|x| x.abs() <= LARGEST)
-        && trace.times.windows(2).all(|pair| pair[0] < pair[1]);
-    if !is_sound {
-        return Err(Refusal::Unsound);
-    }
+    check(trace)?;
+    let mut trace = trace.clone();
     let mut warnings = Vec::new();
     let noise = noise(&trace.values);
-    let mut trace = trace.clone();
     let spikes = drop_spikes(&mut trace, noise);
     if let Some(first) = spikes.first() {
         warnings.push(Warning::Spikes { count: spikes.len(), first: *first });
     }
-    let (low, high) = range(&trace.values);
-    if high <= low {
-        return Err(Refusal::NoPulse { contrast: 0.0 });
-    }
-    // Noise of a twentieth of the light after smoothing switches no state.
-    let n = trace.times.len();
-    let window = (noise / (0.05 * (high - low))).powi(2).ceil() as usize;
-    let window = window.clamp(1, n / 50 + 1);
-    let smooth = smoothed(&trace.values, window);
-    let dark = dark(&smooth);
-    let (low, high) = range(&smooth);
-    let (first, last) = ends(&smooth);
-    // One end in the light: which one, nothing tells but that light mostly raises a signal.
-    let is_cut = (first - last).abs() > CUT * (high - low);
+
+    let mut smooth = Smooth::new(&trace.values, noise)?;
     let inverted = match light {
         Light::Up => false,
         Light::Down => true,
-        Light::Auto => !is_cut && dark - low > high - dark,
+        Light::Auto => smooth.seems_inverted(),
     };
-    let turned = |v: f64| if inverted { -v } else { v };
-    trace.values.iter_mut().for_each(|v| *v = turned(*v));
-    let smooth: Vec<f64> = smooth.into_iter().map(turned).collect();
-    let dark = turned(dark);
-    let height = range(&smooth).1 - dark;
-    let contrast = height / (noise / (window as f64).sqrt()).max(f64::MIN_POSITIVE);
+    if inverted {
+        trace.values.iter_mut().for_each(|v| *v = -*v);
+        smooth.turn();
+    }
+    let contrast = smooth.contrast();
     if contrast < CONTRAST {
         return Err(Refusal::NoPulse { contrast });
     }
-    let height = full(&smooth, dark, height) - dark;
-    check_ends(&smooth, dark, height)?;
+    let levels = (smooth.dark, smooth.light());
+    smooth.check_ends(levels.1)?;
 
-    let share: Vec<f64> = smooth.iter().map(|v| (v - dark) / height).collect();
+    let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
     let mut runs = runs(&share);
     if runs.is_empty() {
         return Err(Refusal::NoPulse { contrast });
     }
-    let area = |run: &std::ops::Range<usize>| run.clone().map(|i| share[i]).sum::<f64>();
-    let largest = runs.iter().map(area).fold(0.0, f64::max);
-    let before = runs.len();
-    runs.retain(|run| area(run) > 0.2 * largest);
-    if runs.len() < before {
-        warnings.push(Warning::Glitches { count: before - runs.len() });
+    let glitches = drop_glitches(&mut runs, &share);
+    if glitches > 0 {
+        warnings.push(Warning::Glitches { count: glitches });
     }
     let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0);
-    if longest < FEWEST.1 {
-        return Err(Refusal::ShortPulse { samples: longest, required: FEWEST.1 });
+    if longest < FEWEST_LIT {
+        return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT });
     }
-    let mut frames = Vec::new();
-    for (k, run) in runs.iter().enumerate() {
-        let from = if k > 0 { (runs[k - 1].end + run.start) / 2 } else { 0 };
-        let to = runs.get(k + 1).map_or(n, |next| (run.end + next.start) / 2);
-        if run.start - from < FEWEST.2 || to - run.end < FEWEST.2 {
-            if runs.len() == 1 {
-                return Err(if run.start - from < FEWEST.2 {
-                    Refusal::BeginsInPulse
-                } else {
-                    Refusal::EndsInPulse
-                });
-            }
-            warnings.push(Warning::PartialFrame { number: k + 1 });
-            continue;
-        }
-        frames.push(frame(&trace, &share, run, from..to, (dark, height)));
-    }
-    if frames.is_empty() {
-        return Err(Refusal::BeginsInPulse);
-    }
+    let frames = frames(&trace, &share, &runs, levels, &mut warnings)?;
     if inverted && light == Light::Auto {
         warnings.push(Warning::Inverted);
     }
-    Ok(Pulses { trace, inverted, levels: (dark, height), noise, frames, warnings })
+    Ok(Pulses { trace, inverted, levels, noise, frames, warnings })
+}
+
+/// What no arithmetic would survive.
+fn check(trace: &Trace) -> Result<(), Refusal> {
+    let Trace { times, values } = trace;
+    if times.len() < FEWEST {
+        return Err(Refusal::TooFewSamples { samples: times.len(), required: FEWEST });
+    }
+    let is_sound = times.len() == values.len()
+        && times.iter().chain(values).all(|x| x.abs() <= LARGEST)
+        && times.windows(2).all(|pair| pair[0] < pair[1]);
+    if is_sound { Ok(()) } else { Err(Refusal::Unsound) }
 }
 
 /// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
@@ -205,8 +198,80 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     told
 }
 
+/// A trace's values, smoothed so far that the noise switches no state.
+struct Smooth {
+    values: Vec<f64>,
+    /// What is left of the noise.
+    noise: f64,
+    /// The level at the beginning and the end, which are dark.
+    dark: f64,
+}
+
+impl Smooth {
+    fn new(values: &[f64], noise: f64) -> Result<Self, Refusal> {
+        let (low, high) = range(values);
+        if high <= low {
+            return Err(Refusal::NoPulse { contrast: 0.0 });
+        }
+        // A twentieth of the light is too little to switch.
+        let window = (noise / (0.05 * (high - low))).powi(2).ceil() as usize;
+        let window = window.clamp(1, values.len() / 50 + 1);
+        let values = means(values, window);
+        let (first, last) = ends(&values);
+        let dark = 0.5 * (first + last);
+        Ok(Self { values, noise: noise / (window as f64).sqrt(), dark })
+    }
+
+    /// Does the signal leave the dark downwards? If one end is in the light, nothing tells which one but that light mostly
+    /// raises a signal.
+    fn seems_inverted(&self) -> bool {
+        let (low, high) = range(&self.values);
+        let (first, last) = ends(&self.values);
+        let is_cut = (first - last).abs() > CUT * (high - low);
+        !is_cut && self.dark - low > high - self.dark
+    }
+
+    fn turn(&mut self) {
+        self.values.iter_mut().for_each(|v| *v = -*v);
+        self.dark = -self.dark;
+    }
+
+    /// The peak above the dark.
+    fn height(&self) -> f64 {
+        range(&self.values).1 - self.dark
+    }
+
+    /// The height in standard deviations of the noise.
+    fn contrast(&self) -> f64 {
+        self.height() / self.noise.max(f64::MIN_POSITIVE)
+    }
+
+    /// How much the light adds to the dark: up to the median of what is above half, or to the peak where that is far above.
+    fn light(&self) -> f64 {
+        let half = self.dark + 0.5 * self.height();
+        let above = |level: f64| self.values.iter().copied().filter(|v| *v > level).collect();
+        let middle = median(above(half));
+        let top: Vec<f64> = above(middle);
+        let full = if top.is_empty() { middle } else { median(top) };
+        full - self.dark
+    }
+
+    /// Are both ends in the dark?
+    fn check_ends(&self, light: f64) -> Result<(), Refusal> {
+        let (first, last) = ends(&self.values);
+        // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
+        if (first - last).abs() > CUT * light {
+            return Err(if first > last { Refusal::BeginsInPulse } else { Refusal::EndsInPulse });
+        }
+        if first > self.dark + SWITCH.0 * light {
+            return Err(Refusal::BeginsInPulse);
+        }
+        Ok(())
+    }
+}
+
 /// Means over `window` neighbours, fewer at the ends.
-fn smoothed(values: &[f64], window: usize) -> Vec<f64> {
+fn means(values: &[f64], window: usize) -> Vec<f64> {
     if window < 2 {
         return values.to_vec();
     }
@@ -224,12 +289,6 @@ fn smoothed(values: &[f64], window: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The level at the beginning and the end of a trace, which are dark.
-fn dark(smooth: &[f64]) -> f64 {
-    let (first, last) = ends(smooth);
-    0.5 * (first + last)
-}
-
 /// The medians of the first and the last samples.
 fn ends(values: &[f64]) -> (f64, f64) {
     let n = values.len();
@@ -237,28 +296,8 @@ fn ends(values: &[f64]) -> (f64, f64) {
     (median(values[..few].to_vec()), median(values[n - few..].to_vec()))
 }
 
-/// The level in the light: the median of what is above half, or the peak where that is far above.
-fn full(smooth: &[f64], dark: f64, height: f64) -> f64 {
-    let above: Vec<f64> = smooth.iter().copied().filter(|v| *v > dark + 0.5 * height).collect();
-    let middle = median(above);
-    let top = smooth.iter().copied().filter(|v| *v > middle).collect::<Vec<_>>();
-    if top.is_empty() { middle } else { median(top) }
-}
-
-fn check_ends(smooth: &[f64], dark: f64, height: f64) -> Result<(), Refusal> {
-    let (first, last) = ends(smooth);
-    // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
-    if (first - last).abs() > CUT * height {
-        return Err(if first > last { Refusal::BeginsInPulse } else { Refusal::EndsInPulse });
-    }
-    if first > dark + SWITCH.0 * height {
-        return Err(Refusal::BeginsInPulse);
-    }
-    Ok(())
-}
-
 /// Where the light is on, with a switch that has two thresholds.
-fn runs(share: &[f64]) -> Vec<std::ops::Range<usize>> {
+fn runs(share: &[f64]) -> Vec<Range<usize>> {
     let (mut runs, mut start) = (Vec::new(), None);
     for (i, share) in share.iter().enumerate() {
         match start {
@@ -274,20 +313,75 @@ fn runs(share: &[f64]) -> Vec<std::ops::Range<usize>> {
     runs
 }
 
+/// Drops the runs with too little light to be pulses, and tells how many.
+fn drop_glitches(runs: &mut Vec<Range<usize>>, share: &[f64]) -> usize {
+    let light = |run: &Range<usize>| share[run.clone()].iter().sum::<f64>();
+    let largest = runs.iter().map(light).fold(0.0, f64::max);
+    let before = runs.len();
+    runs.retain(|run| light(run) > GLITCH * largest);
+    before - runs.len()
+}
+
+/// The frames of the pulses, each up to halfway to the next; of several pulses, those that the trace cuts are left out.
+fn frames(
+    trace: &Trace,
+    share: &[f64],
+    runs: &[Range<usize>],
+    levels: (f64, f64),
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Frame>, Refusal> {
+    let mut frames = Vec::new();
+    for (k, run) in runs.iter().enumerate() {
+        let from = if k > 0 { (runs[k - 1].end + run.start) / 2 } else { 0 };
+        let to = runs.get(k + 1).map_or(share.len(), |next| (run.end + next.start) / 2);
+        let cut = if run.start - from < FEWEST_DARK {
+            Refusal::BeginsInPulse
+        } else if to - run.end < FEWEST_DARK {
+            Refusal::EndsInPulse
+        } else {
+            frames.push(frame(trace, share, run, from..to, levels));
+            continue;
+        };
+        if runs.len() == 1 {
+            return Err(cut);
+        }
+        warnings.push(Warning::PartialFrame { number: k + 1 });
+    }
+    if frames.is_empty() { Err(Refusal::BeginsInPulse) } else { Ok(frames) }
+}
+
+/// The frame of the pulse whose light is on in `run`, and which owns `samples`.
 fn frame(
     trace: &Trace,
     share: &[f64],
-    run: &std::ops::Range<usize>,
-    samples: std::ops::Range<usize>,
-    (dark, height): (f64, f64),
+    run: &Range<usize>,
+    samples: Range<usize>,
+    (dark, light): (f64, f64),
 ) -> Frame {
     let t = &trace.times;
-    // Seen from the inside: the first sample below, and the time in between.
+    let crossings = crossings(t, share, run, &samples);
+    // Half a pulse of dark on either side: more would only add noise.
+    let (from, to) = window(t, &samples, crossings, 0.5);
+    let exposure = (from..to)
+        .map(|i| {
+            let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
+            let after = t[(i + 1).min(samples.end - 1)] - t[i];
+            0.5 * (before + after) * (trace.values[i] - dark) / light
+        })
+        .sum();
+    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell.
+    let (from, to) = window(t, &samples, crossings, 2.0);
+    Frame { samples: from..to, crossings, exposure }
+}
+
+/// When the pulse reaches each quarter of the light and leaves it, seen from its inside.
+fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize>) -> Crossings {
+    // The first sample below, and the time in between.
     let rise = |level: f64| {
         let inside = run.clone().find(|i| share[*i] >= level).unwrap_or(run.start);
         match (samples.start..inside).rev().find(|i| share[*i] < level) {
-            Some(i) if i < inside => between(t, share, i, level),
-            _ => t[inside],
+            Some(i) => between(t, share, i, level),
+            None => t[inside],
         }
     };
     let fall = |level: f64| {
@@ -297,29 +391,19 @@ fn frame(
             None => t[inside],
         }
     };
-    let mut crossings = [rise(0.25), rise(0.5), rise(0.75), fall(0.75), fall(0.5), fall(0.25)];
-    for k in 1..6 {
+    let [a, b, c] = QUARTERS;
+    let mut crossings = [rise(a), rise(b), rise(c), fall(c), fall(b), fall(a)];
+    for k in 1..crossings.len() {
         crossings[k] = crossings[k].max(crossings[k - 1]);
     }
-    // Half a pulse of dark on either side: more would only add noise.
-    let (from, to) = window(t, &samples, crossings, 0.5);
-    let exposure = (from..to)
-        .map(|i| {
-            let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
-            let after = t[(i + 1).min(samples.end - 1)] - t[i];
-            0.5 * (before + after) * (trace.values[i] - dark) / height
-        })
-        .sum();
-    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell.
-    let (from, to) = window(t, &samples, crossings, 2.0);
-    Frame { samples: from..to, crossings, exposure }
+    crossings
 }
 
 /// The samples from so many pulses before a pulse to so many after it, some in any case.
 fn window(
     times: &[f64],
-    samples: &std::ops::Range<usize>,
-    crossings: [f64; 6],
+    samples: &Range<usize>,
+    crossings: Crossings,
     pulses: f64,
 ) -> (usize, usize) {
     let around = pulses * (crossings[5] - crossings[0]);

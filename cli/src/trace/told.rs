@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::pulse::CONTRAST;
+use super::samples::LARGEST;
 use crate::unit;
 
 /// Why a trace cannot be fitted.
@@ -97,8 +99,9 @@ impl fmt::Display for Refusal {
                 "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out: is this the file, \
                  and are --columns right?"
             ),
-            Self::Unsound => out.write_str(
-                "times and values have to be as many, finite numbers up to 1e30, and times in order",
+            Self::Unsound => write!(
+                out,
+                "times and values have to be as many, finite numbers up to {LARGEST:e}, and times in order"
             ),
             Self::TooFewSamples { samples, required } => write!(
                 out,
@@ -107,8 +110,8 @@ impl fmt::Display for Refusal {
             ),
             Self::NoPulse { contrast } => write!(
                 out,
-                "no pulse: the brightest part stands out by {contrast:.1} times the noise, and 8 are required; is this \
-                 the right channel (--columns), and was the light on?"
+                "no pulse: the brightest part stands out by {contrast:.1} times the noise, and {CONTRAST} are required; is \
+                 this the right channel (--columns), and was the light on?"
             ),
             Self::ShortPulse { samples, required } => write!(
                 out,
