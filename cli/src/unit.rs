@@ -4,18 +4,23 @@ use serde::{Deserialize, Serialize};
 
 /// A unit of time, by the name that it has in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Unit {
     /// `s`
     #[serde(rename = "s")]
+    #[cfg_attr(feature = "terminal", value(name = "s", help = None))]
     Second,
     /// `ms`
     #[serde(rename = "ms")]
+    #[cfg_attr(feature = "terminal", value(name = "ms", help = None))]
     Millisecond,
     /// `µs`, with the micro sign or the Greek letter, or `us`
     #[serde(rename = "µs", alias = "μs", alias = "us")]
+    #[cfg_attr(feature = "terminal", value(name = "us", aliases = ["µs", "μs"], help = None))]
     Microsecond,
     /// `ns`
     #[serde(rename = "ns")]
+    #[cfg_attr(feature = "terminal", value(name = "ns", help = None))]
     Nanosecond,
 }
 

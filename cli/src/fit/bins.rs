@@ -1,5 +1,7 @@
-//! A trace as means over intervals: each sample owns the time to its neighbours' midpoints, and where there are many of
-//! them, several share an interval.
+//! A frame's samples as means over intervals: each sample owns the time to its neighbours' midpoints, and where there are
+//! many of them, several share an interval, fewer on the ramps than elsewhere.
+
+use crate::trace::{Crossings, Trace};
 
 /// More samples than this share intervals.
 const MOST: usize = 800;
@@ -16,33 +18,51 @@ pub struct Bin {
     pub samples: f64,
 }
 
+impl Bin {
+    /// Does the next bin begin where this one ends, and not behind a gap?
+    fn touches(&self, next: &Self) -> bool {
+        next.from - self.to <= 1e-6 * (next.to - next.from)
+    }
+
+    /// Takes in the sample that comes next.
+    fn add(&mut self, sample: &Self) {
+        let n = self.samples;
+        self.mean = (self.mean * n + sample.mean) / (n + 1.0);
+        self.samples += 1.0;
+        self.to = sample.to;
+    }
+}
+
 /// Each sample alone.
-pub fn each(times: &[f64], values: &[f64]) -> Vec<Bin> {
+pub fn each(samples: &Trace) -> Vec<Bin> {
+    let Trace { times, values } = samples;
     let n = times.len();
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = (n - 1) / 2;
-    let step = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    // Across a gap no sample owns more than a step: nothing is known of the rest.
-    let reach = |gap: f64| 0.5 * if gap > 1.5 * step { step } else { gap };
+    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // Across a gap no sample owns more than the usual step: nothing is known of the rest.
+    let reach = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
     (0..n)
         .map(|i| {
-            let before = if i > 0 { times[i] - times[i - 1] } else { step };
-            let after = if i + 1 < n { times[i + 1] - times[i] } else { step };
+            let before = if i > 0 { times[i] - times[i - 1] } else { usual };
+            let after = if i + 1 < n { times[i + 1] - times[i] } else { usual };
             let (from, to) = (times[i] - reach(before), times[i] + reach(after));
             Bin { from, to, mean: values[i], samples: 1.0 }
         })
         .collect()
 }
 
-/// Neighbours together, so that [`MOST`] or somewhat more are left: most of them on the `ramps`.
-pub fn shared(each: &[Bin], ramps: [(f64, f64); 2]) -> Vec<Bin> {
+/// Neighbours together, so that [`MOST`] or somewhat more are left: most of them on the ramps.
+pub fn shared(each: &[Bin], crossings: &Crossings, step: f64) -> Vec<Bin> {
     if each.len() <= MOST {
         return each.to_vec();
     }
+    let [opening, closing] = ramps(crossings, step);
     let inside = |bin: &Bin, (from, to): (f64, f64)| bin.to > from && bin.from < to;
-    let place = |bin: &Bin| match ramps.map(|ramp| inside(bin, ramp)) {
-        [true, _] => 0,
-        [_, true] => 1,
+    // On the opening ramp, on the closing one, elsewhere.
+    let place = |bin: &Bin| match (inside(bin, opening), inside(bin, closing)) {
+        (true, _) => 0,
+        (_, true) => 1,
         _ => 2,
     };
     let mut count = [0usize; 3];
@@ -51,23 +71,23 @@ pub fn shared(each: &[Bin], ramps: [(f64, f64); 2]) -> Vec<Bin> {
     let together = [0, 1, 2].map(|k| count[k].div_ceil(most[k]).max(1));
     let mut bins: Vec<Bin> = Vec::new();
     let mut last = None;
-    for bin in each {
-        let here = place(bin);
+    for sample in each {
+        let here = place(sample);
+        let has_room = |bin: &Bin| (bin.samples as usize) < together[here] && bin.touches(sample);
         match bins.last_mut() {
-            // Never across a gap.
-            Some(open)
-                if last == Some(here)
-                    && (open.samples as usize) < together[here]
-                    && bin.from - open.to <= 1e-6 * (bin.to - bin.from) =>
-            {
-                let n = open.samples;
-                open.mean = (open.mean * n + bin.mean) / (n + 1.0);
-                open.samples += 1.0;
-                open.to = bin.to;
-            }
-            _ => bins.push(*bin),
+            Some(bin) if last == Some(here) && has_room(bin) => bin.add(sample),
+            _ => bins.push(*sample),
         }
         last = Some(here);
     }
     bins
+}
+
+/// Where intervals are to be short: from a ramp's first quarter to its third and as much again on both sides, and the far
+/// tail that a slow end may have.
+fn ramps(crossings: &Crossings, step: f64) -> [(f64, f64); 2] {
+    let [up25, _, up75, down75, _, down25] = *crossings;
+    let wide = |a: f64, b: f64| 1.5 * (b - a) + 10.0 * step;
+    let (up, down) = (wide(up25, up75), wide(down75, down25));
+    [(up25 - up, up75 + up), (down75 - down, down25 + down)]
 }

@@ -5,6 +5,11 @@ use super::ramp::{At, Controls, STRAIGHT, UnitRamp};
 
 /// The parameters of the freest curve; every simpler one holds some of them fixed or together.
 pub const PARAMETERS: usize = 12;
+/// The places of the times among them, each a [`Curve`]'s field.
+pub const START: usize = 0;
+pub const OPENING: usize = 1;
+pub const PLATEAU: usize = 2;
+pub const CLOSING: usize = 3;
 /// Where the control numbers begin among them; the closing ramp's begin four later.
 pub const CONTROLS: usize = 4;
 
@@ -58,29 +63,17 @@ impl Curve {
     }
 
     pub(super) fn parameters(&self) -> [f64; PARAMETERS] {
-        let [o, c] = self.controls;
-        [
-            self.start,
-            self.opening,
-            self.plateau,
-            self.closing,
-            o[0],
-            o[1],
-            o[2],
-            o[3],
-            c[0],
-            c[1],
-            c[2],
-            c[3],
-        ]
+        let times = [self.start, self.opening, self.plateau, self.closing];
+        let controls = self.controls.as_flattened();
+        std::array::from_fn(|k| if k < CONTROLS { times[k] } else { controls[k - CONTROLS] })
     }
 
     pub(super) fn from_parameters(p: &[f64; PARAMETERS]) -> Self {
         Self {
-            start: p[0],
-            opening: p[1],
-            plateau: p[2],
-            closing: p[3],
+            start: p[START],
+            opening: p[OPENING],
+            plateau: p[PLATEAU],
+            closing: p[CLOSING],
             controls: [[p[4], p[5], p[6], p[7]], [p[8], p[9], p[10], p[11]]],
         }
     }
@@ -184,8 +177,8 @@ impl Exposure {
         if t < open_end {
             let z = (t - start) / opening;
             let at = self.ramps[0].at(z);
-            moves[0] = -at.openness;
-            moves[1] = at.area - z * at.openness;
+            moves[START] = -at.openness;
+            moves[OPENING] = at.area - z * at.openness;
             for k in 0..4 {
                 moves[CONTROLS + k] = opening * at.moves[k];
             }
@@ -195,17 +188,17 @@ impl Exposure {
             moves[CONTROLS + k] = opening * opened.moves[k];
         }
         if t <= close_start {
-            moves[0] = -1.0;
-            moves[1] = opened.area - 1.0;
+            moves[START] = -1.0;
+            moves[OPENING] = opened.area - 1.0;
             return Collected { amount: opening * opened.area + (t - open_end), moves };
         }
         // Counted back from the end; at the end and after it, `z` is 0.
         let z = if t < end { (end - t) / closing } else { 0.0 };
         let at = self.ramps[1].at(z);
-        moves[0] = -at.openness;
-        moves[1] = opened.area - at.openness;
-        moves[2] = 1.0 - at.openness;
-        moves[3] = closed.area - at.area - at.openness * (1.0 - z);
+        moves[START] = -at.openness;
+        moves[OPENING] = opened.area - at.openness;
+        moves[PLATEAU] = 1.0 - at.openness;
+        moves[CLOSING] = closed.area - at.area - at.openness * (1.0 - z);
         for k in 0..4 {
             moves[CONTROLS + 4 + k] = closing * (closed.moves[k] - at.moves[k]);
         }
@@ -238,6 +231,11 @@ impl Exposure {
         let f = self.openness(t).max(1e-6);
         (t, std::array::from_fn(|k| (u * whole[k] - here[k]) / f))
     }
+}
+
+/// The fractions of the exposure at which `n` triggers come.
+pub fn fractions(n: u32) -> impl Iterator<Item = f64> {
+    (0..n).map(move |i| (f64::from(i) + 0.5) / f64::from(n))
 }
 
 #[cfg(test)]
@@ -277,7 +275,7 @@ mod tests {
                 let share = exposure.collected(t).amount / exposure.area();
                 assert!((share - u).abs() < 1e-9, "{curve:?} {u}: {share}");
                 // A box has no ramps that could change; a length of 0 moves one way only.
-                let skip = |k: usize| curve.opening == 0.0 && k != 0 && k != 2;
+                let skip = |k: usize| curve.opening == 0.0 && k != START && k != PLATEAU;
                 for k in (0..PARAMETERS).filter(|k| !skip(*k)) {
                     let moved = |by: f64| {
                         let mut p = curve.parameters();

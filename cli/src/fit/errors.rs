@@ -1,9 +1,12 @@
-//! What the noise makes of the results: standard errors from the normal equations.
+//! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot, a
+//! low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
-use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS, Whole};
-use super::frame::{FrameFit, Missed, fractions};
+use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
+use super::frame::FrameFit;
+use super::missed::{Missed, least_open};
 use super::signal::Kind;
 use super::solve::Cholesky;
+use super::units::Units;
 
 /// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
 /// of its end beside the noise's, and this openness for so long that of its light.
@@ -20,8 +23,149 @@ pub struct Measured {
     pub error: f64,
 }
 
+impl Measured {
+    fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, error: self.error * factor }
+    }
+}
+
+/// What a curve is good for.
+pub struct Results {
+    pub exposure: Measured,
+    pub efficiency: Measured,
+    pub triggers: Vec<Measured>,
+}
+
+impl Results {
+    /// The same in seconds, and of full light where the pulse's peak is this share of it.
+    pub fn outside(self, units: &Units, peak: f64) -> Self {
+        let seconds = |m: Measured| Measured {
+            value: units.seconds(m.value),
+            error: units.pulse() * m.error,
+        };
+        Self {
+            exposure: self.exposure.times(units.pulse() * peak),
+            efficiency: self.efficiency.times(peak),
+            triggers: self.triggers.into_iter().map(seconds).collect(),
+        }
+    }
+}
+
+/// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
+///
+/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
+/// Akaike weight, with its own variance and how far it lies from this one.
+pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
+    let mut chosen = OfKind::new(fit, kind).results(n);
+    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
+    let least = freer().map(|k| fit.aic(k)).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fit.aic(k))).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    let all: Vec<(f64, Results)> = freer()
+        .zip(weights)
+        .filter(|(_, weight)| *weight > 1e-3 * sum)
+        .map(|(k, weight)| (weight / sum, OfKind::new(fit, k).results(n)))
+        .collect();
+    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
+        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
+        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
+    };
+    widen(&mut chosen.exposure, &|results| results.exposure);
+    widen(&mut chosen.efficiency, &|results| results.efficiency);
+    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
+        widen(trigger, &|results| results.triggers[i]);
+    }
+    chosen
+}
+
+/// One kind's curve with all that its errors come from.
+struct OfKind<'a> {
+    fit: &'a FrameFit,
+    kind: Kind,
+    curve: Curve,
+    exposure: Exposure,
+    covariance: Covariance,
+    is_straight: bool,
+    /// Noise hides how high a peak is, and so what full light is.
+    is_peak: bool,
+    /// For how long nobody knows the shape of each ramp's foot.
+    feet: [f64; 2],
+}
+
+impl<'a> OfKind<'a> {
+    fn new(fit: &'a FrameFit, kind: Kind) -> Self {
+        let exposure = fit.exposure(kind);
+        let curve = exposure.curve;
+        let is_straight = kind <= Kind::Trapezoid;
+        Self {
+            fit,
+            kind,
+            curve,
+            exposure,
+            covariance: Covariance::new(fit, kind),
+            is_straight,
+            is_peak: curve.plateau < PEAK * curve.length(),
+            feet: if is_straight { [0.0; 2] } else { exposure.feet(FOOT) },
+        }
+    }
+
+    fn results(&self, n: u32) -> Results {
+        let exposure = self.exposure();
+        let efficiency = self.efficiency(exposure);
+        Results { exposure, efficiency, triggers: self.triggers(n) }
+    }
+
+    /// The light that each foot may hold or not.
+    fn unseen(&self) -> [f64; 2] {
+        self.feet.map(|time| FOOT * time)
+    }
+
+    fn exposure(&self) -> Measured {
+        let linear = self.covariance.error(&self.exposure.whole().moves);
+        let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
+        let error = self.unseen().into_iter().fold(noise, f64::hypot);
+        Measured { value: self.exposure.area(), error }
+    }
+
+    /// The exposure by the length.
+    fn efficiency(&self, Measured { value: area, error: light }: Measured) -> Measured {
+        let length = self.curve.length();
+        let value = area / length;
+        if self.is_straight && !self.is_peak {
+            let whole = self.exposure.whole().moves;
+            let moves = std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / length);
+            return Measured { value, error: self.covariance.error(&moves) };
+        }
+        let linear = self.covariance.error(&Curve::LENGTH);
+        let noise = if self.is_straight { linear } else { self.searched(Whole::Length, linear) };
+        let ends = self.feet.into_iter().fold(noise, f64::hypot);
+        Measured { value, error: (light / length).hypot(value * ends / length) }
+    }
+
+    fn triggers(&self, n: u32) -> Vec<Measured> {
+        let by_noise = |u: f64| {
+            let (value, moves) = self.exposure.trigger(u);
+            Measured { value, error: self.covariance.error(&moves) }
+        };
+        let mut triggers: Vec<Measured> = fractions(n).map(by_noise).collect();
+        let by_shape = misfit(self.fit, self.kind, &triggers);
+        let [first, last] = self.unseen();
+        for (u, trigger) in fractions(n).zip(&mut triggers) {
+            // More light in the first foot makes a trigger earlier, more in the last one makes it later.
+            let light = ((1.0 - u) * first).hypot(u * last);
+            let by_feet = light / least_open(&self.exposure, trigger.value);
+            trigger.error = trigger.error.hypot(by_shape).hypot(by_feet);
+        }
+        triggers
+    }
+
+    fn searched(&self, whole: Whole, linear: f64) -> f64 {
+        searched_error(self.fit, self.kind, whole, linear, self.covariance.variance)
+    }
+}
+
 /// How the parameters of a fitted curve vary together.
-pub struct Covariance {
+struct Covariance {
     kind: Kind,
     /// Of the parameters that are on no bound.
     moving: Vec<usize>,
@@ -33,8 +177,8 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
-        let fitted = &fit.kinds[kind as usize];
+    fn new(fit: &FrameFit, kind: Kind) -> Self {
+        let fitted = fit.of(kind);
         let solution = &fitted.solution;
         let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
         // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
@@ -59,7 +203,7 @@ impl Covariance {
     }
 
     /// The standard error of what moves so with a curve's parameters.
-    pub fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
+    fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
         let mut gathered = vec![0.0; self.kind.parameters()];
         self.kind.gather(moves, &mut gathered);
         let row: Vec<f64> =
@@ -67,87 +211,9 @@ impl Covariance {
         let Some(factor) = &self.factor else { return f64::INFINITY };
         let noise: f64 = factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
         // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
-        let (opening, closing) = (moves[0] - moves[2], moves[2]);
+        let (opening, closing) = (moves[START] - moves[PLATEAU], moves[PLATEAU]);
         let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];
         (noise * self.variance + edges).sqrt()
-    }
-}
-
-/// What a curve is good for, in the frame's unit of time.
-pub struct Results {
-    pub exposure: Measured,
-    pub efficiency: Measured,
-    pub triggers: Vec<Measured>,
-}
-
-/// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
-///
-/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
-/// Akaike weight, with its own variance and how far it lies from this one.
-pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
-    let mut chosen = of_kind(fit, kind, n);
-    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
-    let least = freer().map(|k| fit.aic(k)).fold(f64::INFINITY, f64::min);
-    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fit.aic(k))).exp()).collect();
-    let sum: f64 = weights.iter().sum();
-    let all: Vec<(f64, Results)> = freer()
-        .zip(weights)
-        .filter(|(_, weight)| *weight > 1e-3 * sum)
-        .map(|(k, weight)| (weight / sum, of_kind(fit, k, n)))
-        .collect();
-    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
-        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
-        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
-    };
-    widen(&mut chosen.exposure, &|results| results.exposure);
-    widen(&mut chosen.efficiency, &|results| results.efficiency);
-    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
-        widen(trigger, &|results| results.triggers[i]);
-    }
-    chosen
-}
-
-fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
-    let covariance = Covariance::new(fit, kind);
-    let curve = fit.kinds[kind as usize].solution.signal.curve;
-    let exposure = Exposure::new(&curve);
-    let whole = exposure.whole().moves;
-    let (area, length) = (exposure.area(), curve.length());
-    let linear = |moves: &[f64; PARAMETERS]| covariance.error(moves);
-    let searched = |of: Whole, linear| searched_error(fit, kind, of, linear, covariance.variance);
-    // Noise hides how high a peak is, and so what full light is: without much of a plateau, that is not linear.
-    let is_peak = curve.plateau < PEAK * length;
-    let noise = if is_peak { searched(Whole::Area, linear(&whole)) } else { linear(&whole) };
-    let is_straight = kind <= Kind::Trapezoid;
-    let feet = if is_straight { [0.0; 2] } else { exposure.feet(FOOT) };
-    let unseen = feet.map(|time| FOOT * time);
-    let light = unseen.into_iter().fold(noise, f64::hypot);
-    let ratio = std::array::from_fn(|k| (whole[k] - area / length * Curve::LENGTH[k]) / length);
-    let share = if is_straight && !is_peak {
-        linear(&ratio)
-    } else {
-        let noise = linear(&Curve::LENGTH);
-        let noise = if is_straight { noise } else { searched(Whole::Length, noise) };
-        let ends = feet.into_iter().fold(noise, f64::hypot);
-        (light / length).hypot(area / length * ends / length)
-    };
-    let mut triggers: Vec<Measured> = fractions(n)
-        .map(|u| {
-            let (value, moves) = exposure.trigger(u);
-            Measured { value, error: linear(&moves) }
-        })
-        .collect();
-    let beside = misfit(fit, kind, &triggers);
-    for (u, trigger) in fractions(n).zip(&mut triggers) {
-        // More light in the first foot makes a trigger earlier, more in the last one makes it later.
-        let [before, after] = [(1.0 - u) * unseen[0], u * unseen[1]];
-        let foot = before.hypot(after) / exposure.openness(trigger.value).max(1e-3);
-        trigger.error = trigger.error.hypot(beside).hypot(foot);
-    }
-    Results {
-        exposure: Measured { value: area, error: light },
-        efficiency: Measured { value: area / length, error: share },
-        triggers,
     }
 }
 
@@ -157,7 +223,7 @@ fn of_kind(fit: &FrameFit, kind: Kind, n: u32) -> Results {
 /// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
 fn searched_error(fit: &FrameFit, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
     const SIDE: f64 = 1.96;
-    let value = whole.of(&fit.kinds[kind as usize].solution.signal.curve).0;
+    let value = whole.of(&fit.of(kind).solution.signal.curve).0;
     let (least, most) = (1e-4 * value, 0.5 * value);
     let side = |way: f64| {
         let mut by = if linear.is_finite() {
@@ -184,9 +250,9 @@ fn searched_error(fit: &FrameFit, kind: Kind, whole: Whole, linear: f64, varianc
 /// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
 /// by a random walk whose ends are tied.
 fn misfit(fit: &FrameFit, kind: Kind, triggers: &[Measured]) -> f64 {
-    let fitted = &fit.kinds[kind as usize];
+    let fitted = fit.of(kind);
     let [start, _, _, end] = fitted.solution.signal.curve.times();
-    let variance = fitted.squares / fit.samples.len() as f64 * fit.correlation * fit.step;
+    let variance = fitted.variance() * fit.correlation * fit.step;
     let missed = Missed::new(fit, kind);
     let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
         let t = trigger.value;

@@ -9,7 +9,7 @@ const FEWEST: f64 = 1.5;
 const MOST: usize = 600;
 
 /// The sine that explains most of what the signal misses, or none where the trace is too short for any.
-pub fn strongest(bins: &[Bin], signal: Signal) -> Option<Hum> {
+pub fn strongest(bins: &[Bin], signal: &Signal) -> Option<Hum> {
     let mut moves = vec![0.0; signal.len()];
     let mut means = signal.means();
     let missed: Vec<(f64, f64, f64)> = bins

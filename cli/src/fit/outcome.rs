@@ -3,7 +3,7 @@
 use super::curve::Exposure;
 use super::errors::Measured;
 use super::signal::{Kind, Signal};
-use crate::trace::{Light, Trace, Warning};
+use crate::trace::{Frame, Light, Pulses, Refusal, Trace, Warning};
 use crate::unit::Unit;
 
 /// A difference in trigger times that is small enough.
@@ -28,8 +28,13 @@ pub struct Options {
     pub frame: Option<usize>,
     /// Which way light moves the signal.
     pub light: Light,
-    /// How many triggers are judged and planned: 1 to 10 000, clamped to that.
+    /// How many triggers are judged and planned: 1 to [`crate::plan::MOST_TRIGGERS`], clamped to that.
     pub triggers: u32,
+}
+
+impl Options {
+    /// So many triggers, if no one asks for another number.
+    pub const TRIGGERS: u32 = 16;
 }
 
 impl Default for Options {
@@ -40,7 +45,7 @@ impl Default for Options {
             full: None,
             frame: None,
             light: Light::Auto,
-            triggers: 16,
+            triggers: Self::TRIGGERS,
         }
     }
 }
@@ -92,6 +97,28 @@ pub struct Frames {
     pub scatter: f64,
 }
 
+impl Frames {
+    pub(super) fn new(frames: &[Frame], fitted: usize) -> Self {
+        let n = frames.len() as f64;
+        let mean = frames.iter().map(|frame| frame.exposure).sum::<f64>() / n;
+        let squares: f64 = frames.iter().map(|frame| (frame.exposure / mean - 1.0).powi(2)).sum();
+        let scatter = if frames.len() > 1 { (squares / (n - 1.0)).sqrt() } else { 0.0 };
+        Self { count: frames.len(), fitted: fitted + 1, scatter }
+    }
+}
+
+/// The peak of a signal as a share of full light, where the signal of full light is given; else 1.
+pub(super) fn peak(full: Option<f64>, pulses: &Pulses, best: &Candidate) -> Result<f64, Refusal> {
+    let Some(given) = full else { return Ok(1.0) };
+    let Signal { dark, gain, .. } = best.signal;
+    let peak = gain / (pulses.turned(given) - dark);
+    // The noise may have put the peak a little above.
+    if !(peak > 0.0 && peak <= 1.0 + best.rms) {
+        return Err(Refusal::FullTooLow { given, seen: pulses.turned(dark + gain) });
+    }
+    Ok(peak.min(1.0))
+}
+
 /// What came out.
 pub struct Fit {
     /// Every kind, simplest first.
@@ -130,11 +157,13 @@ impl Fit {
     pub fn value(&self, t: f64) -> f64 {
         let Signal { curve, dark, gain, drift, hum, .. } = self.best().signal;
         let since = t - self.middle;
-        let hum = hum.map_or(0.0, |hum| {
-            let (sine, cosine) = (std::f64::consts::TAU * hum.frequency * since).sin_cos();
-            hum.cosine * cosine + hum.sine * sine
-        });
+        let hum = hum.map_or(0.0, |hum| hum.at(since));
         dark + gain * Exposure::new(&curve).openness(t) + drift.unwrap_or(0.0) * since + hum
+    }
+
+    /// A value with light upwards as it was measured.
+    pub fn as_measured(&self, value: f64) -> f64 {
+        if self.inverted { -value } else { value }
     }
 
     /// The unit that its times are told in.

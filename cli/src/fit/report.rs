@@ -2,11 +2,16 @@
 
 use std::fmt::{self, Write};
 
+use super::curve::fractions;
+use super::errors::Measured;
 use super::outcome::{Fit, Reason, Tolerance};
-use crate::unit::{count, decimals, short, trimmed};
+use super::signal::Kind;
+use crate::rows::hidden_rows;
+use crate::trace::sampling_interval;
+use crate::unit::{Unit, count, decimals, short, trimmed};
 
-/// Longer tables lose their middle; half as many rows stay at each end.
-const MOST_ROWS: usize = 25;
+/// No number has more decimals, however small its error is.
+const MOST_PLACES: usize = 12;
 
 /// The fit of the trace `name`, for a terminal.
 pub fn text(name: &str, fit: &Fit) -> String {
@@ -16,28 +21,36 @@ pub fn text(name: &str, fit: &Fit) -> String {
 }
 
 fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
-    let (unit, best) = (fit.unit(), fit.best());
-    let curve = &best.signal.curve;
-    let times = &fit.samples.times;
-    let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    write_trace(out, name, fit)?;
+    writeln!(out)?;
+    write_models(out, fit)?;
+    writeln!(out)?;
+    write_results(out, fit)?;
+    writeln!(out)?;
+    write_triggers(out, fit)
+}
+
+/// What was measured.
+fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
+    let (times, signal) = (&fit.samples.times, &fit.best().signal);
+    let step = sampling_interval(times);
     writeln!(out, "trace        {name}")?;
     write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
     if fit.frames.count > 1 {
         write!(out, "; the exposures scatter by {} %", short(100.0 * fit.frames.scatter, 2))?;
     }
-    writeln!(out, "\nsamples      {}, {} apart", times.len(), unit_of(step))?;
+    writeln!(out, "\nsamples      {}, {} apart", times.len(), Unit::fit(step).show(step))?;
+    let (gain, dark) = (short(signal.gain, 4), short(fit.as_measured(signal.dark), 4));
     let way = if fit.inverted { "below" } else { "above" };
-    let dark = if fit.inverted { -best.signal.dark } else { best.signal.dark };
-    writeln!(
-        out,
-        "light        {} {way} the dark at {}",
-        short(best.signal.gain, 4),
-        short(dark, 4)
-    )?;
+    writeln!(out, "light        {gain} {way} the dark at {dark}")
+}
 
+/// Each candidate, which was chosen, and why.
+fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
+    let unit = fit.unit();
     writeln!(
         out,
-        "\n  model                     opens      open    closes   rms %    ΔBIC    shift"
+        "  model                     opens      open    closes   rms %    ΔBIC    shift"
     )?;
     for candidate in &fit.candidates {
         let kind = candidate.signal.kind;
@@ -58,49 +71,45 @@ fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     let name = unit.name();
     writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
     writeln!(out, "chosen       {}", fit.chosen.title())?;
-    writeln!(out, "because      {}", because(fit))?;
+    writeln!(out, "because      {}", because(fit))
+}
 
-    let known = |m: super::Measured| plus_minus(unit.of(m.value), unit.of(m.error), name);
-    writeln!(
-        out,
-        "\nopens        from {} to {} {name}",
-        at(fit, curve.start),
-        at(fit, curve.open_end())
-    )?;
-    writeln!(
-        out,
-        "closes       from {} to {} {name}",
-        at(fit, curve.close_start()),
-        at(fit, curve.end())
-    )?;
-    if fit.chosen.parameters() > 4 {
+/// The chosen curve, and what it is good for.
+fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
+    let unit = fit.unit().name();
+    let curve = &fit.best().signal.curve;
+    let [start, open_end, close_start, end] = curve.times().map(|time| at(fit, time));
+    writeln!(out, "opens        from {start} to {open_end} {unit}")?;
+    writeln!(out, "closes       from {close_start} to {end} {unit}")?;
+    if fit.chosen > Kind::Trapezoid {
         let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
         writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;
         writeln!(out, "             (the closing ramp seen backwards; fractions of each ramp)")?;
     }
-    writeln!(out, "exposure     {}", known(fit.exposure))?;
-    let efficiency = plus_minus(100.0 * fit.efficiency.value, 100.0 * fit.efficiency.error, "%");
-    writeln!(out, "efficiency   {efficiency}")?;
+    writeln!(out, "exposure     {}", exposure(fit))?;
+    writeln!(out, "efficiency   {}", efficiency(fit))?;
     if fit.peak < 1.0 {
         writeln!(out, "peak         {} % of full light", short(100.0 * fit.peak, 4))?;
     }
-    writeln!(out, "             (standard errors behind ±)")?;
+    writeln!(out, "             (standard errors behind ±)")
+}
 
-    let (time, error) = (format!("time ({name})"), format!("error ({name})"));
-    writeln!(out, "\n    #        u  {time:>15}  {error:>12}")?;
-    let n = fit.triggers.len();
+fn write_triggers(out: &mut String, fit: &Fit) -> fmt::Result {
+    let unit = fit.unit();
+    let (time, error) = (format!("time ({})", unit.name()), format!("error ({})", unit.name()));
+    writeln!(out, "    #        u  {time:>15}  {error:>12}")?;
     let least = fit.triggers.iter().map(|trigger| unit.of(trigger.error));
     // Two digits of the least error, and as many decimals for all: a column that the eye can run down.
-    let places = decimals(least.fold(f64::INFINITY, f64::min), 2).min(12);
-    let hidden = if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n };
-    for (i, trigger) in fit.triggers.iter().enumerate() {
+    let places = decimals(least.fold(f64::INFINITY, f64::min), 2).min(MOST_PLACES);
+    let hidden = hidden_rows(fit.triggers.len());
+    let all = fractions(fit.triggers.len() as u32).zip(&fit.triggers);
+    for (i, (u, trigger)) in all.enumerate() {
         if i == hidden.start {
             writeln!(out, "  ...  {} more", hidden.len())?;
         }
         if hidden.contains(&i) {
             continue;
         }
-        let u = (i as f64 + 0.5) / n as f64;
         let (time, error) = (at(fit, trigger.value), unit.of(trigger.error));
         writeln!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12.places$}")?;
     }
@@ -114,8 +123,16 @@ fn at(fit: &Fit, seconds: f64) -> String {
     format!("{:.places$}", unit.of(seconds))
 }
 
-fn unit_of(seconds: f64) -> String {
-    crate::unit::Unit::fit(seconds).show(seconds)
+/// The exposure and its standard error.
+pub fn exposure(fit: &Fit) -> String {
+    let Measured { value, error } = fit.exposure;
+    plus_minus(fit.unit().of(value), fit.unit().of(error), fit.unit().name())
+}
+
+/// The efficiency and its standard error.
+pub fn efficiency(fit: &Fit) -> String {
+    let Measured { value, error } = fit.efficiency;
+    plus_minus(100.0 * value, 100.0 * error, "%")
 }
 
 /// Why the model was chosen.
@@ -145,6 +162,6 @@ pub fn because(fit: &Fit) -> String {
 pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
     let places =
         if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
-    let places = places.min(12);
+    let places = places.min(MOST_PLACES);
     format!("{value:.places$} ± {error:.places$} {unit}")
 }

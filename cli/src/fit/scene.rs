@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::outcome::Fit;
 use super::ramp::STRAIGHT;
-use super::report::{because, plus_minus};
+use super::report::{because, efficiency, exposure};
 use super::signal::Kind;
 use crate::plan::Plan;
 use crate::trace::Refusal;
@@ -11,8 +11,9 @@ use crate::unit::{Unit, decimals, trimmed};
 
 /// Where a scene's time 0 is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Zero {
-    /// Where the trace has it.
+    /// As in the trace.
     #[default]
     Trace,
     /// Where the shutter starts to open.
@@ -67,8 +68,8 @@ impl Fit {
         let mut text = format!("# Fitted to {name}: {}, {}.\n", self.chosen.title(), because(self));
         text += &format!(
             "# Exposure {}, efficiency {}, standard errors behind ±.\n",
-            plus_minus(unit.of(self.exposure.value), unit.of(self.exposure.error), unit.name()),
-            plus_minus(100.0 * self.efficiency.value, 100.0 * self.efficiency.error, "%"),
+            exposure(self),
+            efficiency(self),
         );
         for warning in &self.warnings {
             text += &format!("# Warning: {warning}.\n");

@@ -1,24 +1,28 @@
-//! Several shots in a trace: how well a kind that is fitted to one meets the others, which it has not seen.
+//! Several shots in a trace: which of them are fitted, and how well a kind that is fitted to one meets the others, which it
+//! has not seen.
 
+use super::curve::fractions;
 use super::frame::FrameFit;
+use super::missed::Missed;
 use super::signal::Kind;
-use crate::trace::Frame;
+use crate::trace::{Frame, Refusal};
 
 /// Fewer shots tell too little of their scatter.
-pub const FEWEST: usize = 3;
-/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter.
-pub const WITHIN: f64 = 1.1;
+const FEWEST: usize = 3;
 /// The most shots that are fitted.
 const MOST: usize = 7;
 
-/// The kinds' errors on shots left out.
-pub struct Shots {
-    /// So many shots.
-    pub count: usize,
-    /// By how much the trigger times of two shots differ, as a share of the exposure.
-    pub scatter: f64,
-    /// By how much a kind's trigger times differ from those of other shots.
-    pub errors: [f64; 4],
+/// The place of the frame that is asked for by its number, from 1; without one, of the frame of median exposure.
+pub fn asked(frames: &[Frame], number: Option<usize>) -> Result<usize, Refusal> {
+    match number {
+        Some(number) if (1..=frames.len()).contains(&number) => Ok(number - 1),
+        Some(number) => Err(Refusal::NoFrame { number, frames: frames.len() }),
+        None => {
+            let mut order: Vec<usize> = (0..frames.len()).collect();
+            order.sort_by(|a, b| frames[*a].exposure.total_cmp(&frames[*b].exposure));
+            Ok(order[(order.len() - 1) / 2])
+        }
+    }
 }
 
 /// Which frames to fit beside `fitted`: those whose exposures are nearest to its.
@@ -33,34 +37,55 @@ pub fn others(frames: &[Frame], fitted: usize) -> Vec<usize> {
     order
 }
 
+/// How shots differ from each other, and each kind from shots left out, as shares of the exposure.
+pub struct Shots {
+    /// So many shots.
+    pub count: usize,
+    /// By how much the trigger times of two shots differ.
+    pub scatter: f64,
+    /// By how much a kind's trigger times differ from those of other shots.
+    pub errors: [f64; Kind::ALL.len()],
+}
+
 impl Shots {
-    pub fn new(fits: &[FrameFit], n: u32) -> Self {
-        let exposure = fits[0].area(Kind::Free) * fits[0].units.pulse();
+    /// The shots by their fits, if these are enough; the first one's exposure counts.
+    pub fn new(fits: &[FrameFit], n: u32) -> Option<Self> {
+        if fits.len() < FEWEST {
+            return None;
+        }
+        let exposure = fits[0].exposure(Kind::Free).area() * fits[0].units.pulse();
         // Counted from their mean: when a shot starts says nothing.
         let centred = |fit: &FrameFit, times: Vec<f64>| -> Vec<f64> {
             let mean = times.iter().sum::<f64>() / times.len() as f64;
             times.iter().map(|t| (t - mean) * fit.units.pulse() / exposure).collect()
         };
-        let seen: Vec<Vec<f64>> =
-            fits.iter().map(|fit| centred(fit, fit.measured_triggers(n))).collect();
-        let rms = |pairs: &mut dyn Iterator<Item = (&Vec<f64>, &Vec<f64>)>| {
-            let (mut squares, mut count) = (0.0, 0.0);
-            for (a, b) in pairs {
-                squares += a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-                count += a.len() as f64;
-            }
-            f64::sqrt(squares / f64::max(count, 1.0))
-        };
-        let pairs = || {
-            let k = seen.len();
-            (0..k).flat_map(move |i| (0..k).filter(move |j| *j != i).map(move |j| (i, j)))
-        };
-        let scatter = rms(&mut pairs().map(|(i, j)| (&seen[i], &seen[j])));
+        let seen: Vec<_> = fits.iter().map(|fit| centred(fit, measured_triggers(fit, n))).collect();
         let errors = Kind::ALL.map(|kind| {
-            let told: Vec<Vec<f64>> =
-                fits.iter().map(|fit| centred(fit, fit.triggers(kind, n))).collect();
-            rms(&mut pairs().map(|(i, j)| (&told[i], &seen[j])))
+            let told: Vec<_> = fits.iter().map(|fit| centred(fit, fit.triggers(kind, n))).collect();
+            apart(&told, &seen)
         });
-        Self { count: fits.len(), scatter, errors }
+        Some(Self { count: fits.len(), scatter: apart(&seen, &seen), errors })
     }
+}
+
+/// The trigger times as the samples have them: those of the freest kind, put right by what it misses.
+fn measured_triggers(fit: &FrameFit, n: u32) -> Vec<f64> {
+    let missed = Missed::new(fit, Kind::Free);
+    let put_right = |u: f64| {
+        let t = missed.exposure.trigger(u).0;
+        t + missed.off(u, t)
+    };
+    fractions(n).map(put_right).collect()
+}
+
+/// The root of the mean square of what the times of one shot differ by from those of each other one.
+fn apart(told: &[Vec<f64>], seen: &[Vec<f64>]) -> f64 {
+    let (mut squares, mut count) = (0.0, 0.0);
+    for (i, told) in told.iter().enumerate() {
+        for (_, seen) in seen.iter().enumerate().filter(|(j, _)| *j != i) {
+            squares += told.iter().zip(seen).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            count += told.len() as f64;
+        }
+    }
+    f64::sqrt(squares / f64::max(count, 1.0))
 }

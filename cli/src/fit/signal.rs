@@ -1,34 +1,27 @@
 //! What a detector shows of a shutter: a level in the dark, so much more in full light, and perhaps a drift and a hum.
 
-use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS};
+use std::f64::consts::{PI, TAU};
+
+use super::curve::{CONTROLS, Collected, Curve, Exposure, PARAMETERS, PLATEAU, START};
 use super::ramp::STRAIGHT;
 
 /// The candidates, simplest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Kind {
     /// All open or all closed.
     Box,
     /// Straight ramps.
     Trapezoid,
-    /// Cubic ramps, the closing one the mirror image of the opening one but for its length.
+    /// Cubic ramps that mirror each other but for their length.
     Symmetric,
-    /// Cubic ramps, each with a shape of its own.
+    /// Any cubic ramps.
     Free,
 }
 
 impl Kind {
     /// All of them, simplest first.
     pub const ALL: [Self; 4] = [Self::Box, Self::Trapezoid, Self::Symmetric, Self::Free];
-
-    /// As it is written in arguments.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Trapezoid => "trapezoid",
-            Self::Symmetric => "symmetric",
-            Self::Free => "free",
-        }
-    }
 
     /// As a reader is told.
     pub const fn title(self) -> &'static str {
@@ -53,8 +46,8 @@ impl Kind {
     /// By which of this kind's parameters each of a curve's is held, if any.
     fn holder(self, parameter: usize) -> Option<usize> {
         match (self, parameter) {
-            (Self::Box, 0) => Some(0),
-            (Self::Box, 2) => Some(1),
+            (Self::Box, START) => Some(0),
+            (Self::Box, PLATEAU) => Some(1),
             (Self::Box, _) => None,
             (Self::Trapezoid, CONTROLS..) => None,
             (Self::Symmetric, CONTROLS..) => Some(CONTROLS + (parameter - CONTROLS) % 4),
@@ -111,6 +104,29 @@ impl Hum {
     pub fn amplitude(&self) -> f64 {
         self.cosine.hypot(self.sine)
     }
+
+    /// The sine's value at a time.
+    pub fn at(&self, t: f64) -> f64 {
+        let (s, c) = (TAU * self.frequency * t).sin_cos();
+        self.cosine * c + self.sine * s
+    }
+
+    /// Its mean over an interval, and how that moves with the frequency, the cosine and the sine.
+    fn mean(&self, middle: f64, width: f64) -> (f64, [f64; 3]) {
+        let Self { frequency, cosine, sine } = *self;
+        let (s, c) = (TAU * frequency * middle).sin_cos();
+        let value = cosine * c + sine * s;
+        let turned = sine * c - cosine * s;
+        let half = PI * frequency * width;
+        // sin(x)/x, by which the mean is less than the middle's value, and its slope.
+        let (less, slope) = if half.abs() < 1e-4 {
+            (1.0 - half * half / 6.0, -half / 3.0)
+        } else {
+            (half.sin() / half, (half.cos() - half.sin() / half) / half)
+        };
+        let by_frequency = turned * TAU * middle * less + value * slope * PI * width;
+        (value * less, [by_frequency, c * less, s * less])
+    }
 }
 
 /// `v = dark + gain f(t) + drift t + hum(t)`
@@ -135,11 +151,22 @@ pub type Bounds = (f64, f64);
 const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
 
 impl Signal {
+    /// A box in the frame's own units, as the crossings have it.
+    pub(super) fn plain() -> Self {
+        Self {
+            kind: Kind::Box,
+            curve: Curve::trapezoid(-0.5, 0.0, 1.0, 0.0),
+            dark: 0.0,
+            gain: 1.0,
+            drift: None,
+            hum: None,
+        }
+    }
+
     /// How many numbers it takes.
     pub(super) fn len(&self) -> usize {
-        let columns =
-            if self.drift.is_some() { 1 } else { 0 } + if self.hum.is_some() { 3 } else { 0 };
-        self.kind.parameters() + 2 + columns
+        let (drift, hum) = (self.drift.map_or(0, |_| 1), self.hum.map_or(0, |_| 3));
+        self.kind.parameters() + 2 + drift + hum
     }
 
     /// Its numbers, the curve's first.
@@ -195,7 +222,7 @@ pub struct Means<'a> {
     signal: &'a Signal,
     exposure: Exposure,
     /// Where the last interval ended, and what is collected by then: mostly the next one begins there.
-    last: Option<(f64, super::curve::Collected)>,
+    last: Option<(f64, Collected)>,
 }
 
 impl Means<'_> {
@@ -211,33 +238,22 @@ impl Means<'_> {
         let width = to - from;
         let openness = (end.amount - start.amount) / width;
         let each = std::array::from_fn(|k| gain / width * (end.moves[k] - start.moves[k]));
-        let n = kind.parameters();
-        kind.gather(&each, moves);
-        moves[n] = 1.0;
-        moves[n + 1] = openness;
+        // In the order of `Signal::pack`.
+        let (of_curve, beside) = moves.split_at_mut(kind.parameters());
+        kind.gather(&each, of_curve);
+        let (levels, mut columns) = beside.split_at_mut(2);
+        levels.copy_from_slice(&[1.0, openness]);
         let mut mean = dark + gain * openness;
-        let (middle, mut at) = (0.5 * (from + to), n + 2);
+        let middle = 0.5 * (from + to);
         if let Some(drift) = drift {
-            moves[at] = middle;
+            columns[0] = middle;
+            columns = &mut columns[1..];
             mean += drift * middle;
-            at += 1;
         }
-        if let Some(Hum { frequency, cosine, sine }) = hum {
-            let (s, c) = (std::f64::consts::TAU * frequency * middle).sin_cos();
-            let half = std::f64::consts::PI * frequency * width;
-            // sin(x)/x, by which the mean is less than the middle's value, and its slope.
-            let (less, slope) = if half.abs() < 1e-4 {
-                (1.0 - half * half / 6.0, -half / 3.0)
-            } else {
-                (half.sin() / half, (half.cos() - half.sin() / half) / half)
-            };
-            let (tau, pi) = (std::f64::consts::TAU, std::f64::consts::PI);
-            let value = cosine * c + sine * s;
-            let turned = sine * c - cosine * s;
-            moves[at] = turned * tau * middle * less + value * slope * pi * width;
-            moves[at + 1] = c * less;
-            moves[at + 2] = s * less;
-            mean += value * less;
+        if let Some(hum) = hum {
+            let (value, moves) = hum.mean(middle, width);
+            columns.copy_from_slice(&moves);
+            mean += value;
         }
         mean
     }

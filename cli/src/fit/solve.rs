@@ -13,13 +13,22 @@ const STEPS: usize = 150;
 const LITTLE: f64 = 1e-8;
 
 /// What is minimised: squares of what the bins miss, and of what the control numbers miss of a straight ramp's.
-#[derive(Clone, Copy)]
-pub struct Problem<'a> {
-    pub bins: &'a [Bin],
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub bins: Vec<Bin>,
     /// By how much a control number counts that is 1 away.
     pub prior: f64,
-    /// A value to be kept, and by how much a miss of 1 counts.
-    pub held: Option<(Whole, f64, f64)>,
+    /// What the curve is to keep beside that, where the question is what this would cost.
+    pub held: Option<Held>,
+}
+
+/// A quantity of the whole curve that is to have a value.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    pub whole: Whole,
+    pub target: f64,
+    /// By how much a miss of 1 counts.
+    pub weight: f64,
 }
 
 /// A signal with its sum of squares and the normal equations there.
@@ -33,47 +42,50 @@ pub struct Solution {
     pub gradient: Vec<f64>,
 }
 
-impl Problem<'_> {
-    /// The signal as it is.
-    pub fn at(&self, signal: &Signal) -> Solution {
+impl Solution {
+    fn empty(signal: &Signal) -> Self {
         let n = signal.len();
-        let (mut normal, mut gradient) = (vec![vec![0.0; n]; n], vec![0.0; n]);
-        let (mut moves, mut cost) = (vec![0.0; n], 0.0);
-        let mut means = signal.means();
-        for bin in self.bins {
-            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
-            cost += bin.samples * miss * miss;
-            for (i, row) in normal.iter_mut().enumerate() {
-                let weighted = bin.samples * moves[i];
-                if weighted != 0.0 {
-                    gradient[i] += weighted * miss;
-                    for (cell, m) in row[..=i].iter_mut().zip(&moves) {
-                        *cell += weighted * m;
-                    }
+        Self { signal: *signal, cost: 0.0, normal: vec![vec![0.0; n]; n], gradient: vec![0.0; n] }
+    }
+
+    /// Adds the square of a miss that moves so with the parameters.
+    fn add(&mut self, weight: f64, miss: f64, moves: &[f64]) {
+        self.cost += weight * miss * miss;
+        for (i, row) in self.normal.iter_mut().enumerate() {
+            let weighted = weight * moves[i];
+            if weighted != 0.0 {
+                self.gradient[i] += weighted * miss;
+                for (cell, m) in row[..=i].iter_mut().zip(moves) {
+                    *cell += weighted * m;
                 }
             }
+        }
+    }
+}
+
+impl Problem {
+    /// The signal as it is.
+    pub fn at(&self, signal: &Signal) -> Solution {
+        let mut solution = Solution::empty(signal);
+        let mut moves = vec![0.0; signal.len()];
+        let mut means = signal.means();
+        for bin in &self.bins {
+            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
+            solution.add(bin.samples, miss, &moves);
         }
         let packed = signal.pack();
         for (k, straight) in signal.controls() {
-            let miss = packed[k] - straight;
-            cost += self.prior * miss * miss;
-            gradient[k] += self.prior * miss;
-            normal[k][k] += self.prior;
+            moves.fill(0.0);
+            moves[k] = 1.0;
+            solution.add(self.prior, packed[k] - straight, &moves);
         }
-        if let Some((whole, target, weight)) = self.held {
+        if let Some(Held { whole, target, weight }) = self.held {
             let (value, each) = whole.of(&signal.curve);
-            let miss = value - target;
-            let mut moves = vec![0.0; signal.kind.parameters()];
+            moves.fill(0.0);
             signal.kind.gather(&each, &mut moves);
-            cost += weight * miss * miss;
-            for (i, a) in moves.iter().enumerate() {
-                gradient[i] += weight * a * miss;
-                for (j, b) in moves[..=i].iter().enumerate() {
-                    normal[i][j] += weight * a * b;
-                }
-            }
+            solution.add(weight, value - target, &moves);
         }
-        Solution { signal: *signal, cost, normal, gradient }
+        solution
     }
 
     /// The best signal near `start`.

@@ -1,0 +1,59 @@
+//! The models compared: what each kind's curve comes to, and which kind is the simplest that serves.
+
+use super::frame::FrameFit;
+use super::outcome::{Candidate, Options, Reason, Tolerance};
+use super::shots::Shots;
+use super::signal::Kind;
+
+/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter.
+const WITHIN: f64 = 1.1;
+
+/// Every kind's curve, judged by `n` triggers.
+pub fn candidates(fit: &FrameFit, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
+    let least = Kind::ALL.into_iter().map(|kind| fit.bic(kind)).fold(f64::INFINITY, f64::min);
+    let free = fit.triggers(Kind::Free, n);
+    let candidate = |kind: Kind| {
+        let fitted = fit.of(kind);
+        let signal = &fitted.solution.signal;
+        let shifts = fit.triggers(kind, n).into_iter().zip(&free).map(|(a, b)| (a - b).abs());
+        Candidate {
+            signal: fit.units.outside(signal),
+            rms: fitted.variance().sqrt() / signal.gain,
+            delta_bic: fit.bic(kind) - least,
+            shift: shifts.fold(0.0, f64::max) * fit.units.pulse(),
+            left_out: shots.map(|shots| shots.errors[kind as usize]),
+        }
+    };
+    Kind::ALL.into_iter().map(candidate).collect()
+}
+
+/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the simplest that meets
+/// shots left out, or else, of a single shot, the one of least criterion.
+pub fn choose(
+    options: &Options,
+    candidates: &[Candidate],
+    fit: &FrameFit,
+    shots: Option<&Shots>,
+) -> (Kind, Reason) {
+    let simplest = |good: &dyn Fn(&Candidate) -> bool| {
+        let found = candidates.iter().find(|candidate| good(candidate));
+        found.map_or(Kind::Free, |candidate| candidate.signal.kind)
+    };
+    if let Some(kind) = options.model {
+        return (kind, Reason::Asked);
+    }
+    if let Some(tolerance) = options.tolerance {
+        let most = match tolerance {
+            Tolerance::Share(share) => share * fit.exposure(Kind::Free).area() * fit.units.pulse(),
+            Tolerance::Seconds(seconds) => seconds,
+        };
+        return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
+    }
+    if let Some(Shots { count, scatter, .. }) = shots {
+        let meets = |error: f64| error <= WITHIN * scatter;
+        let kind = simplest(&|candidate| candidate.left_out.is_some_and(meets));
+        return (kind, Reason::Shots { shots: *count, scatter: *scatter });
+    }
+    let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
+    (kind, Reason::Criterion { effective: fit.effective() })
+}

@@ -1,0 +1,51 @@
+//! What a kind's curve misses of the samples, added up along the pulse: by that its trigger times are off.
+
+use super::curve::Exposure;
+use super::frame::FrameFit;
+use super::signal::Kind;
+
+/// The least openness that a time is divided by: where the shutter hardly lets light in, a time would have no limit.
+const LEAST_OPENNESS: f64 = 1e-3;
+
+pub struct Missed {
+    pub exposure: Exposure,
+    gain: f64,
+    /// Up to each time.
+    sums: Vec<(f64, f64)>,
+}
+
+impl Missed {
+    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
+        let fitted = fit.of(kind);
+        let signal = fitted.solution.signal;
+        let [start, _, _, end] = signal.curve.times();
+        let inside = fit.samples.iter().zip(&fitted.residuals);
+        let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
+        let mut sum = 0.0;
+        let sums = inside
+            .map(|(bin, residual)| {
+                sum += residual * (bin.to - bin.from);
+                (bin.to, sum)
+            })
+            .collect();
+        Self { exposure: Exposure::new(&signal.curve), gain: signal.gain, sums }
+    }
+
+    /// The openness times the light at a time, not too near to 0.
+    pub fn slope(&self, t: f64) -> f64 {
+        least_open(&self.exposure, t) * self.gain
+    }
+
+    /// By how much the samples put the time at which `u` is collected later than the curve, which says `t`.
+    pub fn off(&self, u: f64, t: f64) -> f64 {
+        let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];
+        let here = until.last().map_or(0.0, |(_, sum)| *sum);
+        let whole = self.sums.last().map_or(0.0, |(_, sum)| *sum);
+        (u * whole - here) / self.slope(t)
+    }
+}
+
+/// The openness at a time, not too near to 0.
+pub fn least_open(exposure: &Exposure, t: f64) -> f64 {
+    exposure.openness(t).max(LEAST_OPENNESS)
+}
