@@ -2,16 +2,18 @@
 
 use std::fs::File;
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::ValueEnum;
+use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::output::{print, svg_path, write_whole};
 use crate::fit::{self, Fit, Kind, Options, Tolerance, Zero};
 use crate::picture;
-use crate::trace::{self, Column, Light, Warning};
+use crate::plan::MOST_TRIGGERS;
+use crate::trace::{self, Column, Light, Refusal, Trace, Warning};
 use crate::unit::Unit;
 
 /// Without progress for so long, nobody waits for any.
@@ -36,7 +38,7 @@ pub struct Args {
     picture: Option<PathBuf>,
     /// The unit of the times, where the header does not tell
     #[arg(long)]
-    unit: Option<UnitName>,
+    unit: Option<Unit>,
     /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
     #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
     columns: Vec<String>,
@@ -45,7 +47,7 @@ pub struct Args {
     rate: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
-    light: LightName,
+    light: Light,
     /// The signal of a shutter that is fully open, where this one never is
     #[arg(long, value_name = "SIGNAL", allow_negative_numbers = true)]
     full: Option<f64>,
@@ -54,55 +56,16 @@ pub struct Args {
     frame: Option<usize>,
     /// The shutter's model; the simplest that serves if left out
     #[arg(long)]
-    model: Option<ModelName>,
+    model: Option<Kind>,
     /// Take the simplest model whose triggers are as near to the free model's: 0.1% (of the exposure), 20us
     #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
     tolerance: Option<Tolerance>,
     /// How many triggers
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = Options::TRIGGERS, value_parser = trigger_count())]
     triggers: u32,
     /// Where the scene's time 0 is
     #[arg(long, default_value = "trace")]
-    zero: ZeroName,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum UnitName {
-    S,
-    Ms,
-    #[value(alias = "µs", alias = "μs")]
-    Us,
-    Ns,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum LightName {
-    /// It begins and ends in the dark
-    Auto,
-    /// Light raises it
-    Up,
-    /// Light lowers it
-    Down,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ModelName {
-    /// All open or all closed
-    Box,
-    /// Straight ramps
-    Trapezoid,
-    /// Cubic ramps that mirror each other but for their length
-    Symmetric,
-    /// Any cubic ramps
-    Free,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum ZeroName {
-    /// As in the trace
-    Trace,
-    /// Where the shutter starts to open
-    Open,
+    zero: Zero,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -112,71 +75,39 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+fn trigger_count() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(MOST_TRIGGERS))
+}
+
 fn tolerance(text: &str) -> Result<Tolerance, String> {
     let wrong = || "write 0.1% (of the exposure), or a time as in 20us, 0.02ms, 2e-5s".to_string();
     let text = text.trim();
-    let start =
-        text.find(|c: char| c == '%' || c == 'µ' || c == 'μ' || (c.is_alphabetic() && c != 'e'));
+    // The `e` of an exponent belongs to the number.
+    let start = text.find(|c: char| c == '%' || (c.is_alphabetic() && c != 'e'));
     let (number, unit) = text.split_at(start.ok_or_else(wrong)?);
     let number: f64 = number.trim().parse().map_err(|_| wrong())?;
     if !(number >= 0.0 && number.is_finite()) {
         return Err(wrong());
     }
-    Ok(match unit {
-        "%" => Tolerance::Share(0.01 * number),
-        "s" => Tolerance::Seconds(number),
-        "ms" => Tolerance::Seconds(Unit::Millisecond.seconds(number)),
-        "us" | "µs" | "μs" => Tolerance::Seconds(Unit::Microsecond.seconds(number)),
-        "ns" => Tolerance::Seconds(Unit::Nanosecond.seconds(number)),
-        _ => return Err(wrong()),
-    })
-}
-
-impl Args {
-    fn reading(&self) -> trace::Options {
-        let unit = self.unit.map(|unit| match unit {
-            UnitName::S => Unit::Second,
-            UnitName::Ms => Unit::Millisecond,
-            UnitName::Us => Unit::Microsecond,
-            UnitName::Ns => Unit::Nanosecond,
-        });
-        let columns = self.columns.iter().map(|column| Column::parse(column)).collect();
-        trace::Options { unit, columns, rate: self.rate }
+    if unit == "%" {
+        return Ok(Tolerance::Share(0.01 * number));
     }
-
-    fn fitting(&self) -> Options {
-        Options {
-            model: self.model.map(|model| match model {
-                ModelName::Box => Kind::Box,
-                ModelName::Trapezoid => Kind::Trapezoid,
-                ModelName::Symmetric => Kind::Symmetric,
-                ModelName::Free => Kind::Free,
-            }),
-            tolerance: self.tolerance,
-            full: self.full,
-            frame: self.frame,
-            light: match self.light {
-                LightName::Auto => Light::Auto,
-                LightName::Up => Light::Up,
-                LightName::Down => Light::Down,
-            },
-            triggers: self.triggers,
-        }
-    }
+    let unit = Unit::from_str(unit, false).map_err(|_| wrong())?;
+    Ok(Tolerance::Seconds(unit.seconds(number)))
 }
 
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
-    let path = &args.trace;
-    let (fit, mut warnings) = fitted(args).map_err(|e| format!("{}: {e}", path.display()))?;
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let zero = match args.zero {
-        ZeroName::Trace => Zero::Trace,
-        ZeroName::Open => Zero::Open,
-    };
-    let scene = fit.scene(&name, zero).map_err(|e| format!("{}: {e}", path.display()))?;
-    if scene.zero != zero && args.out.is_some() {
+    let refused = |reason: String| format!("{}: {reason}", args.trace.display());
+    let (trace, mut warnings) = read(args).map_err(refused)?;
+    let fit = fitted(&trace, args).map_err(|refusal| refused(refusal.to_string()))?;
+    warnings.extend(fit.warnings.iter().cloned());
+
+    let name = args.trace.file_name().unwrap_or_default().to_string_lossy();
+    let scene = fit.scene(&name, args.zero).map_err(|refusal| refused(refusal.to_string()))?;
+    if scene.zero != args.zero && args.out.is_some() {
         warnings.push(Warning::ZeroMoved);
     }
+
     if let Some(file) = &args.picture {
         let svg = picture::trace(&name, &fit).map_err(|e| format!("the picture: {e}"))?;
         write_whole(file, &svg)?;
@@ -188,18 +119,38 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         // There is no one to tell if standard error cannot be written.
         let _ = writeln!(err, "warning: {warning}");
     }
-    let mut text = fit::text(&name, &fit);
+    let mut report = fit::text(&name, &fit);
     if args.out.is_none() {
-        text += &format!("\nThe scene, which --out SCENE.toml writes:\n\n{}", scene.text);
+        report += &format!("\nThe scene, which --out SCENE.toml writes:\n\n{}", scene.text);
     }
-    print(out, &text)
+    print(out, &report)
 }
 
-/// The fit, and all warnings.
-fn fitted(args: &Args) -> Result<(Fit, Vec<Warning>), String> {
-    let text = read(&args.trace)?;
-    let (trace, mut warnings) =
-        trace::read(&text, &args.reading()).map_err(|refusal| refusal.to_string())?;
+/// The trace, and what is doubtful about its file.
+fn read(args: &Args) -> Result<(Trace, Vec<Warning>), String> {
+    let mut bytes = Vec::new();
+    // No more than that, whatever the file says of its size: a device may have no end.
+    let file = File::open(&args.trace).map_err(|e| e.to_string())?;
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(format!("more than {} MB: cut the trace to the pulse", LONGEST >> 20));
+    }
+    let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
+    let options = trace::Options { unit: args.unit, columns, rate: args.rate };
+    let text = trace::decode(&bytes).map_err(|refusal| refusal.to_string())?;
+    trace::read(&text, &options).map_err(|refusal| refusal.to_string())
+}
+
+/// The fit, with a bar for whoever waits for it.
+fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
+    let options = Options {
+        model: args.model,
+        tolerance: args.tolerance,
+        full: args.full,
+        frame: args.frame,
+        light: args.light,
+        triggers: args.triggers,
+    };
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {
         bar.set_style(style);
@@ -210,20 +161,7 @@ fn fitted(args: &Args) -> Result<(Fit, Vec<Warning>), String> {
         }
         bar.set_position((1000.0 * done) as u64);
     };
-    let fit = fit::fit(&trace, &args.fitting(), &mut progress);
+    let fit = fit::fit(trace, &options, &mut progress);
     bar.finish_and_clear();
-    let fit = fit.map_err(|refusal| refusal.to_string())?;
-    warnings.extend(fit.warnings.iter().cloned());
-    Ok((fit, warnings))
-}
-
-fn read(path: &Path) -> Result<String, String> {
-    let mut bytes = Vec::new();
-    // No more than that, whatever the file says of its size: a device may have no end.
-    let file = File::open(path).map_err(|e| e.to_string())?;
-    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
-    if bytes.len() as u64 > LONGEST {
-        return Err(format!("more than {} MB: cut the trace to the pulse", LONGEST >> 20));
-    }
-    trace::decode(&bytes).map_err(|refusal| refusal.to_string())
+    fit
 }
