@@ -203,6 +203,7 @@ struct Frames {
 }
 
 /// What is wrong with a frame.
+#[derive(Clone, Copy)]
 enum Problem {
     /// A flash and the next, with so many ticks between them.
     Close(usize, i64),
@@ -280,54 +281,60 @@ impl Problem {
             Some(most) => format!("up to {most} triggers keep that"),
             None => "no number of triggers keeps that".to_string(),
         };
-        let required = |ticks: u64| match ticks {
-            1 => "1 is required".into(),
-            _ => format!("{ticks} are required"),
-        };
-        let ticks = |ticks: i64| count(ticks.unsigned_abs(), "tick");
-        let apart = |i: usize, apart: i64, what: &str| match apart {
-            ..0 => format!("{what} {i} and {} overlap by {}", i + 1, ticks(apart)),
-            _ => format!("{what} {i} and {} come {} apart", i + 1, ticks(apart)),
-        };
         let (dark, lit) = (required(asked.dark), required(asked.lit));
-        match (asked.lamp, self) {
-            (Lamp::Equal { ticks: length }, problem) => {
-                let pulses = format!("pulses of {}", count(length, "tick"));
-                let why = match *problem {
-                    Self::Close(i, gap) => {
-                        format!("{pulses}: {}, and {dark}", apart(i, gap, "pulses"))
-                    }
-                    _ => format!("{pulses}: they reach beyond the time that the shutter is open"),
-                };
+        let reason = match (asked.lamp, *self) {
+            (Lamp::Equal { ticks: length }, _) => {
                 let longest = match frames.longest(asked, n) {
                     ..=0 => "none is short enough".into(),
                     longest => format!("those of up to {} fit", ticks(longest)),
                 };
                 let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
+                let reason = format!("{}; {longest}{many}", self.of_equal(length, &dark));
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                let reason = format!("{why}; {longest}{many}");
-                Fault { at: Some(place), reason, notes: Vec::new() }
+                return Fault { at: Some(place), reason, notes: Vec::new() };
             }
-            (Lamp::Doses { .. }, &Self::Close(i, gap)) => Fault::at(
-                &scene.triggers,
-                format!(
-                    "{}, and {dark}; {many}; a smaller duty leaves more",
-                    apart(i, gap, "pulses")
-                ),
-            ),
-            (Lamp::Doses { .. }, &Self::Short(i, length)) => Fault::at(
-                &scene.triggers,
-                format!(
-                    "pulse {i} lasts {}, and {lit}; {many}; a greater duty lasts longer",
-                    ticks(length)
-                ),
-            ),
-            (_, &Self::Close(i, gap)) => Fault::at(
-                &scene.triggers,
-                format!("{}, and {dark}; {many}", apart(i, gap, "triggers")),
-            ),
-            _ => Fault::at(&scene.triggers, format!("the frame does not fit; {many}")),
+            (Lamp::Doses { .. }, Self::Close(i, gap)) => {
+                let apart = apart("pulses", i, gap);
+                format!("{apart}, and {dark}; {many}; a smaller duty leaves more")
+            }
+            (Lamp::Doses { .. }, Self::Short(i, length)) => {
+                let lasts = ticks(length);
+                format!("pulse {i} lasts {lasts}, and {lit}; {many}; a greater duty lasts longer")
+            }
+            (_, Self::Close(i, gap)) => {
+                format!("{}, and {dark}; {many}", apart("triggers", i, gap))
+            }
+            _ => format!("the frame does not fit; {many}"),
+        };
+        Fault::at(&scene.triggers, reason)
+    }
+
+    /// What is wrong with pulses of equal length.
+    fn of_equal(&self, length: u32, dark: &str) -> String {
+        let pulses = format!("pulses of {}", count(length, "tick"));
+        match *self {
+            Self::Close(i, gap) => format!("{pulses}: {}, and {dark}", apart("pulses", i, gap)),
+            _ => format!("{pulses}: they reach beyond the time that the shutter is open"),
         }
+    }
+}
+
+fn required(ticks: u64) -> String {
+    match ticks {
+        1 => "1 is required".into(),
+        _ => format!("{ticks} are required"),
+    }
+}
+
+fn ticks(ticks: i64) -> String {
+    count(ticks.unsigned_abs(), "tick")
+}
+
+/// How far the thing `i` and the next one are apart.
+fn apart(things: &str, i: usize, gap: i64) -> String {
+    match gap {
+        ..0 => format!("{things} {i} and {} overlap by {}", i + 1, ticks(gap)),
+        _ => format!("{things} {i} and {} come {} apart", i + 1, ticks(gap)),
     }
 }
 
