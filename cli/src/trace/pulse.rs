@@ -7,6 +7,8 @@ use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
 const SPIKE: f64 = 6.0;
+/// One in so many samples is few: so many are a trace's end, are smoothed together at most, or may be spikes.
+const FEW_OF: usize = 50;
 /// The least contrast, in standard deviations of the (smoothed) noise.
 pub(super) const CONTRAST: f64 = 8.0;
 /// The fewest samples of a trace.
@@ -185,7 +187,7 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
     // What is so frequent is no accident: a pattern that belongs to the signal.
-    if spikes.is_empty() || spikes.len() > n / 50 {
+    if spikes.is_empty() || spikes.len() > n / FEW_OF {
         return Vec::new();
     }
     let told = spikes.iter().map(|i| times[*i]).collect();
@@ -215,7 +217,7 @@ impl Smooth {
         }
         // A twentieth of the light is too little to switch.
         let window = (noise / (0.05 * (high - low))).powi(2).ceil() as usize;
-        let window = window.clamp(1, values.len() / 50 + 1);
+        let window = window.clamp(1, values.len() / FEW_OF + 1);
         let values = means(values, window);
         let (first, last) = ends(&values);
         let dark = 0.5 * (first + last);
@@ -292,7 +294,7 @@ fn means(values: &[f64], window: usize) -> Vec<f64> {
 /// The medians of the first and the last samples.
 fn ends(values: &[f64]) -> (f64, f64) {
     let n = values.len();
-    let few = (n / 50).max(3);
+    let few = (n / FEW_OF).max(3);
     (median(values[..few].to_vec()), median(values[n - few..].to_vec()))
 }
 

@@ -81,32 +81,33 @@ pub fn decode(bytes: &[u8]) -> Result<String, Refusal> {
 /// # Errors
 /// What is no table of numbers, a column that is not there, too many broken rows.
 pub fn read(text: &str, options: &Options) -> Result<(Trace, Vec<Warning>), Refusal> {
-    let mut table = Table::new(text)?;
+    let table = Table::new(text)?;
     let layout = Layout::new(&table, options)?;
     let mut warnings = Vec::new();
     if layout.unit_assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let mut rows: Vec<Sample> = Vec::new();
-    let (mut count, mut broken, mut first) = (0, 0, None);
-    let mut take = |line: u64, fields: &[&str], decimal_comma: bool| {
-        match layout.sample(count, fields, decimal_comma) {
-            Ok((time, value)) => rows.push(Sample { time, value, line }),
+    let (mut samples, mut fields) = (Vec::new(), Vec::new());
+    let (mut broken, mut first) = (0, None);
+    for (k, (line, row)) in table.rows().enumerate() {
+        fields.clear();
+        fields.extend(split(row, table.delimiter));
+        match layout.sample(k, &fields, table.decimal_comma) {
+            Ok((time, value)) => samples.push(Sample { time, value, line }),
             Err(reason) => {
                 broken += 1;
                 first.get_or_insert((line, reason));
             }
         }
-        count += 1;
-    };
-    table.each_row(&mut take);
+    }
     if let Some((line, reason)) = first {
-        if broken as f64 > BROKEN * count as f64 {
-            return Err(Refusal::BrokenRows { count: broken, rows: count, line, reason });
+        let rows = samples.len() + broken;
+        if broken as f64 > BROKEN * rows as f64 {
+            return Err(Refusal::BrokenRows { count: broken, rows, line, reason });
         }
         warnings.push(Warning::BrokenRows { count: broken, line, reason });
     }
-    Ok((ordered(rows, &mut warnings), warnings))
+    Ok((ordered(samples, &mut warnings), warnings))
 }
 
 struct Sample {
@@ -145,6 +146,42 @@ fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> Trace {
     trace
 }
 
+fn filled_lines(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter(|line| !line.trim().is_empty())
+}
+
+/// What delimits the fields of most lines, and whether their decimal mark is a comma.
+fn marks(text: &str) -> (char, bool) {
+    // From the file's middle, where the numbers are.
+    let total = filled_lines(text).count();
+    let lines: Vec<&str> = filled_lines(text)
+        .skip(total / 2)
+        .chain(filled_lines(text))
+        .take(LOOKED_AT.min(total))
+        .collect();
+    let most = |c: char| 2 * lines.iter().filter(|l| l.trim().contains(c)).count() > lines.len();
+    let delimiter = match ['\t', ';', ',', ' '].into_iter().find(|c| most(*c)).unwrap_or(',') {
+        ',' if are_decimals(&lines) => ';',
+        delimiter => delimiter,
+    };
+    let has_decimal = |line: &&str| split(line, delimiter).any(is_decimal);
+    (delimiter, delimiter != ',' && lines.iter().any(has_decimal))
+}
+
+/// Is each line a value alone with a decimal comma? It looks like two columns, but the first one's few numbers tell.
+fn are_decimals(lines: &[&str]) -> bool {
+    let mut whole: Vec<_> =
+        lines.iter().map(|line| line.trim().split_once(',').map(|(whole, _)| whole)).collect();
+    whole.sort();
+    whole.dedup();
+    whole.len() <= lines.len() / 4 && lines.iter().all(|line| is_decimal(line.trim()))
+}
+
+/// Is it a number with a decimal comma?
+fn is_decimal(field: &str) -> bool {
+    field.contains(',') && !field.contains('.') && number(field, true).is_some()
+}
+
 /// The file as rows of fields, those before the numbers apart.
 struct Table<'a> {
     text: &'a str,
@@ -159,34 +196,13 @@ struct Table<'a> {
 
 impl<'a> Table<'a> {
     fn new(text: &'a str) -> Result<Self, Refusal> {
-        let lines = || text.lines().filter(|line| !line.trim().is_empty());
         for (i, line) in text.lines().enumerate() {
             if line.len() > LONGEST_LINE {
                 let reason = format!("line {} is {} bytes long", i + 1, line.len());
                 return Err(Refusal::NotCsv { reason });
             }
         }
-        // From the file's middle, where the numbers are.
-        let total = lines().count();
-        let looked_at = || lines().skip(total / 2).chain(lines()).take(LOOKED_AT.min(total));
-        let most = |c: char| {
-            2 * looked_at().filter(|line| line.trim().contains(c)).count() > looked_at().count()
-        };
-        let delimiter = ['\t', ';', ',', ' '].into_iter().find(|c| most(*c)).unwrap_or(',');
-        let is_decimal = |field: &str| {
-            field.contains(',') && !field.contains('.') && number(field, true).is_some()
-        };
-        // Values alone with decimal commas look like two columns, unless their first halves tell.
-        let alone = delimiter == ',' && looked_at().all(|line| is_decimal(line.trim())) && {
-            let halves = |line: &str| line.trim().split_once(',').map(|(a, _)| a.to_string());
-            let mut first: Vec<_> = looked_at().map(halves).collect();
-            first.sort();
-            first.dedup();
-            first.len() <= looked_at().count() / 4
-        };
-        let delimiter = if alone { ';' } else { delimiter };
-        let decimal_comma =
-            delimiter != ',' && looked_at().any(|line| split(line, delimiter).any(is_decimal));
+        let (delimiter, decimal_comma) = marks(text);
         let mut table = Self {
             text,
             delimiter,
@@ -195,7 +211,7 @@ impl<'a> Table<'a> {
             first: Vec::new(),
             before: 0,
         };
-        for line in lines().take(LONGEST_HEADER) {
+        for line in filled_lines(text).take(LONGEST_HEADER) {
             let fields: Vec<String> = split(line, delimiter).map(String::from).collect();
             let is_number = |field: &String| number(field, decimal_comma).is_some();
             let filled = || fields.iter().filter(|field| !field.is_empty());
@@ -209,16 +225,11 @@ impl<'a> Table<'a> {
         Err(Refusal::NotCsv { reason: "there is no row of numbers in it".into() })
     }
 
-    /// Hands on each row of numbers with its line, and whether its decimal mark is a comma.
-    fn each_row(&mut self, take: &mut impl FnMut(u64, &[&str], bool)) {
-        let lines = self.text.lines().enumerate();
+    /// The rows of numbers, each with its line.
+    fn rows(&self) -> impl Iterator<Item = (u64, &'a str)> {
+        let lines = (1..).zip(self.text.lines());
         let lines = lines.filter(|(_, line)| !line.trim().is_empty()).skip(self.before);
-        let mut fields = Vec::new();
-        for (i, line) in lines.filter(|(_, line)| !line.starts_with('#')) {
-            fields.clear();
-            fields.extend(split(line, self.delimiter));
-            take(i as u64 + 1, &fields, self.decimal_comma);
-        }
+        lines.filter(|(_, line)| !line.starts_with('#'))
     }
 
     /// A column by its number, from 0, or by its name.
@@ -292,49 +303,11 @@ enum Time {
 
 impl Layout {
     fn new(table: &Table, options: &Options) -> Result<Self, Refusal> {
-        let asked = options
-            .columns
-            .iter()
-            .map(|column| table.column(column))
-            .collect::<Result<Vec<_>, _>>()?;
-        let filled: Vec<usize> =
-            (0..table.first.len()).filter(|k| !table.first[*k].is_empty()).collect();
-        let is_time = |k: &usize| {
-            table.above(*k).any(|name| {
-                let name = name.to_lowercase();
-                name.contains("time") || name.contains("zeit") || name == "t" || name == "x"
-            })
-        };
-        let named = filled.iter().copied().find(|k| is_time(k));
-        let (time, signal) = match (asked.as_slice(), filled.as_slice()) {
-            ([time, signal, ..], _) => (Some(*time), *signal),
-            ([signal], _) => (None, *signal),
-            ([], [signal]) => (None, *signal),
-            ([], _) => {
-                let time = named.unwrap_or(filled[0]);
-                let signal = filled.iter().copied().find(|k| *k > time);
-                let signal = signal.or_else(|| filled.iter().copied().find(|k| *k != time));
-                (Some(time), signal.unwrap_or(time))
-            }
-        };
-        if let Some(rate) = options.rate {
-            let step = 1.0 / rate;
-            let time = Time::Steps { column: None, start: 0.0, step };
+        let (time, signal) = columns(table, options)?;
+        if let Some(time) = steps(table, options.rate, time) {
             return Ok(Self { time, signal, unit_assumed: false });
         }
-        // Rigol's own: a sequence, and where it starts and what it is counted in.
-        let steps = (
-            table.given("start").or_else(|| table.given("t0")),
-            table.given("increment").or_else(|| table.given("tinc")),
-        );
-        if let (Some(start), Some(step)) = steps {
-            let column = time.filter(|_| table.given("increment").is_some());
-            if column.is_some() || time.is_none() {
-                let time = Time::Steps { column, start, step };
-                return Ok(Self { time, signal, unit_assumed: false });
-            }
-        }
-        let Some(time) = time else { return Err(Refusal::NoTimes) };
+        let time = time.ok_or(Refusal::NoTimes)?;
         let unit = options.unit.or_else(|| table.above(time).find_map(unit_in));
         let time = Time::Column(time, unit.unwrap_or(Unit::Second));
         Ok(Self { time, signal, unit_assumed: unit.is_none() })
@@ -362,6 +335,43 @@ impl Layout {
         };
         Ok((time, value))
     }
+}
+
+/// The time's column, if there is one, and the signal's: as asked for, or as the header names them, or the first two.
+fn columns(table: &Table, options: &Options) -> Result<(Option<usize>, usize), Refusal> {
+    let asked =
+        options.columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>, _>>()?;
+    let filled: Vec<usize> =
+        (0..table.first.len()).filter(|k| !table.first[*k].is_empty()).collect();
+    let is_time = |k: &usize| {
+        table.above(*k).any(|name| {
+            let name = name.to_lowercase();
+            name.contains("time") || name.contains("zeit") || name == "t" || name == "x"
+        })
+    };
+    Ok(match (asked.as_slice(), filled.as_slice()) {
+        ([time, signal, ..], _) => (Some(*time), *signal),
+        ([signal], _) | ([], [signal]) => (None, *signal),
+        ([], _) => {
+            let time = filled.iter().copied().find(is_time).unwrap_or(filled[0]);
+            let signal = filled.iter().copied().find(|k| *k > time);
+            let signal = signal.or_else(|| filled.iter().copied().find(|k| *k != time));
+            (Some(time), signal.unwrap_or(time))
+        }
+    })
+}
+
+/// The times as steps: of the rate that is given, or Rigol's own, a sequence with its start and its increment.
+fn steps(table: &Table, rate: Option<f64>, time: Option<usize>) -> Option<Time> {
+    if let Some(rate) = rate {
+        return Some(Time::Steps { column: None, start: 0.0, step: 1.0 / rate });
+    }
+    let start = table.given("start").or_else(|| table.given("t0"))?;
+    let increment = table.given("increment");
+    let step = increment.or_else(|| table.given("tinc"))?;
+    // A column beside `tInc` holds the times themselves.
+    let column = time.filter(|_| increment.is_some());
+    (column.is_some() || time.is_none()).then_some(Time::Steps { column, start, step })
 }
 
 /// The fields of a line, without blanks and quotes around them. No number holds a delimiter, and a quote that is never
