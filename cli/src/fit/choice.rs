@@ -1,6 +1,6 @@
 //! The models compared: what each kind's curve comes to, and which kind is the simplest that serves.
 
-use super::frame::FrameFit;
+use super::frame::FrameFits;
 use super::outcome::{Candidate, Options, Reason, Tolerance};
 use super::shots::Shots;
 use super::signal::Kind;
@@ -9,18 +9,18 @@ use super::signal::Kind;
 const WITHIN: f64 = 1.1;
 
 /// Every kind's curve, judged by `n` triggers.
-pub fn candidates(fit: &FrameFit, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
-    let least = Kind::ALL.into_iter().map(|kind| fit.bic(kind)).fold(f64::INFINITY, f64::min);
-    let free = fit.triggers(Kind::Free, n);
+pub fn candidates(fits: &FrameFits, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
+    let least = Kind::ALL.into_iter().map(|kind| fits.bic(kind)).fold(f64::INFINITY, f64::min);
+    let free = fits.triggers(Kind::Free, n);
     let candidate = |kind: Kind| {
-        let fitted = fit.of(kind);
+        let fitted = fits.of(kind);
         let signal = &fitted.solution.signal;
-        let shifts = fit.triggers(kind, n).into_iter().zip(&free).map(|(a, b)| (a - b).abs());
+        let shifts = fits.triggers(kind, n).into_iter().zip(&free).map(|(a, b)| (a - b).abs());
         Candidate {
-            signal: fit.units.outside(signal),
+            signal: fits.units.outside(signal),
             rms: fitted.variance().sqrt() / signal.gain,
-            delta_bic: fit.bic(kind) - least,
-            shift: shifts.fold(0.0, f64::max) * fit.units.pulse(),
+            delta_bic: fits.bic(kind) - least,
+            shift: shifts.fold(0.0, f64::max) * fits.units.pulse(),
             left_out: shots.map(|shots| shots.errors[kind as usize]),
         }
     };
@@ -32,7 +32,7 @@ pub fn candidates(fit: &FrameFit, shots: Option<&Shots>, n: u32) -> Vec<Candidat
 pub fn choose(
     options: &Options,
     candidates: &[Candidate],
-    fit: &FrameFit,
+    fits: &FrameFits,
     shots: Option<&Shots>,
 ) -> (Kind, Reason) {
     let simplest = |good: &dyn Fn(&Candidate) -> bool| {
@@ -44,7 +44,9 @@ pub fn choose(
     }
     if let Some(tolerance) = options.tolerance {
         let most = match tolerance {
-            Tolerance::Share(share) => share * fit.exposure(Kind::Free).area() * fit.units.pulse(),
+            Tolerance::Share(share) => {
+                share * fits.exposure(Kind::Free).area() * fits.units.pulse()
+            }
             Tolerance::Seconds(seconds) => seconds,
         };
         return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
@@ -55,5 +57,5 @@ pub fn choose(
         return (kind, Reason::Shots { shots: *count, scatter: *scatter });
     }
     let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
-    (kind, Reason::Criterion { effective: fit.effective() })
+    (kind, Reason::Criterion { effective: fits.effective() })
 }

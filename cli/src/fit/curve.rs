@@ -3,15 +3,15 @@
 
 use super::ramp::{At, Controls, STRAIGHT, UnitRamp};
 
-/// The parameters of the freest curve; every simpler one holds some of them fixed or together.
-pub const PARAMETERS: usize = 12;
-/// The places of the times among them, each a [`Curve`]'s field.
+/// The places of a [`Curve`]'s times among its parameters.
 pub const START: usize = 0;
 pub const OPENING: usize = 1;
 pub const PLATEAU: usize = 2;
 pub const CLOSING: usize = 3;
 /// Where the control numbers begin among them; the closing ramp's begin four later.
 pub const CONTROLS: usize = 4;
+/// The parameters of the freest curve; every simpler one holds some of them fixed or together.
+pub const PARAMETERS: usize = CONTROLS + 8;
 
 /// A curve by its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,6 +117,7 @@ impl Whole {
 pub struct Exposure {
     pub curve: Curve,
     ramps: [UnitRamp; 2],
+    /// All of each ramp.
     whole: [At; 2],
 }
 

@@ -1,26 +1,26 @@
 //! What is doubtful about a fit: each doubt looks at the fit by itself, and is told or not.
 
-use super::frame::FrameFit;
+use super::frame::FrameFits;
 use super::outcome::Fit;
 use crate::trace::{Frame, Pulses, Warning};
 
 /// All doubts about the fit of a frame.
 pub fn doubts(
     fit: &Fit,
-    fitted: &FrameFit,
+    fits: &FrameFits,
     pulses: &Pulses,
     frame: &Frame,
     full_is_given: bool,
 ) -> Vec<Warning> {
     // The sampling interval in seconds.
-    let step = fitted.step * fitted.units.pulse();
+    let step = fits.step * fits.units.pulse();
     let doubts = [
         clipped(fit),
         hum(fit),
         drift(fit),
-        lost_ramps(fit, fitted.correlation, frame, step),
+        lost_ramps(fit, fits.correlation, frame, step),
         if full_is_given { None } else { no_plateau(fit, step) },
-        poor_fit(fit, fitted, pulses),
+        poor_fit(fit, fits, pulses),
     ];
     doubts.into_iter().flatten().collect()
 }
@@ -75,8 +75,8 @@ fn no_plateau(fit: &Fit, step: f64) -> Option<Warning> {
 }
 
 /// Residuals of more than the noise. Noise with a colour differs little between neighbours, so a small misfit is not told.
-fn poor_fit(fit: &Fit, fitted: &FrameFit, pulses: &Pulses) -> Option<Warning> {
-    let rms = fitted.of(fit.chosen).variance().sqrt();
+fn poor_fit(fit: &Fit, fits: &FrameFits, pulses: &Pulses) -> Option<Warning> {
+    let rms = fits.of(fit.chosen).variance().sqrt();
     let noise = pulses.relative_noise();
     (rms > 3.0 * noise && fit.best().rms > 0.01).then_some(Warning::PoorFit { times: rms / noise })
 }

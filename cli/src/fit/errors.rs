@@ -2,7 +2,7 @@
 //! low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
 use super::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
-use super::frame::FrameFit;
+use super::frame::FrameFits;
 use super::missed::{Missed, least_open};
 use super::signal::Kind;
 use super::solve::Cholesky;
@@ -24,7 +24,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    fn times(self, factor: f64) -> Self {
+    fn scaled(self, factor: f64) -> Self {
         Self { value: self.value * factor, error: self.error * factor }
     }
 }
@@ -44,8 +44,8 @@ impl Results {
             error: units.pulse() * m.error,
         };
         Self {
-            exposure: self.exposure.times(units.pulse() * peak),
-            efficiency: self.efficiency.times(peak),
+            exposure: self.exposure.scaled(units.pulse() * peak),
+            efficiency: self.efficiency.scaled(peak),
             triggers: self.triggers.into_iter().map(seconds).collect(),
         }
     }
@@ -55,16 +55,16 @@ impl Results {
 ///
 /// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
 /// Akaike weight, with its own variance and how far it lies from this one.
-pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
-    let mut chosen = OfKind::new(fit, kind).results(n);
+pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
+    let mut chosen = OfKind::new(fits, kind).results(n);
     let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
-    let least = freer().map(|k| fit.aic(k)).fold(f64::INFINITY, f64::min);
-    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fit.aic(k))).exp()).collect();
+    let least = freer().map(|k| fits.aic(k)).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fits.aic(k))).exp()).collect();
     let sum: f64 = weights.iter().sum();
     let all: Vec<(f64, Results)> = freer()
         .zip(weights)
         .filter(|(_, weight)| *weight > 1e-3 * sum)
-        .map(|(k, weight)| (weight / sum, OfKind::new(fit, k).results(n)))
+        .map(|(k, weight)| (weight / sum, OfKind::new(fits, k).results(n)))
         .collect();
     let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
         let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
@@ -80,10 +80,10 @@ pub fn results(fit: &FrameFit, kind: Kind, n: u32) -> Results {
 
 /// One kind's curve with all that its errors come from.
 struct OfKind<'a> {
-    fit: &'a FrameFit,
+    fits: &'a FrameFits,
     kind: Kind,
     curve: Curve,
-    exposure: Exposure,
+    integral: Exposure,
     covariance: Covariance,
     is_straight: bool,
     /// Noise hides how high a peak is, and so what full light is.
@@ -93,19 +93,19 @@ struct OfKind<'a> {
 }
 
 impl<'a> OfKind<'a> {
-    fn new(fit: &'a FrameFit, kind: Kind) -> Self {
-        let exposure = fit.exposure(kind);
-        let curve = exposure.curve;
+    fn new(fits: &'a FrameFits, kind: Kind) -> Self {
+        let integral = fits.exposure(kind);
+        let curve = integral.curve;
         let is_straight = kind <= Kind::Trapezoid;
         Self {
-            fit,
+            fits,
             kind,
             curve,
-            exposure,
-            covariance: Covariance::new(fit, kind),
+            integral,
+            covariance: Covariance::new(fits, kind),
             is_straight,
             is_peak: curve.plateau < PEAK * curve.length(),
-            feet: if is_straight { [0.0; 2] } else { exposure.feet(FOOT) },
+            feet: if is_straight { [0.0; 2] } else { integral.feet(FOOT) },
         }
     }
 
@@ -121,18 +121,19 @@ impl<'a> OfKind<'a> {
     }
 
     fn exposure(&self) -> Measured {
-        let linear = self.covariance.error(&self.exposure.whole().moves);
+        let linear = self.covariance.error(&self.integral.whole().moves);
         let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
         let error = self.unseen().into_iter().fold(noise, f64::hypot);
-        Measured { value: self.exposure.area(), error }
+        Measured { value: self.integral.area(), error }
     }
 
     /// The exposure by the length.
     fn efficiency(&self, Measured { value: area, error: light }: Measured) -> Measured {
         let length = self.curve.length();
         let value = area / length;
+        // Where both are linear in the samples, what they have in common cancels; else the two errors are taken apart.
         if self.is_straight && !self.is_peak {
-            let whole = self.exposure.whole().moves;
+            let whole = self.integral.whole().moves;
             let moves = std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / length);
             return Measured { value, error: self.covariance.error(&moves) };
         }
@@ -144,23 +145,23 @@ impl<'a> OfKind<'a> {
 
     fn triggers(&self, n: u32) -> Vec<Measured> {
         let by_noise = |u: f64| {
-            let (value, moves) = self.exposure.trigger(u);
+            let (value, moves) = self.integral.trigger(u);
             Measured { value, error: self.covariance.error(&moves) }
         };
         let mut triggers: Vec<Measured> = fractions(n).map(by_noise).collect();
-        let by_shape = misfit(self.fit, self.kind, &triggers);
+        let by_shape = misfit(self.fits, self.kind, &triggers);
         let [first, last] = self.unseen();
         for (u, trigger) in fractions(n).zip(&mut triggers) {
             // More light in the first foot makes a trigger earlier, more in the last one makes it later.
             let light = ((1.0 - u) * first).hypot(u * last);
-            let by_feet = light / least_open(&self.exposure, trigger.value);
+            let by_feet = light / least_open(&self.integral, trigger.value);
             trigger.error = trigger.error.hypot(by_shape).hypot(by_feet);
         }
         triggers
     }
 
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
-        searched_error(self.fit, self.kind, whole, linear, self.covariance.variance)
+        searched_error(self.fits, self.kind, whole, linear, self.covariance.variance)
     }
 }
 
@@ -177,8 +178,8 @@ struct Covariance {
 }
 
 impl Covariance {
-    fn new(fit: &FrameFit, kind: Kind) -> Self {
-        let fitted = fit.of(kind);
+    fn new(fits: &FrameFits, kind: Kind) -> Self {
+        let fitted = fits.of(kind);
         let solution = &fitted.solution;
         let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
         // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
@@ -188,16 +189,17 @@ impl Covariance {
             |i: usize, j: usize| solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 };
         let matrix: Vec<Vec<f64>> =
             moving.iter().map(|i| moving.iter().map(|j| cell(*i, *j)).collect()).collect();
-        let n = fit.samples.len() as f64;
-        let free = (n - packed.len() as f64 * fit.correlation).max(0.5 * n);
+        // The degrees of freedom: a parameter takes an independent sample.
+        let n = fits.samples.len() as f64;
+        let free = (n - packed.len() as f64 * fits.correlation).max(0.5 * n);
         let curve = solution.signal.curve;
         let edge =
-            |ramp: f64| fit.step * fit.step / 12.0 * (1.0 - ramp / (2.0 * fit.step)).max(0.0);
+            |ramp: f64| fits.step * fits.step / 12.0 * (1.0 - ramp / (2.0 * fits.step)).max(0.0);
         Self {
             kind,
             moving,
             factor: Cholesky::new(matrix),
-            variance: fitted.squares / free * fit.correlation,
+            variance: fitted.squares / free * fits.correlation,
             edges: [edge(curve.opening), edge(curve.closing)],
         }
     }
@@ -221,18 +223,15 @@ impl Covariance {
 ///
 /// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
 /// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
-fn searched_error(fit: &FrameFit, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
+fn searched_error(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
     const SIDE: f64 = 1.96;
-    let value = whole.of(&fit.of(kind).solution.signal.curve).0;
+    let value = whole.of(&fits.of(kind).solution.signal.curve).0;
     let (least, most) = (1e-4 * value, 0.5 * value);
     let side = |way: f64| {
-        let mut by = if linear.is_finite() {
-            (SIDE * linear).clamp(least, 0.1 * value)
-        } else {
-            0.1 * value
-        };
+        // Where the linear error is unknown, not a number, `min` takes the other.
+        let mut by = (SIDE * linear).min(0.1 * value).max(least);
         for _ in 0..8 {
-            let cost = fit.cost_of(kind, whole, way * by) / (SIDE * SIDE * variance);
+            let cost = fits.cost_of(kind, whole, way * by) / (SIDE * SIDE * variance);
             if (0.8..1.25).contains(&cost) {
                 break;
             }
@@ -248,12 +247,13 @@ fn searched_error(fit: &FrameFit, kind: Kind, whole: Whole, linear: f64, varianc
 /// what noise makes of them.
 ///
 /// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
-/// by a random walk whose ends are tied.
-fn misfit(fit: &FrameFit, kind: Kind, triggers: &[Measured]) -> f64 {
-    let fitted = fit.of(kind);
+/// by a random walk whose ends are tied. The fit has followed as much of that walk as
+/// the triggers' errors say; only the rest shows.
+fn misfit(fits: &FrameFits, kind: Kind, triggers: &[Measured]) -> f64 {
+    let fitted = fits.of(kind);
     let [start, _, _, end] = fitted.solution.signal.curve.times();
-    let variance = fitted.variance() * fit.correlation * fit.step;
-    let missed = Missed::new(fit, kind);
+    let variance = fitted.variance() * fits.correlation * fits.step;
+    let missed = Missed::new(fits, kind);
     let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
         let t = trigger.value;
         let (off, slope) = (missed.off(u, t), missed.slope(t));

@@ -12,7 +12,7 @@ use crate::trace::{Frame, Pulses, sampling_interval};
 
 /// A frame's fits.
 #[derive(Clone, Debug)]
-pub struct FrameFit {
+pub struct FrameFits {
     pub units: Units,
     /// The samples, each with the time that it owns.
     pub samples: Vec<Bin>,
@@ -36,7 +36,7 @@ pub struct KindFit {
     pub squares: f64,
 }
 
-impl FrameFit {
+impl FrameFits {
     /// Fits every kind; `progress` is told the share that is done, as far as that is known.
     pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
@@ -58,6 +58,7 @@ impl FrameFit {
             let like = &free.solution.signal;
             let found = search.every_kind(like, &mut |done| progress(0.5 + 0.5 * done));
             kinds = KindFit::all(found, &samples);
+            // What is known already may be better than where the search ends.
             let last = &mut kinds[Kind::Free as usize];
             if free.solution.cost < last.solution.cost {
                 *last = free;

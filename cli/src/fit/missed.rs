@@ -1,25 +1,26 @@
 //! What a kind's curve misses of the samples, added up along the pulse: by that its trigger times are off.
 
 use super::curve::Exposure;
-use super::frame::FrameFit;
+use super::frame::FrameFits;
 use super::signal::Kind;
 
 /// The least openness that a time is divided by: where the shutter hardly lets light in, a time would have no limit.
 const LEAST_OPENNESS: f64 = 1e-3;
 
+/// The light that a kind's curve misses.
 pub struct Missed {
     pub exposure: Exposure,
     gain: f64,
-    /// Up to each time.
+    /// Up to each time, in the signal's unit by the time's.
     sums: Vec<(f64, f64)>,
 }
 
 impl Missed {
-    pub fn new(fit: &FrameFit, kind: Kind) -> Self {
-        let fitted = fit.of(kind);
+    pub fn new(fits: &FrameFits, kind: Kind) -> Self {
+        let fitted = fits.of(kind);
         let signal = fitted.solution.signal;
         let [start, _, _, end] = signal.curve.times();
-        let inside = fit.samples.iter().zip(&fitted.residuals);
+        let inside = fits.samples.iter().zip(&fitted.residuals);
         let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
         let mut sum = 0.0;
         let sums = inside
@@ -36,7 +37,8 @@ impl Missed {
         least_open(&self.exposure, t) * self.gain
     }
 
-    /// By how much the samples put the time at which `u` is collected later than the curve, which says `t`.
+    /// By how much later than the curve, which says `t`, the samples put the time at which `u` is collected: `u` of all that is
+    /// missed has to come as well, and what is missed up to `t` has come.
     pub fn off(&self, u: f64, t: f64) -> f64 {
         let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];
         let here = until.last().map_or(0.0, |(_, sum)| *sum);

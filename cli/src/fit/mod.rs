@@ -38,7 +38,7 @@ use crate::plan::MOST_TRIGGERS;
 use crate::trace::{Pulses, Refusal, Trace, pulses};
 pub use curve::Curve;
 pub use errors::Measured;
-use frame::FrameFit;
+use frame::FrameFits;
 pub use outcome::{Candidate, Fit, Frames, Options, Reason, Tolerance};
 pub use report::{because, plus_minus, text};
 pub use scene::{Scene, Zero};
@@ -57,13 +57,13 @@ pub fn fit(
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
     let pulses = pulses(trace, options.light)?;
     let asked = shots::asked(&pulses.frames, options.frame)?;
-    let fits = fits(&pulses, asked, options, progress);
-    let (fitted, shots) = (&fits[0], Shots::new(&fits, n));
+    let frames = fit_frames(&pulses, asked, options, progress);
+    let (fits, shots) = (&frames[0], Shots::new(&frames, n));
 
-    let candidates = choice::candidates(fitted, shots.as_ref(), n);
-    let (chosen, reason) = choice::choose(options, &candidates, fitted, shots.as_ref());
+    let candidates = choice::candidates(fits, shots.as_ref(), n);
+    let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
     let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
-    let results = errors::results(fitted, chosen, n).outside(&fitted.units, peak);
+    let results = errors::results(fits, chosen, n).outside(&fits.units, peak);
 
     let frame = &pulses.frames[asked];
     let mut fit = Fit {
@@ -78,28 +78,28 @@ pub fn fit(
         warnings: pulses.warnings.clone(),
         samples: pulses.trace.part(&frame.samples),
         inverted: pulses.inverted,
-        middle: fitted.units.seconds(0.0),
+        middle: fits.units.seconds(0.0),
     };
-    let doubts = doubts::doubts(&fit, fitted, &pulses, frame, options.full.is_some());
+    let doubts = doubts::doubts(&fit, fits, &pulses, frame, options.full.is_some());
     fit.warnings.extend(doubts);
     Ok(fit)
 }
 
 /// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.
-fn fits(
+fn fit_frames(
     pulses: &Pulses,
     asked: usize,
     options: &Options,
     progress: &mut dyn FnMut(f64),
-) -> Vec<FrameFit> {
+) -> Vec<FrameFits> {
     let is_chosen = options.model.is_none() && options.tolerance.is_none();
     let others = if is_chosen { shots::others(&pulses.frames, asked) } else { Vec::new() };
     let steps = 1.0 + others.len() as f64;
-    let mut fits = Vec::new();
+    let mut frames = Vec::new();
     for (i, k) in once(asked).chain(others).enumerate() {
         let mut progress = |done: f64| progress((i as f64 + done) / steps);
-        fits.push(FrameFit::new(pulses, &pulses.frames[k], &mut progress));
+        frames.push(FrameFits::new(pulses, &pulses.frames[k], &mut progress));
     }
     progress(1.0);
-    fits
+    frames
 }

@@ -2,7 +2,7 @@
 //! has not seen.
 
 use super::curve::fractions;
-use super::frame::FrameFit;
+use super::frame::FrameFits;
 use super::missed::Missed;
 use super::signal::Kind;
 use crate::trace::{Frame, Refusal};
@@ -48,29 +48,31 @@ pub struct Shots {
 }
 
 impl Shots {
-    /// The shots by their fits, if these are enough; the first one's exposure counts.
-    pub fn new(fits: &[FrameFit], n: u32) -> Option<Self> {
-        if fits.len() < FEWEST {
+    /// The shots by their frames' fits, if these are enough; the first one's exposure counts.
+    pub fn new(frames: &[FrameFits], n: u32) -> Option<Self> {
+        if frames.len() < FEWEST {
             return None;
         }
-        let exposure = fits[0].exposure(Kind::Free).area() * fits[0].units.pulse();
+        let exposure = frames[0].exposure(Kind::Free).area() * frames[0].units.pulse();
         // Counted from their mean: when a shot starts says nothing.
-        let centred = |fit: &FrameFit, times: Vec<f64>| -> Vec<f64> {
+        let centred = |fits: &FrameFits, times: Vec<f64>| -> Vec<f64> {
             let mean = times.iter().sum::<f64>() / times.len() as f64;
-            times.iter().map(|t| (t - mean) * fit.units.pulse() / exposure).collect()
+            times.iter().map(|t| (t - mean) * fits.units.pulse() / exposure).collect()
         };
-        let seen: Vec<_> = fits.iter().map(|fit| centred(fit, measured_triggers(fit, n))).collect();
+        let seen: Vec<_> =
+            frames.iter().map(|fits| centred(fits, measured_triggers(fits, n))).collect();
         let errors = Kind::ALL.map(|kind| {
-            let told: Vec<_> = fits.iter().map(|fit| centred(fit, fit.triggers(kind, n))).collect();
+            let told: Vec<_> =
+                frames.iter().map(|fits| centred(fits, fits.triggers(kind, n))).collect();
             apart(&told, &seen)
         });
-        Some(Self { count: fits.len(), scatter: apart(&seen, &seen), errors })
+        Some(Self { count: frames.len(), scatter: apart(&seen, &seen), errors })
     }
 }
 
 /// The trigger times as the samples have them: those of the freest kind, put right by what it misses.
-fn measured_triggers(fit: &FrameFit, n: u32) -> Vec<f64> {
-    let missed = Missed::new(fit, Kind::Free);
+fn measured_triggers(fits: &FrameFits, n: u32) -> Vec<f64> {
+    let missed = Missed::new(fits, Kind::Free);
     let put_right = |u: f64| {
         let t = missed.exposure.trigger(u).0;
         t + missed.off(u, t)

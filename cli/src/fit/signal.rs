@@ -37,9 +37,9 @@ impl Kind {
     pub const fn parameters(self) -> usize {
         match self {
             Self::Box => 2,
-            Self::Trapezoid => 4,
-            Self::Symmetric => 8,
-            Self::Free => 12,
+            Self::Trapezoid => CONTROLS,
+            Self::Symmetric => CONTROLS + 4,
+            Self::Free => PARAMETERS,
         }
     }
 
