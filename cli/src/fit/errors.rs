@@ -247,8 +247,8 @@ fn searched_error(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, varia
 /// what noise makes of them.
 ///
 /// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
-/// by a random walk whose ends are tied. The fit has followed as much of that walk as
-/// the triggers' errors say; only the rest shows.
+/// by a random walk whose ends are tied. The fit has followed as much of that walk as the triggers' errors say; only the rest
+/// shows.
 fn misfit(fits: &FrameFits, kind: Kind, triggers: &[Measured]) -> f64 {
     let fitted = fits.of(kind);
     let [start, _, _, end] = fitted.solution.signal.curve.times();

@@ -92,8 +92,8 @@ fn fit_frames(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Vec<FrameFits> {
-    let is_chosen = options.model.is_none() && options.tolerance.is_none();
-    let others = if is_chosen { shots::others(&pulses.frames, asked) } else { Vec::new() };
+    let shots_decide = options.model.is_none() && options.tolerance.is_none();
+    let others = if shots_decide { shots::others(&pulses.frames, asked) } else { Vec::new() };
     let steps = 1.0 + others.len() as f64;
     let mut frames = Vec::new();
     for (i, k) in once(asked).chain(others).enumerate() {
