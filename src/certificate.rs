@@ -1,160 +1,182 @@
-//! The certificate of an octave: a bound of its polynomial's error over all of it, not at samples alone.
-//!
-//! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to 1:
-//! the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f` beside
-//! it, `R f` is the error in exposure, of degree 51. Nothing is inverted for it, and where time has a kink over exposure,
-//! these polynomials have none.
-//!
-//! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
-//! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M
-//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. To `M`
-//! only that counts which has a degree beyond `n`. That is not `t`, not `c₁ x`, and not `Q(x₀ + x₁ s)`. So with `Y₁ =
-//! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
-//! on is enough, and for `R f` that times `Σ |f_k| A^k`.
-//!
-//! Each sample goes the answer's own way, from the position of a fraction to the polynomial's value in 32 bits, so that
-//! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between them.
-//! All else may be in `f32`, whose rounding [`SLACK`] makes up for.
-//!
-//! docs/proofs.md leads from this to what an answer is off by.
+//! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
-use crate::octave::{DEGREE, Octave};
-use crate::path::{Path, absolute, unknown, value};
+use crate::bound::{KINDS, WAYS, errors};
+use crate::candidate::Candidate;
+use crate::path::{Path, Side, absolute, scale, singles, unknown, value};
+use crate::span::Span;
+use crate::units::{exponent, floor_bits, power_of_two};
 
-/// Even numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
-const POINTS: [(usize, f64); 3] =
-    [(22, 0.9898214418809327), (48, 0.9978589232386035), (96, 0.9994645874763657)];
+/// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
+pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
+/// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
+/// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
+pub(crate) const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
+/// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the lesser
+/// one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
+pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// The number of ways to a bound.
-pub(crate) const WAYS: usize = POINTS.len();
-
-/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried, which
-/// `Q(x₀ + x₁ s) f` does not exceed.
-const ELLIPSES: [[f32; 3]; 6] =
-    [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
-
-const fn ellipse(rho: f32) -> [f32; 3] {
-    let square = 1.0 / (rho * rho);
-    let twelfth = square * square * square * square * square * square;
-    [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)]
-}
-
-/// Half of the least degree, and how many degrees are tried, each greater by 2.
-const HALF_DEGREE: usize = 6;
-const DEGREES: usize = 7;
-
-/// More than the 181 roundings of an `f32` that make a bound too small at most.
+/// How far off a fraction may be, by this and by this share of it: where an octave's ramp is looked up, for joins are
+/// rounded, and on a path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
-const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
+pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
+/// The same of a time.
+const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// The products of the error with cubics: 1 first, which is the error itself.
-pub(crate) const KINDS: usize = 3;
+/// 1, but for what single precision rounds.
+const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
-/// The greatest errors: what they are at least, by the samples, and at most.
-pub(crate) struct Errors {
-    pub(crate) least: [f32; KINDS],
-    pub(crate) most: [f32; KINDS],
-}
-
-/// The errors of an octave's polynomial along a stretch, whose fraction counts as a position does, and whose time in
-/// the unit of the coefficients. Samples are wrong by at most `noise`. For the tails the offset `x` by powers of `s`, in
-/// single precision.
-#[inline(never)]
-pub(crate) const fn errors(
-    octave: &Octave,
-    along: &Path,
-    x: &[f32; 7],
-    weights: &[[f32; 4]; KINDS],
-    noise: f32,
-    way: usize,
-) -> Errors {
-    let (points, cosine) = POINTS[way % WAYS];
-    // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
-    let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
-    let (mut s, mut last, mut i) = (1.0, cosine, 0);
-    while i <= points {
-        let position = nearest(value(&along.fraction, s));
-        let rest = octave.rest(octave.ahead_of_center(position));
-        let error = (rest as f64 - value(&along.time, s)).abs() as f32;
-        let mut kind = KINDS;
-        loop {
-            kind = unknown(kind).wrapping_sub(1);
-            if kind >= KINDS {
-                break;
-            }
-            let error = error * single(&weights[kind], s as f32).abs();
-            // A NaN stays, and is refused.
-            seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
+impl Side<'_> {
+    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, in what they may be at most.
+    #[inline(never)]
+    pub(crate) const fn certificate(
+        &self,
+        candidate: &Candidate,
+        span: &Span,
+        mut along: Path,
+        ramp: usize,
+        [first, last]: [f64; 2],
+    ) -> [f32; 4] {
+        let Candidate { ref octave, middle, unit, steep, truncated } = *candidate;
+        let (exposure, side) = (self.exposure, self.side);
+        // What an error may be is 1 in each of these units.
+        let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
+        let (off, ulp) = (
+            OFF[0] + OFF[1] * span.to,
+            power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
+        );
+        let per = unit as f32;
+        let per_tick = per / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
+        // In `f64`, since the openness of a single curve may have any scale.
+        let per_light = unit / exposure.area / (ULP_ERROR * ulp - off) as f64;
+        let per_size = [
+            per / self.size_of_time(ends[0]) / FORWARD_ERROR,
+            per / self.size_of_time(ends[1]) / FORWARD_ERROR,
+        ];
+        // In the unit of the coefficients.
+        along.time[0] -= middle;
+        scale(&mut along.time, 1.0 / unit, 1.0);
+        let time = singles(&along.time, 0.0, 1.0);
+        let openness = singles(&along.openness, 0.0, per_light);
+        // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in time, so
+        // it lies below the chord between both ends.
+        let [_, t1, t2, t3] = time;
+        let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
+        let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];
+        let (center, per_position) = span.offsets();
+        let offset = singles(&along.fraction, center, per_position);
+        let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
+        let limits = Limits {
+            rounding: truncated + steep * off / span.width + (ends[1] / unit) as f32 * ROUNDED,
+            lost: steep * 2.0 * (per_position as f32),
+            per_tick,
+            per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
+            beyond: if is_joined {
+                (self.greatest_beyond(ramp, per / per_tick) * per_light) as f32
+            } else {
+                0.0
+            },
+            time,
+            openness,
+        };
+        let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
+        let noise = limits.rounding + 0.25 * limits.lost;
+        let (mut way, mut bounds) = (0, [f32::INFINITY; 4]);
+        while way < WAYS {
+            let errors = errors(octave, &along, &offset, &weights, noise, way);
+            bounds = limits.share(&errors.most);
+            // If the samples alone are too wrong, no closer bound helps.
+            way = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
+                WAYS
+            } else {
+                way + 1
+            };
         }
-        let half = i.wrapping_sub(HALF_DEGREE);
-        if half < DEGREES {
-            shares[half] = s as f32;
-        }
-        (s, last) = (2.0 * cosine * s - last, s);
-        i += 1;
+        bounds
     }
-    let (mut errors, mut kind) = (Errors { least: seen, most: seen }, KINDS);
-    loop {
-        kind = unknown(kind).wrapping_sub(1);
-        if kind >= KINDS {
-            return errors;
+
+    /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
+    /// at most the interval, since ticks are counted from its start.
+    #[inline(never)]
+    pub(crate) const fn size_of_time(&self, since: f64) -> f32 {
+        let [start, end] = [self.exposure.outer(0), self.exposure.outer(1)];
+        let time = if self.side == 0 { start as f64 + since } else { end as f64 - since };
+        let size = if !(start < 0.0 && end > 0.0) {
+            (time as f32).abs()
+        } else if end > -start {
+            end
+        } else {
+            -start
+        };
+        if size < end - start { size } else { end - start }
+    }
+
+    /// A bound of the openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
+    #[inline(never)]
+    const fn greatest_beyond(&self, ramp: usize, time: f32) -> f64 {
+        if self.exposure.has_plateau() {
+            return 1.0;
         }
-        let noise = noise * absolute(&weights[kind], 1.0);
-        errors.least[kind] -= noise;
-        errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);
+        // Seen from there.
+        let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
+        let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
+        let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
+        let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
+        while doublings > 0
+            && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
+        {
+            p *= 2.0;
+            doublings = unknown(doublings - 1);
+        }
+        // f' is three times the differences, or between.
+        let bends = (f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs();
+        f0 as f64 + 3.0 * p as f64 * bends as f64
     }
 }
 
-/// The bound that follows from the greatest sample, by the best ellipse and degree.
-#[inline(never)]
-const fn bound(
-    octave: &Octave,
-    x: &[f32; 7],
-    weight: &[f32; 4],
-    seen: f32,
-    shares: &[f32; DEGREES],
-) -> f32 {
-    let (mut least, mut i) = (f32::INFINITY, 0);
-    while i < ELLIPSES.len() {
-        let [axis, square, first] = ELLIPSES[i];
-        let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis);
-        let mut half = 0;
-        // A share of 0 or less is that of no degree below the number of points.
-        while half < DEGREES && shares[half] > 0.0 {
-            let bound = (seen + tail) / shares[half] + tail;
-            least = if bound < least { bound } else { least };
-            tail *= square;
-            half = unknown(half + 1);
+/// What an error is held against, in single precision. An error of 1 is the greatest that is allowed.
+struct Limits {
+    /// What rounding adds to the error in time.
+    rounding: f32,
+    /// What a tick's fraction loses in 32 bits, in time.
+    lost: f32,
+    per_tick: f32,
+    /// The greater one of both ends'.
+    per_size: f32,
+    /// The light in a unit of time beyond the ramp's inner end.
+    beyond: f32,
+    time: [f32; 4],
+    openness: [f32; 4],
+}
+
+impl Limits {
+    /// Errors in time, in light, and relative to the time, with what rounding adds, as shares of what they may be: for a
+    /// tick, relative to the time, in light, and in light beyond the ramp.
+    #[inline(never)]
+    const fn share(&self, &[time, light, relative]: &[f32; KINDS]) -> [f32; 4] {
+        let error = time + self.rounding;
+        // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
+        // never falls rises at least as fast as around a point where it stands still.
+        let [_, t1, t2, t3] = self.time;
+        let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
+        let slowest =
+            if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
+        let slowest = slowest - most / (1 << 20) as f32;
+        let mut way = error / most;
+        while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
+            way *= 2.0;
         }
-        i = unknown(i + 1);
-    }
-    least
-}
-
-/// `Σ |c_k| (Y^k - Y₁^k)`: how far `Q(x)` may be from `Q(x₀ + x₁ s)` on an ellipse, but for the term `c₁ x`.
-#[inline(never)]
-const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
-    let linear = x0.abs() + x1.abs() * axis;
-    let curve = absolute(curved, axis) * axis * axis;
-    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
-    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= DEGREE {
-            return sum;
-        }
-        more = (linear + curve) * more + curve * power;
-        power *= linear;
-        sum += octave.c[k].unsigned_abs() as f32 * more;
+        let [_, f1, f2, f3] = self.openness;
+        let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
+        [
+            (error + self.lost) * self.per_tick,
+            relative + self.rounding * self.per_size,
+            light + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
+            error * self.beyond,
+        ]
     }
 }
 
-/// The nearest integer, nearly, in 32 bits, which wraps as positions do.
-const fn nearest(x: f64) -> i32 {
-    (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i64 as i32
-}
-
-/// The value at `x` of a cubic by its coefficients, from the constant one up.
-const fn single(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
-    c0 + x * (c1 + x * (c2 + x * c3))
+/// Is none more than it may be? Written so that a NaN fails.
+pub(crate) const fn certain(&[tick, relative, light, beyond]: &[f32; 4]) -> bool {
+    tick <= CERTAIN && relative <= CERTAIN && light <= CERTAIN && beyond <= CERTAIN
 }

@@ -147,7 +147,8 @@ impl Exposure {
         ]
     }
 
-    /// The same, but 1/2 within a [`trace`](Self::trace) of that.
+    /// The same, but 1/2 within a [`trace`](Self::trace) of that. Out of line, as it is long in soft doubles.
+    #[inline(never)]
     pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
         let [near, far] = self.exact_joins(side);
         let trace = self.trace() as f64 / DOUBLE_WORD;

@@ -8,6 +8,21 @@ use crate::cubic::Cubic;
 use crate::exposure::Exposure;
 use crate::shape::Shape;
 
+/// A side of the curve, as its octaves are built.
+pub(crate) struct Side<'a> {
+    pub(crate) exposure: &'a Exposure,
+    pub(crate) shapes: &'a [Shape; 2],
+    pub(crate) side: usize,
+    /// The exponent of the unit of time.
+    pub(crate) unit: i32,
+}
+
+impl Side<'_> {
+    pub(crate) const fn path(&self, ramp: usize) -> Path {
+        Path::new(self.exposure, &self.shapes[ramp & 1], self.side, ramp)
+    }
+}
+
 /// A ramp, or a stretch of one, by powers of a place on it.
 #[derive(Clone, Copy)]
 pub(crate) struct Path {

@@ -25,9 +25,10 @@ use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::octave::{self, NO_TIME, Octave};
-use crate::octaves::{self, Span};
+use crate::octaves;
 use crate::pair::Pair;
 use crate::shape::Shape;
+use crate::span::Span;
 use crate::units::{
     FINE, FINE_DOUBLE_WORD, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64,
     time_unit,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use shutter::facts;
-use shutter::plan::Plan;
+use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::{Scene, Values};
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
@@ -15,8 +15,7 @@ use crate::cost::{BYTES, COSTS, Cost};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
-/// More triggers are not drawn.
-const MOST: u32 = 10_000;
+
 /// More pulses are not told apart in the pictures of the set-ups.
 const MOST_DOSES: usize = 128;
 
@@ -146,7 +145,7 @@ impl View {
                 return Err(Wrong { ramp: ramp(error), ..fault.into() });
             }
         };
-        let n = scene.triggers().min(MOST);
+        let n = scene.triggers().min(MOST_TRIGGERS);
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
         let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
         let u = |i: f32| i / n as f32;

@@ -1,12 +1,15 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
 use crate::bezier::CubicBezier;
+use crate::candidate::NODES;
+use crate::certificate::{FORWARD_ERROR, OFF, TICK_ERROR, ULP_ERROR};
 use crate::error::Part;
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
-use crate::octaves::{FORWARD_ERROR, NODES, OFF, Side, Span, TICK_ERROR, ULP_ERROR, build, range};
-use crate::path::Path;
+use crate::octaves::{build, range};
+use crate::path::{Path, Side};
 use crate::shape::Shape;
+use crate::span::Span;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};

@@ -1,0 +1,154 @@
+//! A candidate for an octave: the polynomial through the exact times at a few nodes, in the integers of the answer.
+
+use crate::octave::{DEGREE, Octave};
+use crate::path::{Path, Side, root, singles, unknown, value};
+use crate::span::Span;
+use crate::units::{exponent, fixed, power_of_two_f64};
+
+/// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
+pub(crate) const NODES: [f32; DEGREE + 1] = [
+    -0.984_807_7,
+    -0.8660254,
+    -0.64278764,
+    -0.34202015,
+    0.0,
+    0.34202015,
+    0.64278764,
+    0.8660254,
+    0.984_807_7,
+];
+
+/// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
+/// (`proofs/octaves.py`). A polynomial's middle makes up for the middle of that.
+const TRUNCATION: f32 = 1.328;
+const TRUNCATED: f64 = -0.664;
+
+/// A polynomial as it is held against the exact time.
+pub(crate) struct Candidate {
+    pub(crate) octave: Octave,
+    /// The time from the side's start that its value is added to.
+    pub(crate) middle: f64,
+    /// The unit of its value, in time.
+    pub(crate) unit: f64,
+    /// A bound of its slope.
+    pub(crate) steep: f32,
+    /// What rounding adds to it, with that of the side's start.
+    pub(crate) truncated: f32,
+}
+
+impl Side<'_> {
+    /// The polynomial along a stretch, in the unit in which its coefficients fill their words.
+    #[inline(always)]
+    pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
+        let c = span.interpolated(stretch);
+        // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
+        let reach = span.half / span.width + 0.01;
+        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
+        while k > 0 && k <= DEGREE {
+            steep = steep * reach + bound;
+            bound = c[k].abs() as f32 + bound * reach;
+            most = if bound > most { bound } else { most };
+            k = unknown(k - 1);
+        }
+        steep = steep * reach + bound;
+        most *= 1.0 + 1.0 / (1 << 16) as f32;
+        if !(most > 0.0 && most < f32::MAX) {
+            return None;
+        }
+        let exponent = exponent(most) - 30;
+        let exponent = if exponent < self.unit { self.unit } else { exponent };
+        if exponent - self.unit > 30 {
+            return None;
+        }
+        let (unit, per_unit) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
+        let factor = 1 << (exponent - self.unit);
+        let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
+        let mut k = DEGREE;
+        while k > 0 && k <= DEGREE {
+            octave.c[DEGREE - k] = round(c[k] * per_unit);
+            k = unknown(k - 1);
+        }
+        let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;
+        let start = fixed(self.exposure.outer(self.side), self.unit);
+        octave.middle = if self.side == 0 { start + middle } else { start - middle };
+        octave.factor = if self.side == 0 { factor } else { -factor };
+        Some(Candidate {
+            octave,
+            middle: middle as f64 * power_of_two_f64(self.unit),
+            unit,
+            steep: steep * per_unit as f32,
+            truncated: TRUNCATION + 1.0 / factor as f32,
+        })
+    }
+}
+
+impl Span {
+    /// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
+    #[inline(never)]
+    const fn interpolated(&self, along: &Path) -> [f64; DEGREE + 1] {
+        let (center, per_position) = self.offsets();
+        let mut offset = singles(&along.fraction, center, per_position);
+        let [x0, x1, x2, x3, x4, x5, x6] = offset;
+        let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
+        // Divided differences ...
+        let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], DEGREE + 1);
+        loop {
+            i = unknown(i).wrapping_sub(1);
+            if i > DEGREE {
+                break;
+            }
+            // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
+            // other, for its error to be small; so single precision is enough.
+            offset[0] = x0 - (even + odd * NODES[i]);
+            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
+            let place = place as f64;
+            x[i] = (value(&along.fraction, place) - center) * per_position;
+            d[i] = value(&along.time, place);
+        }
+        let mut order = 1;
+        while order <= DEGREE {
+            divided_differences(&mut d, &x, order);
+            order = unknown(order + 1);
+        }
+        // ... multiplied out into powers of x, from the highest order on.
+        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
+        loop {
+            i = unknown(i).wrapping_sub(1);
+            if i > DEGREE {
+                return c;
+            }
+            multiply(&mut c, x[i], d[i]);
+        }
+    }
+}
+
+/// The divided differences of the next order, in the places from it on. Out of line, as the next function, because loops
+/// that the compiler unrolls in each place cost kilobytes.
+#[inline(never)]
+const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
+    let (mut i, mut last) = (order.wrapping_sub(1), 0.0);
+    while i <= DEGREE {
+        let (this, first) = (d[i], i.wrapping_sub(order));
+        // Not where it has but begun.
+        if first <= DEGREE {
+            d[i] = (this - last) / (x[i] - x[first]);
+        }
+        last = this;
+        i = unknown(i + 1);
+    }
+}
+
+/// A polynomial times `x - root`, and a constant added.
+#[inline(never)]
+const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
+    let mut k = DEGREE;
+    while k > 0 && k <= DEGREE {
+        c[k] = c[k - 1] - c[k] * root;
+        k = unknown(k - 1);
+    }
+    c[0] = constant - c[0] * root;
+}
+
+const fn round(x: f64) -> i32 {
+    (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
+}

@@ -1,0 +1,69 @@
+//! A span: the part of an octave that its polynomial serves, and how positions on it are counted.
+
+use crate::octave::FINER;
+use crate::path::{Path, scale};
+use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
+
+/// As long as half of a part is at most this share of the width, the unit is halved; so the half is at most 0.48 of it. The
+/// 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the most.
+// proofs/octaves.py
+const FILLED: f32 = 0.24;
+const MOST_FINER: u32 = 17;
+
+/// The part of an octave that its polynomial serves, in `a`.
+pub(crate) struct Span {
+    /// Where it begins, and where it ends.
+    pub(crate) from: f64,
+    pub(crate) to: f32,
+    /// The middle, and how far the polynomial reaches from there: some ulp beyond what it serves.
+    pub(crate) middle: f32,
+    pub(crate) half: f32,
+    /// The power of two that is in the octave, or at its end: what positions count 2⁻³² of.
+    pub(crate) octave: f32,
+    /// What offsets count 2⁻³² of: 2 to minus `finer` of that.
+    pub(crate) width: f32,
+    finer: u32,
+}
+
+impl Span {
+    /// Of the octave below the bits of its `top`; none where it holds nothing of the range.
+    pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {
+        let high = f32::from_bits(top);
+        let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
+        let to = if range[1] < high as f64 { range[1] } else { high as f64 };
+        if top < LEAST_TOP || from >= to {
+            return None;
+        }
+        let to = to as f32;
+        let octave = power_of_two(exponent(high));
+        let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave;
+        let middle = 0.5 * (from as f32 + to);
+        // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it: the
+        // center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift. At
+        // a quarter of the width, a half of exactly this left the word, and the polynomial gave the time of its other
+        // end.
+        let (mut width, mut finer) = (octave, 0);
+        while finer < MOST_FINER && half <= FILLED * width {
+            width *= 0.5;
+            finer += 1;
+        }
+        Some(Self { from, to, middle, half, octave, width, finer })
+    }
+
+    /// The middle's position, nearly, with the shift in its lowest bits; in 33 bits, as it counts from 0.
+    pub(crate) const fn center(&self) -> u64 {
+        (self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
+    }
+
+    /// A stretch, its fractions counted as positions are, from the power of two on.
+    pub(crate) const fn counted(&self, mut stretch: Path) -> Path {
+        stretch.fraction[0] -= self.octave as f64;
+        scale(&mut stretch.fraction, (WORD / self.octave) as f64, 1.0);
+        stretch
+    }
+
+    /// The center as a position, and the offset of a position.
+    pub(crate) const fn offsets(&self) -> (f64, f64) {
+        (self.center() as f64 - WORD as f64, (self.octave / self.width / WORD) as f64)
+    }
+}
