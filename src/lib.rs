@@ -21,7 +21,8 @@
 //! # Ok::<(), shutter_curve::ScheduleError>(())
 //! ```
 //!
-//! The README has the promised accuracy, the cost on a microcontroller, the features and the limits.
+//! The README has the promised accuracy, the cost on a microcontroller, and the limits. Features: `heapless-v0_9` for a
+//! schedule in a `heapless::Vec`, `defmt` for `Format` of the public types.
 
 #![cfg_attr(not(test), no_std)]
 // docs.rs says of each item which feature it needs.
