@@ -1,13 +1,14 @@
 //! A firmware's functions, from its ELF file, and its instructions, as `llvm-objdump` shows them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+use object::read::Bytes;
+use object::{LittleEndian, Object, ObjectSection, ObjectSymbol, SymbolKind, U32};
 
-use crate::firmware::{Core, OBJDUMP, missing};
+use crate::Result;
+use crate::firmware::{Core, OBJDUMP, succeeded};
 
 pub struct Instruction {
     pub address: u32,
@@ -32,51 +33,34 @@ pub struct Disassembly {
     pub statics: u64,
 }
 
-/// The instructions' places: half an address, from the first one.
-#[derive(Clone, Copy)]
-pub struct Places {
-    first: u32,
-    pub count: usize,
-}
-
-impl Places {
-    pub fn of(&self, address: u32) -> usize {
-        (address.wrapping_sub(self.first) / 2) as usize
-    }
-}
-
 impl Disassembly {
-    pub fn of(core: Core, elf: &Path) -> Result<Self, String> {
-        let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
-        let bytes = std::fs::read(elf).map_err(|error| failed(&error))?;
-        let file = object::File::parse(&*bytes).map_err(|error| failed(&error))?;
+    pub fn of(core: Core, elf: &Path) -> Result<Self> {
+        let bytes = std::fs::read(elf)?;
+        let file = object::File::parse(&*bytes)?;
         let mut functions = BTreeMap::new();
         for symbol in file.symbols().filter(|s| s.kind() == SymbolKind::Text && s.size() > 0) {
-            let name = symbol.name().map_err(|error| failed(&error))?.to_owned();
-            let function = Function { symbol: name, size: symbol.size() as u32, stack: None };
+            let (name, size) = (symbol.name()?.to_owned(), symbol.size() as u32);
+            let function = Function { symbol: name, size, stack: None };
             functions.insert(symbol.address() as u32 & !1, function);
         }
-        if let Some(section) = file.section_by_name(".stack_sizes") {
-            let sizes = section.data().map_err(|error| failed(&error))?;
-            for (address, size) in stack_sizes(sizes) {
-                if let Some(function) = functions.get_mut(&(address & !1)) {
-                    function.stack = Some(size);
-                }
+        // Pairs of an address and a size.
+        let mut sizes =
+            Bytes(file.section_by_name(".stack_sizes").map_or(Ok(&[][..]), |s| s.data())?);
+        while let (Ok(address), Ok(size)) =
+            (sizes.read::<U32<LittleEndian>>(), sizes.read_uleb128())
+        {
+            let function = functions.get_mut(&(address.get(LittleEndian) & !1));
+            if let Some(function) = function {
+                function.stack = Some(size as u32);
             }
         }
         let size = |name| file.section_by_name(name).map_or(0, |section| section.size());
         let statics = size(".data") + size(".bss");
 
-        let output = Command::new(OBJDUMP)
-            .args(["-d", "--no-leading-headers"])
-            .args(core.disassembled_with())
-            .arg(elf)
-            .output();
-        let output = output.map_err(|error| missing(OsStr::new(OBJDUMP), &error))?;
-        if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-        }
-        let text = String::from_utf8_lossy(&output.stdout);
+        let mut objdump = Command::new(OBJDUMP);
+        objdump.args(["-d", "--no-leading-headers"]).args(core.disassembled_with).arg(elf);
+        let output = succeeded(OBJDUMP, objdump.output())?.stdout;
+        let text = String::from_utf8_lossy(&output);
         let mut instructions: Vec<_> = text.lines().filter_map(instruction).collect();
         instructions.sort_by_key(|i: &Instruction| i.address);
         for i in 1..instructions.len() {
@@ -87,11 +71,15 @@ impl Disassembly {
         Ok(Self { instructions, functions, statics })
     }
 
-    pub fn places(&self) -> Places {
-        let mut places =
-            Places { first: self.instructions.first().map_or(0, |i| i.address), count: 0 };
-        places.count = self.instructions.last().map_or(0, |i| places.of(i.address) + 1);
-        places
+    /// An instruction's place: half its address, from the first one on.
+    pub fn place(&self, address: u32) -> usize {
+        let first = self.instructions.first().map_or(0, |i| i.address);
+        (address.wrapping_sub(first) / 2) as usize
+    }
+
+    /// How many places there are.
+    pub fn places(&self) -> usize {
+        self.instructions.last().map_or(0, |i| self.place(i.address) + 1)
     }
 
     /// The instances of the firmware's function `name`, one for each number of cells, in no order.
@@ -109,11 +97,6 @@ impl Disassembly {
         &self.instructions[from..to]
     }
 
-    /// The functions that a function calls or jumps to directly.
-    pub fn calls(&self, function: u32) -> BTreeSet<u32> {
-        self.branches(function, |_| true)
-    }
-
     /// The functions that a function goes to by branches of some kind.
     fn branches(&self, function: u32, kind: impl Fn(&Instruction) -> bool) -> BTreeSet<u32> {
         let branches = self.in_function(function).iter().filter(|i| kind(i));
@@ -127,7 +110,7 @@ impl Disassembly {
         let (mut reached, mut open) = (BTreeSet::new(), vec![function]);
         while let Some(function) = open.pop() {
             if reached.insert(function) {
-                open.extend(self.calls(function));
+                open.extend(self.branches(function, |_| true));
             }
         }
         reached
@@ -185,7 +168,7 @@ impl Disassembly {
             let f = &self.functions[&start];
             let _ = writeln!(out, "\n{:#} ({} bytes)", rustc_demangle::demangle(&f.symbol), f.size);
             for i in self.in_function(start) {
-                let (count, cycles) = profile[self.places().of(i.address)];
+                let (count, cycles) = profile[self.place(i.address)];
                 let a_call = |n: u32| f64::from(n) / f64::from(calls);
                 let counts = if count == 0 {
                     " ".repeat(16)
@@ -256,19 +239,6 @@ fn number(text: &str) -> Option<u32> {
         Some(digits) => u32::from_str_radix(digits, 16).ok(),
         None => text.parse().ok(),
     }
-}
-
-/// Pairs of an address, four bytes, and a size in LEB128.
-fn stack_sizes(mut section: &[u8]) -> Vec<(u32, u32)> {
-    let mut sizes = Vec::new();
-    while let Some((address, rest)) = section.split_first_chunk::<4>() {
-        let length = rest.iter().take_while(|byte| **byte & 0x80 != 0).count() + 1;
-        let (leb, rest) = rest.split_at(length.min(rest.len()));
-        let size = leb.iter().rev().fold(0, |size, byte| size << 7 | u32::from(byte & 0x7F));
-        sizes.push((u32::from_le_bytes(*address), size));
-        section = rest;
-    }
-    sizes
 }
 
 /// The registers in `{r4, r5, r7, lr}` or `{d8-d10}`.

@@ -1,16 +1,20 @@
-//! Builds the firmware and runs it in QEMU.
+//! Builds what is measured, for each processor, and runs it there.
 
-use std::ffi::OsStr;
-use std::io::{ErrorKind, Write};
+use std::fs::File;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
-/// What the firmware's programs are built for and run on.
+use crate::Result;
+
+/// What the programs are built for and run on.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
     runs_in: RunsIn,
+    /// What the disassembler is told, since an older one does not take it from the file.
+    pub disassembled_with: Option<&'static str>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -24,52 +28,50 @@ enum RunsIn {
 
 use RunsIn::{Board, Linux, Node};
 
-pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"));
+const fn core(
+    name: &'static str,
+    target: &'static str,
+    runs_in: RunsIn,
+    disassembled_with: Option<&'static str>,
+) -> Core {
+    Core { name, target, runs_in, disassembled_with }
+}
+
+pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"), None);
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"));
-pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", Board("mps2-an505"));
-pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", Linux("qemu-riscv32"));
+pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"), None);
+const RISCV32: RunsIn = Linux("qemu-riscv32");
+pub const IMC: Core =
+    core("riscv32imc", "riscv32imc-unknown-none-elf", RISCV32, Some("--mattr=+m,+c"));
+pub const RISCV64: Core =
+    core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"), None);
+pub const M33: Core = core(
+    "Cortex-M33",
+    "thumbv8m.main-none-eabihf",
+    Board("mps2-an505"),
+    Some("--mattr=+fp-armv8d16sp,+dsp"),
+);
 pub const IMAFC: Core =
-    core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
-pub const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
-pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
-pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
-pub const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
-pub const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
+    core("riscv32imafc", "riscv32imafc-unknown-none-elf", RISCV32, Some("--mattr=+m,+a,+f,+c"));
+pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"), None);
 
-impl Core {
-    /// What the disassembler is told, since an older one does not take it from the file.
-    pub fn disassembled_with(self) -> Option<&'static str> {
-        match self {
-            M33 => Some("--mattr=+fp-armv8d16sp,+dsp"),
-            IMC => Some("--mattr=+m,+c"),
-            IMAFC => Some("--mattr=+m,+a,+f,+c"),
-            _ => None,
-        }
-    }
-}
-
-const fn core(name: &'static str, target: &'static str, runs_in: RunsIn) -> Core {
-    Core { name, target, runs_in }
-}
+/// All of them, the slowest first: floats in software, both orders of bytes, 32 bits and 64, and two compilers' back ends
+/// without a common ancestor of Arm's.
+pub const CORES: [Core; 10] = [
+    M0,
+    IMC,
+    I686,
+    core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"), None),
+    core("wasm32", "wasm32-unknown-unknown", Node, None),
+    M4F,
+    M33,
+    IMAFC,
+    RISCV64,
+    core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"), None),
+];
 
 pub const QEMU: &str = "qemu-system-arm";
 pub const OBJDUMP: &str = "llvm-objdump";
-
-/// How a program is built: with one of the crate's seeds, a feature or none, and at an optimisation level.
-#[derive(Clone, Copy)]
-pub struct Flavour {
-    pub seed: &'static str,
-    pub level: &'static str,
-    pub debug: bool,
-}
-
-impl Flavour {
-    /// As what is measured is built.
-    pub const fn fast(seed: &'static str) -> Self {
-        Self { seed, level: OPT_LEVEL, debug: false }
-    }
-}
 
 /// Gives WebAssembly what it asks for: a way to print.
 const NODE: &str = "node";
@@ -80,39 +82,33 @@ const { instance: program } = await WebAssembly.instantiate(readFileSync(process
 program.exports._start();
 ";
 
-/// The firmware's, as the compiler takes it.
-const OPT_LEVEL: &str = "3";
-
-/// The crate's seeds, each a feature or none.
-pub const SEEDS: [&str; 3] = ["", "libm", "micromath"];
+/// The level at which what is measured is optimised, as the compiler takes it.
+pub const OPT_LEVEL: &str = "3";
 
 /// The nested workspace.
 pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds a program of the firmware.
-pub fn build(core: Core, program: &str, flavour: Flavour) -> Result<PathBuf, String> {
-    let mut cargo = cargo(core, program, flavour);
-    let status = cargo.status().map_err(|error| format!("cargo: {error}"))?;
-    if !status.success() {
-        return Err(format!(
-            "cannot build {program} for {}; `rustup target add {0}`, or run this by .ci/matrix.sh",
-            core.target
-        ));
+/// Builds a program; without a level as one is debugged.
+pub fn build(core: Core, program: &str, level: Option<&str>) -> Result<PathBuf> {
+    if !cargo(core, program, level).status()?.success() {
+        let target = core.target;
+        let help = format!("`rustup target add {target}`, or run this by .ci/matrix.sh");
+        return Err(format!("cannot build {program} for {target}; {help}").into());
     }
-    let suffix = if core == WASM { ".wasm" } else { "" };
+    let suffix = if core.runs_in == Node { ".wasm" } else { "" };
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
-    let profile = if flavour.debug { "debug" } else { "release" };
+    let profile = if level.is_some() { "release" } else { "debug" };
     Ok(target.join(core.target).join(profile).join(format!("{program}{suffix}")))
 }
 
 /// The command that builds a program.
-pub fn cargo(core: Core, program: &str, Flavour { seed, level, debug }: Flavour) -> Command {
+pub fn cargo(core: Core, program: &str, level: Option<&str>) -> Command {
     let mut cargo = Command::new("cargo");
-    cargo.current_dir(folder()).args(["build", "--quiet", "--package", "firmware"]);
-    cargo.args(["--bin", program, "--target", core.target, "--features", seed]);
+    cargo.current_dir(folder()).args(["build", "--quiet", "--package", "measured"]);
+    cargo.args(["--bin", program, "--target", core.target]);
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag
     // that is not stable.
     let flags = match core.runs_in {
@@ -124,102 +120,70 @@ pub fn cargo(core: Core, program: &str, Flavour { seed, level, debug }: Flavour)
         Node => "",
     };
     cargo.env("RUSTFLAGS", flags).env("RUSTC_BOOTSTRAP", "1");
-    if debug {
-        cargo.env("CARGO_PROFILE_DEV_PANIC", "abort");
-    } else {
+    cargo.env("CARGO_PROFILE_DEV_PANIC", "abort").env("CARGO_PROFILE_RELEASE_PANIC", "abort");
+    if let Some(level) = level {
         cargo.arg("--release").env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
-        cargo.env("CARGO_PROFILE_RELEASE_PANIC", "abort");
     }
     cargo
 }
 
 /// What the figures depend on: the compiler and QEMU, as they name themselves, and the optimisation.
-pub fn made_with() -> Result<String, String> {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let version = |program: &OsStr| {
-        let output = Command::new(program).arg("--version").output();
-        let text = output.map_err(|error| missing(program, &error))?.stdout;
-        Ok::<_, String>(String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned())
+pub fn made_with() -> Result<String> {
+    let version = |program: &str| {
+        let text = succeeded(program, Command::new(program).arg("--version").output())?.stdout;
+        Ok::<_, crate::Error>(
+            String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned(),
+        )
     };
-    let (rustc, qemu) = (version(&rustc)?, version(OsStr::new(QEMU))?);
-    Ok(format!("{rustc}, opt-level {OPT_LEVEL}; {qemu}"))
+    let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
+    Ok(format!("{}, opt-level {OPT_LEVEL}; {}", version(&rustc)?, version(QEMU)?))
 }
 
-/// Why a program does not start, and what to do.
-pub fn missing(program: &OsStr, error: &std::io::Error) -> String {
-    let name = program.display();
-    if error.kind() != ErrorKind::NotFound {
-        return format!("{name}: {error}");
+/// What a program printed; or why it did not start, and what to do, or why it failed.
+pub fn succeeded(program: &str, output: std::io::Result<Output>) -> Result<Output> {
+    let output = output.map_err(|error| missing(program, &error))?;
+    if !output.status.success() {
+        let texts = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        return Err(format!("{program}: {}", texts.join("\n")).into());
     }
-    let install = match program.to_str() {
-        Some(QEMU) => "install QEMU (Debian: qemu-system-arm)",
-        // The one that the script does not set up.
-        Some(NODE) => return format!("{name} not found: install Node.js (Debian: nodejs)"),
-        Some(name) if name.starts_with("qemu-") => "install QEMU's user mode (Debian: qemu-user)",
-        Some(OBJDUMP) => "install LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
-        _ => "install Rust",
-    };
-    format!("{name} not found: {install}, or run this by .ci/matrix.sh")
+    Ok(output)
 }
 
-/// Starts a program, its input, output and errors piped; `options` are QEMU's.
-pub fn start(core: Core, program: &Path, options: &[String]) -> Result<Child, String> {
-    let (runner, first): (&str, &[&str]) = match core.runs_in {
-        Board(board) => (
-            QEMU,
-            &[
-                "-M",
-                board,
-                "-nographic",
-                "-monitor",
-                "none",
-                "-serial",
-                "null",
-                "-semihosting-config",
-                "enable=on,target=native",
-            ],
-        ),
-        Linux(qemu) => (qemu, &[]),
-        Node => (NODE, &["--input-type=module", "-e", HOST]),
+fn missing(program: &str, error: &std::io::Error) -> String {
+    if error.kind() != ErrorKind::NotFound {
+        return format!("{program}: {error}");
+    }
+    let install = match program {
+        QEMU => "QEMU (Debian: qemu-system-arm)",
+        // The one that the script does not set up.
+        NODE => return format!("{program} not found: install Node.js (Debian: nodejs)"),
+        name if name.starts_with("qemu-") => "QEMU's user mode (Debian: qemu-user)",
+        OBJDUMP => "LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
+        _ => "Rust",
+    };
+    format!("{program} not found: install {install}, or run this by .ci/matrix.sh")
+}
+
+/// Starts a program on a file's bytes, its output and errors piped; `options` are QEMU's.
+pub fn start(core: Core, program: &Path, input: Option<File>, options: &[&str]) -> Result<Child> {
+    let (runner, first) = match core.runs_in {
+        Board(board) => (QEMU, vec!["-M", board]),
+        Linux(qemu) => (qemu, vec![]),
+        Node => (NODE, vec!["--input-type=module", "-e", HOST]),
     };
     let mut command = Command::new(runner);
     command.args(first).args(options);
-    command.args(matches!(core.runs_in, Board(_)).then_some("-kernel")).arg(program);
-    command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(|error| missing(OsStr::new(runner), &error))
-}
-
-/// Starts a program that finds this in its memory, in [`firmware::SELECTED`] and behind.
-pub fn start_with(
-    core: Core,
-    program: &Path,
-    memory: &[u8],
-    options: &[String],
-) -> Result<Child, String> {
-    let Board(_) = core.runs_in else {
-        let mut child = start(core, program, options)?;
-        // A program that stops early is found out by its status.
-        let _ = child.stdin.take().map(|mut stdin| stdin.write_all(memory));
-        return Ok(child);
-    };
-    let file = program.with_extension("memory");
-    std::fs::write(&file, memory).map_err(|error| format!("{}: {error}", file.display()))?;
-    let at = ::firmware::selected_at(core == M33);
-    let loader = format!("loader,file={},addr={at:#x},force-raw=on", file.display());
-    start(core, program, &[options, &["-device".into(), loader]].concat())
-}
-
-/// What a program writes.
-pub fn output(core: Core, program: &Path) -> Result<Vec<u8>, String> {
-    let child = start(core, program, &[])?;
-    let output = child.wait_with_output().map_err(|error| error.to_string())?;
-    if !output.status.success() {
-        let texts = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-        return Err(format!("{}: {}", program.display(), texts.join("\n")));
+    if let Board(_) = core.runs_in {
+        command.args(["-nographic", "-monitor", "none", "-serial", "null"]);
+        command.args(["-semihosting-config", "enable=on,target=native", "-kernel"]);
     }
-    Ok(output.stdout)
+    command.arg(program).stdin(input.map_or_else(Stdio::null, Stdio::from));
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    child.map_err(|error| missing(runner, &error).into())
+}
+
+/// What a program prints, without an input.
+pub fn output(core: Core, program: &Path) -> Result<Vec<u8>> {
+    let output = start(core, program, None, &[])?.wait_with_output();
+    Ok(succeeded(&program.display().to_string(), output)?.stdout)
 }

@@ -3,9 +3,9 @@
 //! ```text
 //! cargo run --release              # prints the report and writes ../../docs/cost.md; some minutes
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
-//! cargo run --release -- --answers # the same answers on the host and on processors that differ? With --all: on ten
+//! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
-//! cargo run --release -- --quick [SEED [CELLS [FUNCTION]]] # the tuner's loop: one function, with a listing
+//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: one function, with a listing
 //! ```
 //!
 //! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
@@ -25,18 +25,19 @@ mod trace;
 
 use std::process::ExitCode;
 
+type Error = Box<dyn std::error::Error + Send + Sync>;
+type Result<T = (), E = Error> = std::result::Result<T, E>;
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => report::run(),
         ["--short"] => budget::run(),
-        ["--answers"] => answers::run(false),
-        ["--answers", "--all"] => answers::run(true),
+        ["--answers"] => answers::run(),
         ["--links"] => links::run(),
-        ["--quick"] => quick::run("none", "8", "inverse_cdf"),
-        ["--quick", seed] => quick::run(seed, "8", "inverse_cdf"),
-        ["--quick", seed, cells] => quick::run(seed, cells, "inverse_cdf"),
-        ["--quick", seed, cells, function] => quick::run(seed, cells, function),
+        ["--quick"] => quick::run("8", "inverse_cdf"),
+        ["--quick", cells] => quick::run(cells, "inverse_cdf"),
+        ["--quick", cells, function] => quick::run(cells, function),
         _ => Err("usage: see src/main.rs".into()),
     };
     match result {

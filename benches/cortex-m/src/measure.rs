@@ -1,27 +1,23 @@
-//! All that is measured of one build: a core and a seed.
+//! All that is measured on one core.
 
-use std::collections::BTreeMap;
+use measured::{CURVES, DEFAULT, Function, Inputs, ROWS, Series};
 
-use ::firmware::{CELLS, CURVES, Function, Inputs};
-
+use crate::Result;
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, Flavour, M4F, build, output};
+use crate::firmware::Core;
 use crate::searched::asked;
-use crate::trace::{Call, Key, Selection, Trace, trace};
+use crate::trace::{Call, Program, Trace};
 
 pub struct Measured {
+    pub name: &'static str,
     pub code: Disassembly,
-    calls: BTreeMap<Key, Vec<Call>>,
-    instance: BTreeMap<(Function, usize), u32>,
-    /// By function and cells.
-    painted: BTreeMap<(Function, usize), u32>,
-    pub curve_bytes: BTreeMap<usize, u32>,
+    pub trace: Trace,
 }
 
 /// What the calls of a function cost on a typical curve, over uniform inputs.
 pub struct Typical {
     pub name: &'static str,
-    pub cycles: Spread,
+    pub mean: f64,
     /// The share of the calls whose answers took a search.
     pub searched: f64,
 }
@@ -50,119 +46,111 @@ impl Spread {
     }
 }
 
+/// The series of a function over uniform inputs on one of the rows.
+pub fn on_row(function: Function, row: usize, cells: usize) -> Series {
+    Series { function, cells, inputs: Inputs::Uniform, curve: ROWS[row].1 }
+}
+
 impl Measured {
-    /// Builds for a core with a seed and traces each selection; the stack is looked at on a Cortex-M4F alone, since in soft
-    /// float that takes longer than all else.
-    pub fn new(core: Core, seed: &'static str, selections: &[Selection]) -> Result<Self, String> {
-        let elf = build(core, "cost", Flavour::fast(seed))?;
-        let code = Disassembly::of(core, &elf)?;
-        let (mut calls, mut instance) = (BTreeMap::new(), BTreeMap::new());
+    pub fn new(core: Core, selections: &[u32]) -> Result<Self> {
+        eprintln!("measuring a {} ...", core.name);
+        let (program, mut trace) = (Program::new(core)?, Trace::default());
         for selection in selections {
-            let Trace { calls: more, instance: and, .. } =
-                trace(core, &elf, &code, selection, None)?;
-            calls.extend(more);
-            instance.extend(and);
+            program.trace(&mut trace, *selection, None)?;
         }
-        let (painted, curve_bytes) =
-            if core == M4F { stack(core, seed)? } else { Default::default() };
-        Ok(Self { code, calls, instance, painted, curve_bytes })
+        Ok(Self { name: core.name, code: program.code, trace })
     }
 
-    pub fn calls(&self, key: &Key) -> &[Call] {
-        self.calls.get(key).map_or(&[], Vec::as_slice)
+    pub fn cycles(&self, series: Series) -> Option<Spread> {
+        self.spread(series, |call| call.cycles)
     }
 
-    pub fn cycles(&self, key: &Key) -> Option<Spread> {
-        Spread::new(self.calls(key).iter().map(|call| call.cycles).collect())
+    pub fn instructions(&self, series: Series) -> Option<Spread> {
+        self.spread(series, |call| call.instructions)
     }
 
-    pub fn instructions(&self, key: &Key) -> Option<Spread> {
-        Spread::new(self.calls(key).iter().map(|call| call.instructions).collect())
+    fn spread(&self, series: Series, of: fn(&Call) -> u32) -> Option<Spread> {
+        Spread::new(self.trace.calls.get(&series)?.iter().map(of).collect())
+    }
+
+    /// A function's series over some inputs, with their calls.
+    fn series(
+        &self,
+        function: Function,
+        inputs: Inputs,
+        cells: usize,
+    ) -> impl Iterator<Item = (&Series, &Vec<Call>)> {
+        let is = move |s: &Series| (s.function, s.inputs, s.cells) == (function, inputs, cells);
+        self.trace.calls.iter().filter(move |(series, _)| is(series))
     }
 
     /// A function's calls on each typical curve.
     pub fn typical(&self, function: Function, cells: usize) -> Vec<Typical> {
-        let curves = Inputs::Typical.curves().filter_map(|curve| {
-            let key = Key { function, cells, inputs: Inputs::Typical, curve };
-            let cycles = self.cycles(&key)?;
-            let asked = asked(&key);
-            let searched = asked.iter().filter(|asked| asked.searched).count();
-            Some(Typical {
-                name: CURVES[curve].name,
-                cycles,
-                searched: searched as f64 / asked.len() as f64,
-            })
+        let all = self.series(function, Inputs::Uniform, cells).filter_map(|(series, _)| {
+            let asked = asked(*series);
+            let searched = asked.iter().filter(|(_, is_searched)| *is_searched).count();
+            let searched = searched as f64 / asked.len() as f64;
+            let (name, mean) = (CURVES[series.curve].name, self.cycles(*series)?.mean);
+            Some(Typical { name, mean, searched })
         });
-        curves.collect()
+        all.collect()
     }
 
     /// The mean over all typical curves.
     pub fn typical_mean(&self, function: Function, cells: usize) -> Option<f64> {
-        let curves = self.typical(function, cells);
-        let total: f64 = curves.iter().map(|curve| curve.cycles.mean).sum();
-        (!curves.is_empty()).then(|| total / curves.len() as f64)
+        let means = self.series(function, Inputs::Uniform, cells);
+        let means: Vec<f64> = means.filter_map(|(s, _)| Some(self.cycles(*s)?.mean)).collect();
+        (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
     }
 
-    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
-    /// ones, too; with its curve and its fraction.
-    pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
-        let keys = self.calls.keys().filter(|key| {
-            let is_measured = key.function == function && key.cells == cells;
-            is_measured && matches!(key.inputs, Inputs::Typical | Inputs::Hard)
+    /// The most cycles of a call that was not searched for, with the default cells, over all curves with hard inputs and the
+    /// typical ones with uniform ones, too; with its curve and its fraction.
+    pub fn worst_direct(&self, function: Function) -> Option<(u32, String)> {
+        let of = |inputs| self.series(function, inputs, DEFAULT);
+        let calls = of(Inputs::Uniform).chain(of(Inputs::Hard)).flat_map(|(series, calls)| {
+            let calls = asked(*series).into_iter().zip(calls);
+            calls.map(|((u, is_searched), call)| (call.cycles, series.curve, u, is_searched))
         });
-        let calls = keys.flat_map(|key| {
-            let calls = asked(key).into_iter().zip(self.calls(key));
-            calls.map(|(asked, call)| (call.cycles, key.curve, asked))
-        });
-        let direct = calls.filter(|(.., asked)| !asked.searched);
-        let (cycles, curve, asked) = direct.max_by_key(|(cycles, ..)| *cycles)?;
-        Some((cycles, format!("{}, u = {}", CURVES[curve].name, asked.u)))
+        let direct = calls.filter(|(.., is_searched)| !is_searched);
+        let (cycles, curve, u, _) = direct.max_by_key(|(cycles, ..)| *cycles)?;
+        Some((cycles, format!("{}, u = {u}", CURVES[curve].name)))
     }
 
-    /// The most cycles of a call over the hard curves and these inputs, and the curve.
+    /// The most cycles of a call over all curves and these hard inputs, and the curve.
     pub fn worst(
         &self,
         function: Function,
         inputs: Inputs,
         cells: usize,
     ) -> Option<(u32, &'static str)> {
-        let hard = self.calls.iter().filter(|(key, _)| {
-            key.inputs == inputs && key.function == function && key.cells == cells
+        let calls = self.series(function, inputs, cells).flat_map(|(series, calls)| {
+            calls.iter().map(|call| (call.cycles, CURVES[series.curve].name))
         });
-        hard.flat_map(|(key, calls)| calls.iter().map(|call| (call.cycles, CURVES[key.curve].name)))
-            .max()
+        calls.max()
+    }
+
+    /// The same over all hard inputs, with the default cells.
+    pub fn worst_of_all(&self, function: Function) -> Option<(u32, &'static str)> {
+        let worst = [Inputs::Hard, Inputs::Solved].map(|i| self.worst(function, i, DEFAULT));
+        worst.into_iter().flatten().max()
     }
 
     pub fn code_bytes(&self, function: Function, cells: usize) -> Option<u32> {
-        Some(self.code.code_bytes(*self.instance.get(&(function, cells))?))
+        Some(self.code.code_bytes(self.instance(function, cells)?))
     }
 
     /// The stack of a call as the compiler says.
     pub fn stack_said(&self, function: Function, cells: usize) -> Option<u32> {
-        Some(self.code.stack_bytes(*self.instance.get(&(function, cells))?))
+        Some(self.code.stack_bytes(self.instance(function, cells)?))
     }
 
-    /// The stack of a call as painted, and as the compiler says.
-    pub fn stack(&self, function: Function, cells: usize) -> Option<(u32, u32)> {
-        let instance = self.instance.get(&(function, cells))?;
-        Some((*self.painted.get(&(function, cells))?, self.code.stack_bytes(*instance)))
+    /// The same as painted.
+    pub fn stack_painted(&self, function: Function, cells: usize) -> Option<u32> {
+        self.trace.painted.get(&(function, cells)).copied().filter(|depth| *depth > 0)
     }
-}
 
-type Stack = (BTreeMap<(Function, usize), u32>, BTreeMap<usize, u32>);
-
-/// Two lines a number of cells: `bytes 8 1376`, and the depth of each function.
-fn stack(core: Core, seed: &'static str) -> Result<Stack, String> {
-    let output = output(core, &build(core, "stack", Flavour::fast(seed))?)?;
-    let output = String::from_utf8_lossy(&output);
-    let numbers =
-        output.lines().map(|line| line.split_whitespace().filter_map(|n| n.parse().ok()).collect());
-    let lines: Vec<Vec<u32>> = numbers.collect();
-    let (mut painted, mut bytes) = (BTreeMap::new(), BTreeMap::new());
-    for (cells, lines) in CELLS.into_iter().zip(lines.chunks(2)) {
-        let [size, depths] = lines else { return Err(format!("stack: {output}")) };
-        bytes.insert(cells, *size.last().ok_or("stack: no size")?);
-        painted.extend(Function::ALL.iter().zip(depths).map(|(f, depth)| ((*f, cells), *depth)));
+    fn instance(&self, function: Function, cells: usize) -> Option<u32> {
+        let mut all = self.trace.instances.iter();
+        all.find(|(s, _)| (s.function, s.cells) == (function, cells)).map(|(_, address)| *address)
     }
-    Ok((painted, bytes))
 }

@@ -1,0 +1,197 @@
+//! What the firmware measures and the host reports: the calls, the curves, the inputs and their order.
+#![no_std]
+
+use shutter_curve::CubicBezier;
+
+pub mod answers;
+#[path = "../../../../tests/support/baseline.rs"]
+pub mod baseline;
+pub mod roots;
+
+/// A curve of the reference data or found by search.
+pub struct Curve {
+    pub name: &'static str,
+    /// As scenes hold it, by the reference data.
+    pub is_typical: bool,
+    pub opening: baseline::Ramp,
+    pub closing: baseline::Ramp,
+    /// The hard inputs; see the build script.
+    pub hard: &'static [f32],
+}
+
+include!(concat!(env!("OUT_DIR"), "/curves.rs"));
+
+impl Curve {
+    /// The ramps, on a scale of time.
+    pub fn ramps(&self, scale: Option<u32>) -> (CubicBezier, CubicBezier) {
+        let length = self.closing[3].0 - self.opening[0].0;
+        let factor =
+            scale.map_or(1.0, |k| f32::from_bits((254 + k - (length.to_bits() >> 23)) << 23));
+        let ramp = |ramp: baseline::Ramp| CubicBezier::new(ramp.map(|(t, f)| (t * factor, f)));
+        (ramp(self.opening), ramp(self.closing))
+    }
+}
+
+/// The curves with rows of their own in the report, as the reader knows them, and their places in [`CURVES`].
+pub const ROWS: [(&str, usize); 3] =
+    [("soft", place("rman_soft")), ("all ramp", place("raised_cosine")), ("box", place("box"))];
+
+const fn place(name: &str) -> usize {
+    let mut i = 0;
+    while !same(CURVES[i].name.as_bytes(), name.as_bytes()) {
+        i += 1;
+    }
+    i
+}
+
+const fn same(a: &[u8], b: &[u8]) -> bool {
+    match (a, b) {
+        ([a, rest_of_a @ ..], [b, rest_of_b @ ..]) => *a == *b && same(rest_of_a, rest_of_b),
+        _ => a.is_empty() && b.is_empty(),
+    }
+}
+
+/// Uniform inputs a series.
+pub const UNIFORM: u32 = 512;
+
+/// The `i`-th of numbers spread evenly over [0, 1): the golden ratio's multiples, the first so many of
+/// which are as even as can be, whatever their number.
+pub fn uniform(i: u32) -> f32 {
+    (i.wrapping_mul(0x9E37_79B9).wrapping_add(0x4F1B_BCDC) >> 8) as f32 / (1 << 24) as f32
+}
+
+/// A function whose calls are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    InverseCdf,
+    Cdf,
+    Opening,
+    TickStep,
+    Schedule,
+    Construct,
+    Newton,
+    Table,
+    Root,
+}
+
+impl Function {
+    /// Each with the name of the firmware's function with this call in it.
+    pub const ALL: [(Self, &str); 9] = [
+        (Self::InverseCdf, "measured_inverse_cdf"),
+        (Self::Cdf, "measured_cdf"),
+        (Self::Opening, "measured_opening"),
+        (Self::TickStep, "measured_tick_step"),
+        (Self::Schedule, "measured_schedule"),
+        (Self::Construct, "measured_construct"),
+        (Self::Newton, "measured_newton"),
+        (Self::Table, "measured_table"),
+        (Self::Root, "measured_root"),
+    ];
+
+    /// Its bit in a selection.
+    pub const fn bit(self) -> u32 {
+        1 << (4 + self as u32)
+    }
+}
+
+/// What a series of calls runs over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Inputs {
+    /// Uniform inputs, on a typical curve.
+    Uniform,
+    /// The hard inputs of any curve.
+    Hard,
+    /// The same with intervals of so many ticks that every trigger is solved.
+    Solved,
+}
+
+/// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of [`roots::ROOTS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Series {
+    pub function: Function,
+    /// What has no cells counts as having [`DEFAULT`].
+    pub cells: usize,
+    pub inputs: Inputs,
+    pub curve: usize,
+}
+
+impl Series {
+    fn is_selected(self, selection: u32) -> bool {
+        use Function::{Construct, Newton, Root, Schedule, Table, TickStep};
+        let Self { function, cells, inputs, curve } = self;
+        let exists = match function {
+            Root => inputs == Inputs::Uniform && cells == DEFAULT && curve < roots::ROOTS.len(),
+            Construct => inputs == Inputs::Uniform && curve == ROWS[0].1,
+            TickStep | Schedule => true,
+            Newton | Table => inputs != Inputs::Solved && cells == DEFAULT,
+            _ => inputs != Inputs::Solved,
+        };
+        let kind = match inputs {
+            Inputs::Hard | Inputs::Solved => ON_HARD,
+            Inputs::Uniform if function == Root || ROWS.iter().any(|row| row.1 == curve) => {
+                ON_ROWS | ON_TYPICAL
+            }
+            Inputs::Uniform if CURVES[curve].is_typical => ON_TYPICAL,
+            Inputs::Uniform => 0,
+        };
+        let cells = 1 << CELLS.iter().position(|c| *c == cells).unwrap_or(CELLS.len());
+        let has = |bits| selection & bits != 0;
+        exists && has(kind) && has(cells) && has(function.bit())
+    }
+
+    /// The fractions that are asked for, in order.
+    pub fn us(self) -> impl Iterator<Item = f32> {
+        let (count, hard) = match self.inputs {
+            Inputs::Uniform => (UNIFORM, &[][..]),
+            Inputs::Hard | Inputs::Solved => (0, CURVES[self.curve].hard),
+        };
+        (0..count).map(uniform).chain(hard.iter().copied())
+    }
+
+    /// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or one of
+    /// [`TRIGGERS`] and for each hard input the one that starts nearest to it.
+    pub fn frames(self) -> impl Iterator<Item = (u32, u32)> {
+        let is_hard = self.inputs != Inputs::Uniform;
+        let whole = if is_hard { TRIGGERS } else { UNIFORM };
+        let first = self.us().filter(move |u| is_hard && *u > 1.0 / u32::MAX as f32 && *u < 0.5);
+        core::iter::once((whole, whole)).chain(first.map(|u| ((0.5 / u) as u32, 1)))
+    }
+
+    /// The curve's scale of time, of [`SCALES`].
+    pub fn scale(self) -> usize {
+        match (self.function, self.inputs) {
+            (Function::TickStep | Function::Schedule, Inputs::Solved) => 2,
+            (Function::TickStep | Function::Schedule, _) => 1,
+            _ => 0,
+        }
+    }
+}
+
+/// The scales of time on which curves are built: as they are, and with intervals of 2ᵏ seconds up to twice that,
+/// for the rate of the timer is the same for all.
+pub const SCALES: [Option<u32>; 3] = [None, Some(0), Some(6)];
+
+/// The triggers of a planned frame, and the timer's rate.
+pub const TRIGGERS: u32 = 64;
+pub const TICK_HZ: u32 = 1_000_000;
+
+/// The numbers of cells measured, the first four bits of a selection, and the crate's default.
+pub const CELLS: [usize; 4] = [0, 4, 8, 16];
+pub const DEFAULT: usize = 8;
+
+/// The kinds of inputs in a selection: uniform ones on the rows and on all typical curves, and the hard ones.
+pub const ON_ROWS: u32 = 1 << 29;
+pub const ON_TYPICAL: u32 = 1 << 30;
+pub const ON_HARD: u32 = 1 << 31;
+
+/// The series that are selected, in the order in which the firmware runs them.
+pub fn series(selection: u32) -> impl Iterator<Item = Series> {
+    let of_cells = |cells| Function::ALL.into_iter().map(move |(function, _)| (cells, function));
+    let inputs = [Inputs::Uniform, Inputs::Hard, Inputs::Solved];
+    let all = CELLS.into_iter().flat_map(of_cells).flat_map(move |(cells, function)| {
+        inputs.into_iter().flat_map(move |inputs| {
+            (0..CURVES.len()).map(move |curve| Series { function, cells, inputs, curve })
+        })
+    });
+    all.filter(move |series| series.is_selected(selection))
+}

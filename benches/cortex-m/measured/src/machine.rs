@@ -1,0 +1,144 @@
+//! Where a program runs: on one of QEMU's boards with an Arm core; as a bare Linux program, by system calls alone, for other
+//! processors in QEMU's user mode; or as WebAssembly, of which the host is asked to print. It starts in the program's `run`
+//! and panics in its `panicked`.
+#![allow(dead_code, unreachable_code, reason = "a program needs a part, and some run for ever")]
+
+use core::fmt::{self, Write};
+use core::panic::PanicInfo;
+
+pub use on::{In, write};
+
+/// What is printed.
+pub struct Out;
+
+impl Write for Out {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        write(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// Says why a program ends.
+pub fn panicked(info: &PanicInfo) -> ! {
+    let _ = writeln!(Out, "{info}");
+    on::exit(false)
+}
+
+#[panic_handler]
+fn panic(info: &PanicInfo) -> ! {
+    crate::panicked(info)
+}
+
+/// As much as there is.
+fn fill(bytes: &mut [u8], mut read: impl FnMut(&mut [u8]) -> usize) {
+    let mut filled = 0;
+    loop {
+        match read(&mut bytes[filled..]) {
+            0 => return,
+            more => filled += more,
+        }
+    }
+}
+
+#[cfg(target_arch = "arm")]
+mod on {
+    use semihosting::fs::File;
+    use semihosting::io::{Read, Write, stdout};
+    use semihosting::process::ExitCode;
+
+    #[cortex_m_rt::entry]
+    fn main() -> ! {
+        crate::run();
+        exit(true)
+    }
+
+    pub struct In(File);
+
+    impl In {
+        pub fn new() -> Self {
+            Self(File::open(c"/dev/stdin").expect("the host has an input"))
+        }
+
+        pub fn read(&mut self, bytes: &mut [u8]) {
+            super::fill(bytes, |bytes| self.0.read(bytes).expect("it can be read"));
+        }
+    }
+
+    pub fn write(bytes: &[u8]) {
+        let _ = stdout().and_then(|mut out| out.write_all(bytes));
+    }
+
+    pub fn exit(succeeded: bool) -> ! {
+        if succeeded { ExitCode::SUCCESS } else { ExitCode::FAILURE }.exit_process()
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+mod on {
+    pub struct In;
+
+    #[link(wasm_import_module = "host")]
+    unsafe extern "C" {
+        #[link_name = "write"]
+        fn host_write(bytes: *const u8, length: usize);
+    }
+
+    #[unsafe(no_mangle)]
+    extern "C" fn _start() {
+        crate::run();
+    }
+
+    pub fn write(bytes: &[u8]) {
+        // SAFETY: the host reads so many bytes from there.
+        unsafe { host_write(bytes.as_ptr(), bytes.len()) }
+    }
+
+    pub fn exit(_: bool) -> ! {
+        core::arch::wasm32::unreachable()
+    }
+}
+
+#[cfg(not(any(target_arch = "arm", target_arch = "wasm32")))]
+mod on {
+    use syscalls::{Sysno, syscall};
+
+    // Linux aligns the stack; what a function expects beside that differs.
+    #[cfg(any(target_arch = "riscv32", target_arch = "riscv64", target_arch = "x86"))]
+    core::arch::global_asm!(".globl _start", "_start: call started");
+    #[cfg(target_arch = "s390x")]
+    core::arch::global_asm!(".globl _start", "_start: aghi %r15, -160", "brasl %r14, started");
+    #[cfg(target_arch = "powerpc")]
+    core::arch::global_asm!(".globl _start", "_start: stwu 1, -16(1)", "bl started");
+
+    #[unsafe(no_mangle)]
+    extern "C" fn started() -> ! {
+        crate::run();
+        exit(true)
+    }
+
+    pub struct In;
+
+    impl In {
+        pub fn new() -> Self {
+            Self
+        }
+
+        pub fn read(&mut self, bytes: &mut [u8]) {
+            // SAFETY: `stdin` gives at most so many bytes, and they belong there.
+            super::fill(bytes, |bytes| unsafe {
+                syscall!(Sysno::read, 0, bytes.as_mut_ptr(), bytes.len()).unwrap_or(0)
+            });
+        }
+    }
+
+    pub fn write(bytes: &[u8]) {
+        // SAFETY: `stdout` takes so many bytes from there.
+        let _ = unsafe { syscall!(Sysno::write, 1, bytes.as_ptr(), bytes.len()) };
+    }
+
+    pub fn exit(succeeded: bool) -> ! {
+        // SAFETY: ends the program.
+        let _ = unsafe { syscall!(Sysno::exit, usize::from(!succeeded)) };
+        loop {}
+    }
+}
