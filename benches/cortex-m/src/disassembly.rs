@@ -58,7 +58,13 @@ impl Disassembly {
         let statics = size(".data") + size(".bss");
 
         let mut objdump = Command::new(OBJDUMP);
-        objdump.args(["-d", "--no-leading-headers"]).args(core.disassembled_with).arg(elf);
+        // An older one does not take from the file what the processor has.
+        let has = match core.target {
+            target if target.starts_with("riscv") => "--mattr=+m,+a,+f,+c",
+            target if target.starts_with("thumbv8m") => "--mattr=+fp-armv8d16sp,+dsp",
+            _ => "--mattr=",
+        };
+        objdump.args(["-d", "--no-leading-headers", has]).arg(elf);
         let output = succeeded(OBJDUMP, objdump.output())?.stdout;
         let text = String::from_utf8_lossy(&output);
         let mut instructions: Vec<_> = text.lines().filter_map(instruction).collect();
@@ -90,7 +96,7 @@ impl Disassembly {
         named.map(|(address, _)| *address).collect()
     }
 
-    pub fn in_function(&self, start: u32) -> &[Instruction] {
+    fn in_function(&self, start: u32) -> &[Instruction] {
         let end = start + self.functions.get(&start).map_or(0, |function| function.size);
         let from = self.instructions.partition_point(|i| i.address < start);
         let to = self.instructions.partition_point(|i| i.address < end);
@@ -106,7 +112,7 @@ impl Disassembly {
     }
 
     /// A function and all that it reaches.
-    pub fn reach(&self, function: u32) -> BTreeSet<u32> {
+    fn reach(&self, function: u32) -> BTreeSet<u32> {
         let (mut reached, mut open) = (BTreeSet::new(), vec![function]);
         while let Some(function) = open.pop() {
             if reached.insert(function) {
@@ -151,34 +157,12 @@ impl Disassembly {
             match i.name.trim_end_matches(".w") {
                 "push" => 4 * registers(operands),
                 "vpush" => 8 * registers(operands),
-                "sub" => operands.strip_prefix("sp, #").and_then(|n| n.parse().ok()).unwrap_or(0),
-                "addi" => operands.strip_prefix("sp, sp, -").and_then(number).unwrap_or(0),
+                "sub" => operands.strip_prefix("sp, #").and_then(number).unwrap_or(0) as u32,
+                "addi" => operands.strip_prefix("sp, sp, -").and_then(number).unwrap_or(0) as u32,
                 _ => 0,
             }
         });
         taken.sum()
-    }
-
-    /// What the instructions of all that a function reaches did in a run, as a listing; `profile` holds
-    /// executions and cycles by the instructions' places.
-    pub fn annotated(&self, function: u32, profile: &[(u32, u32)], calls: u32) -> String {
-        use std::fmt::Write;
-        let mut out = format!("executions and cycles a call, of {calls} calls\n");
-        for start in self.reach(function) {
-            let f = &self.functions[&start];
-            let _ = writeln!(out, "\n{:#} ({} bytes)", rustc_demangle::demangle(&f.symbol), f.size);
-            for i in self.in_function(start) {
-                let (count, cycles) = profile[self.place(i.address)];
-                let a_call = |n: u32| f64::from(n) / f64::from(calls);
-                let counts = if count == 0 {
-                    " ".repeat(16)
-                } else {
-                    format!("{:7.3} {:8.3}", a_call(count), a_call(cycles))
-                };
-                let _ = writeln!(out, "{counts}  {:6x}  {:9} {}", i.address, i.name, i.operands);
-            }
-        }
-        out
     }
 }
 
@@ -189,7 +173,7 @@ impl Instruction {
     }
 
     /// Where a direct branch goes.
-    pub fn target(&self) -> Option<u32> {
+    fn target(&self) -> Option<u32> {
         if !self.name.starts_with(['b', 'c', 'j']) {
             return None;
         }
@@ -226,19 +210,15 @@ fn far_target(upper: &Instruction, jump: &Instruction) -> Option<u32> {
     if base != register {
         return None;
     }
-    let (offset, negative) =
-        offset.strip_prefix('-').map_or((offset, false), |digits| (digits, true));
-    let offset = number(offset)?;
-    let page = upper.address.wrapping_add(number(pages)? << 12);
-    Some(if negative { page.wrapping_sub(offset) } else { page.wrapping_add(offset) })
+    Some(upper.address.wrapping_add_signed((number(pages)? << 12) + number(offset)?))
 }
 
-/// Decimal, or hexadecimal behind `0x`.
-fn number(text: &str) -> Option<u32> {
-    match text.strip_prefix("0x") {
-        Some(digits) => u32::from_str_radix(digits, 16).ok(),
-        None => text.parse().ok(),
-    }
+/// Decimal, or hexadecimal behind `0x`, perhaps negative.
+fn number(text: &str) -> Option<i32> {
+    let (text, sign) = text.strip_prefix('-').map_or((text, 1), |text| (text, -1));
+    let digits = text.strip_prefix("0x");
+    let number = digits.map_or(text.parse(), |digits| i32::from_str_radix(digits, 16));
+    Some(sign * number.ok()?)
 }
 
 /// The registers in `{r4, r5, r7, lr}` or `{d8-d10}`.

@@ -13,8 +13,6 @@ pub struct Core {
     pub name: &'static str,
     pub target: &'static str,
     runs_in: RunsIn,
-    /// What the disassembler is told, since an older one does not take it from the file.
-    pub disassembled_with: Option<&'static str>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,47 +26,26 @@ enum RunsIn {
 
 use RunsIn::{Board, Linux, Node};
 
-const fn core(
-    name: &'static str,
-    target: &'static str,
-    runs_in: RunsIn,
-    disassembled_with: Option<&'static str>,
-) -> Core {
-    Core { name, target, runs_in, disassembled_with }
+const fn core(name: &'static str, target: &'static str, runs_in: RunsIn) -> Core {
+    Core { name, target, runs_in }
 }
 
-pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"), None);
 /// A Cortex-M0+'s code, run by a Cortex-M3, which executes the same instructions.
-pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"), None);
-const RISCV32: RunsIn = Linux("qemu-riscv32");
-pub const IMC: Core =
-    core("riscv32imc", "riscv32imc-unknown-none-elf", RISCV32, Some("--mattr=+m,+c"));
-pub const RISCV64: Core =
-    core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"), None);
-pub const M33: Core = core(
-    "Cortex-M33",
-    "thumbv8m.main-none-eabihf",
-    Board("mps2-an505"),
-    Some("--mattr=+fp-armv8d16sp,+dsp"),
-);
+pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"));
+pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"));
+pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", Board("mps2-an505"));
+pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", Linux("qemu-riscv32"));
 pub const IMAFC: Core =
-    core("riscv32imafc", "riscv32imafc-unknown-none-elf", RISCV32, Some("--mattr=+m,+a,+f,+c"));
-pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"), None);
+    core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
+pub const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
+pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
+const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
+const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
+const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
 
 /// All of them, the slowest first: floats in software, both orders of bytes, 32 bits and 64, and two compilers' back ends
 /// without a common ancestor of Arm's.
-pub const CORES: [Core; 10] = [
-    M0,
-    IMC,
-    I686,
-    core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"), None),
-    core("wasm32", "wasm32-unknown-unknown", Node, None),
-    M4F,
-    M33,
-    IMAFC,
-    RISCV64,
-    core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"), None),
-];
+pub const CORES: [Core; 10] = [M0, IMC, I686, S390X, WASM, M4F, M33, IMAFC, RISCV64, POWERPC];
 
 pub const QEMU: &str = "qemu-system-arm";
 pub const OBJDUMP: &str = "llvm-objdump";
@@ -139,7 +116,7 @@ pub fn made_with() -> Result<String> {
     Ok(format!("{}, opt-level {OPT_LEVEL}; {}", version(&rustc)?, version(QEMU)?))
 }
 
-/// What a program printed; or why it did not start, and what to do, or why it failed.
+/// What a program gave; or why it did not start, or why it failed.
 pub fn succeeded(program: &str, output: std::io::Result<Output>) -> Result<Output> {
     let output = output.map_err(|error| missing(program, &error))?;
     if !output.status.success() {
@@ -150,18 +127,12 @@ pub fn succeeded(program: &str, output: std::io::Result<Output>) -> Result<Outpu
 }
 
 fn missing(program: &str, error: &std::io::Error) -> String {
-    if error.kind() != ErrorKind::NotFound {
-        return format!("{program}: {error}");
-    }
-    let install = match program {
-        QEMU => "QEMU (Debian: qemu-system-arm)",
-        // The one that the script does not set up.
-        NODE => return format!("{program} not found: install Node.js (Debian: nodejs)"),
-        name if name.starts_with("qemu-") => "QEMU's user mode (Debian: qemu-user)",
-        OBJDUMP => "LLVM (Debian: llvm, or rustup's llvm-tools on the PATH)",
-        _ => "Rust",
+    let help = match error.kind() {
+        ErrorKind::NotFound if program == NODE => "; install Node.js (Debian: nodejs)",
+        ErrorKind::NotFound => "; install it, or run this by .ci/matrix.sh",
+        _ => "",
     };
-    format!("{program} not found: install {install}, or run this by .ci/matrix.sh")
+    format!("{program}: {error}{help}")
 }
 
 /// Starts a program on a file's bytes, its output and errors piped; `options` are QEMU's.

@@ -18,16 +18,14 @@ pub fn run() -> Result {
             let errors = String::from_utf8_lossy(&built.stderr);
             let failed = |program: &str| errors.contains(&format!("(bin \"{program}\")"));
             if built.status.success() {
-                return Err(format!("{named}: the control links, so the check sees nothing").into());
+                return Err(format!("{named}: the control links: the check sees nothing").into());
             } else if failed("no_panic") {
                 println!("{named}: A PANIC CAN BE REACHED\n{errors}");
                 reached += 1;
             } else if failed("panic") && errors.contains(MISSING) {
                 println!("{named}: links without a panic, and the control does not link");
             } else {
-                return Err(
-                    format!("{named}: the control fails for another reason\n{errors}").into()
-                );
+                return Err(format!("{named}: the control fails otherwise\n{errors}").into());
             }
         }
     }

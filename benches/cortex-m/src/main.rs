@@ -5,7 +5,7 @@
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
-//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: one function, with a listing
+//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: one function
 //! ```
 //!
 //! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
@@ -20,7 +20,6 @@ mod measure;
 mod model;
 mod quick;
 mod report;
-mod searched;
 mod trace;
 
 use std::process::ExitCode;
@@ -35,8 +34,8 @@ fn main() -> ExitCode {
         ["--short"] => budget::run(),
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
-        ["--quick"] => quick::run("8", "inverse_cdf"),
-        ["--quick", cells] => quick::run(cells, "inverse_cdf"),
+        ["--quick"] => quick::run("8", "InverseCdf"),
+        ["--quick", cells] => quick::run(cells, "InverseCdf"),
         ["--quick", cells, function] => quick::run(cells, function),
         _ => Err("usage: see src/main.rs".into()),
     };

@@ -1,12 +1,12 @@
 //! All that is measured on one core.
 
-use measured::{CURVES, DEFAULT, Function, Inputs, ROWS, Series};
+use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ};
+use shutter_curve::ShutterCurve;
 
 use crate::Result;
 use crate::disassembly::Disassembly;
-use crate::firmware::Core;
-use crate::searched::asked;
-use crate::trace::{Call, Program, Trace};
+use crate::firmware::{Core, build, output};
+use crate::trace::{Call, Trace};
 
 pub struct Measured {
     pub name: &'static str,
@@ -48,17 +48,19 @@ impl Spread {
 
 /// The series of a function over uniform inputs on one of the rows.
 pub fn on_row(function: Function, row: usize, cells: usize) -> Series {
-    Series { function, cells, inputs: Inputs::Uniform, curve: ROWS[row].1 }
+    Series { function, cells, inputs: Inputs::Uniform, curve: row }
 }
 
 impl Measured {
-    pub fn new(core: Core, selections: &[u32]) -> Result<Self> {
+    pub fn new(core: Core, level: &str, selections: &[u32]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
-        let (program, mut trace) = (Program::new(core)?, Trace::default());
+        let elf = build(core, "cost", Some(level))?;
+        let (code, built) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
+        let mut trace = Trace::default();
         for selection in selections {
-            program.trace(&mut trace, *selection, None)?;
+            trace.add(core, &elf, &code, &built, *selection)?;
         }
-        Ok(Self { name: core.name, code: program.code, trace })
+        Ok(Self { name: core.name, code, trace })
     }
 
     pub fn cycles(&self, series: Series) -> Option<Spread> {
@@ -103,10 +105,10 @@ impl Measured {
         (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
     }
 
-    /// The most cycles of a call that was not searched for, with the default cells, over all curves with hard inputs and the
-    /// typical ones with uniform ones, too; with its curve and its fraction.
-    pub fn worst_direct(&self, function: Function) -> Option<(u32, String)> {
-        let of = |inputs| self.series(function, inputs, DEFAULT);
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
+    /// ones, too; with its curve and its fraction.
+    pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
+        let of = |inputs| self.series(function, inputs, cells);
         let calls = of(Inputs::Uniform).chain(of(Inputs::Hard)).flat_map(|(series, calls)| {
             let calls = asked(*series).into_iter().zip(calls);
             calls.map(|((u, is_searched), call)| (call.cycles, series.curve, u, is_searched))
@@ -129,9 +131,9 @@ impl Measured {
         calls.max()
     }
 
-    /// The same over all hard inputs, with the default cells.
-    pub fn worst_of_all(&self, function: Function) -> Option<(u32, &'static str)> {
-        let worst = [Inputs::Hard, Inputs::Solved].map(|i| self.worst(function, i, DEFAULT));
+    /// The same over all hard inputs.
+    pub fn worst_of_all(&self, function: Function, cells: usize) -> Option<(u32, &'static str)> {
+        let worst = [Inputs::Hard, Inputs::Solved].map(|i| self.worst(function, i, cells));
         worst.into_iter().flatten().max()
     }
 
@@ -152,5 +154,34 @@ impl Measured {
     fn instance(&self, function: Function, cells: usize) -> Option<u32> {
         let mut all = self.trace.instances.iter();
         all.find(|(s, _)| (s.function, s.cells) == (function, cells)).map(|(_, address)| *address)
+    }
+}
+
+/// The calls of a series, in order, as the host tells, whose answers have the same bits: each the fraction of the exposure that
+/// it asked for, and whether the answer took more than a polynomial or the plateau's line; none for functions other than the
+/// inverse and the step of a frame's triggers.
+fn asked(series: Series) -> Vec<(f64, bool)> {
+    match series.cells {
+        0 => with::<0>(series),
+        4 => with::<4>(series),
+        8 => with::<8>(series),
+        _ => with::<16>(series),
+    }
+}
+
+fn with<const CELLS: usize>(series: Series) -> Vec<(f64, bool)> {
+    let (opening, closing) = CURVES[series.curve].ramps(SCALES[series.scale()]);
+    let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
+    match series.function {
+        Function::InverseCdf => series.us().map(|u| (u.into(), !curve.is_direct(u))).collect(),
+        Function::TickStep => {
+            let steps = series.frames().flat_map(|(n, steps)| {
+                let frame = curve.trigger_ticks(n, TICK_HZ).expect("a good rate");
+                let u = move |i| (2.0 * f64::from(i) + 1.0) / (2.0 * f64::from(n));
+                (0..steps).map(move |i| (u(i), !frame.is_direct(i)))
+            });
+            steps.collect()
+        }
+        _ => Vec::new(),
     }
 }

@@ -31,68 +31,50 @@ impl Cost {
         }
 
         let is = |names: &[&str]| names.iter().any(|n| name.starts_with(n));
-        let cost = |cycles| Self { cycles, ..Self::default() };
-        if is(&["push", "pop", "ldm", "stm"]) {
-            cost(1 + registers(operands))
-        } else if is(&["ldrd", "strd"]) {
-            cost(3)
-        } else if is(&["ldr"]) {
-            Self { cycles: 2, memory: true, load: true, ..Self::default() }
-        } else if is(&["str"]) {
-            // With an immediate offset the next instruction runs while the data is written.
-            let offset = operands.split('[').nth(1).and_then(|address| address.split(", ").nth(1));
-            let by_register = offset.is_some_and(|offset| !offset.starts_with('#'));
-            Self { cycles: if by_register { 2 } else { 1 }, memory: true, ..Self::default() }
-        } else if is(&["sdiv", "udiv"]) {
-            cost(7)
-        } else if is(&["tbb", "tbh"]) {
-            cost(2)
-        } else {
+        // With an immediate offset the next instruction runs while the data is written.
+        let offset = operands.split('[').nth(1).and_then(|address| address.split(", ").nth(1));
+        let by_register = offset.is_some_and(|offset| !offset.starts_with('#'));
+        let cycles = match () {
+            _ if is(&["push", "pop", "ldm", "stm"]) => 1 + registers(operands),
+            _ if is(&["ldrd", "strd"]) => 3,
+            _ if is(&["ldr", "tbb", "tbh"]) || is(&["str"]) && by_register => 2,
+            _ if is(&["sdiv", "udiv"]) => 7,
             // Data processing, all multiplications, a branch before it is taken.
-            cost(1)
-        }
+            _ => 1,
+        };
+        let is_single = !is(&["ldrd", "strd"]);
+        let load = is_single && is(&["ldr"]);
+        Self { cycles, memory: load || is_single && is(&["str"]), load, late: 0, reads: 0 }
     }
 
     fn float(name: &str, operands: &str) -> Self {
-        let registers: Vec<u32> =
-            operands.split([',', '{', '}', ' ', '[', ']']).filter_map(float_bits).collect();
+        let floats = operands.split([',', '{', '}', ' ', '[', ']']).filter_map(float_bits);
+        let floats: Vec<u32> = floats.collect();
         let is = |names: &[&str]| names.iter().any(|n| name.starts_with(n));
-        let first = registers.first().copied().unwrap_or(0);
-        let rest = registers.iter().skip(1).fold(0, |all, one| all | one);
-        let words = registers.iter().map(|r| r.count_ones()).sum::<u32>();
-        if is(&["vldm", "vstm", "vpush", "vpop"]) {
-            let width = if operands.contains("{d") { 2 } else { 1 };
-            return Self { cycles: 1 + width * self::registers(operands), ..Self::default() };
-        }
-        if is(&["vldr"]) {
-            return Self { cycles: 1 + words, ..Self::default() };
-        }
-        if is(&["vstr"]) {
-            return Self { cycles: 1 + words, reads: first, ..Self::default() };
-        }
-        if is(&["vmla", "vmls", "vnmla", "vnmls", "vfma", "vfms", "vfnma", "vfnms"]) {
-            return Self { cycles: 3, late: first, reads: rest, ..Self::default() };
-        }
-        if is(&["vdiv", "vsqrt"]) {
-            return Self { cycles: 14, late: first, reads: rest, ..Self::default() };
-        }
-        if is(&["vcmp"]) {
-            return Self { cycles: 1, reads: first | rest, ..Self::default() };
-        }
-        if is(&["vmrs", "vmsr"]) {
-            return Self { cycles: 1, ..Self::default() };
-        }
-        if is(&["vmov"]) {
+        let first = floats.first().copied().unwrap_or(0);
+        let rest = floats.iter().skip(1).fold(0, |all, one| all | one);
+        let words = floats.iter().map(|r| r.count_ones()).sum::<u32>();
+        let width = if operands.contains("{d") { 2 } else { 1 };
+        let cores = operands.split(", ").filter(|o| o.starts_with('r') || *o == "lr").count();
+        let (cycles, late, reads) = match () {
+            _ if is(&["vldm", "vstm", "vpush", "vpop"]) => (1 + width * registers(operands), 0, 0),
+            _ if is(&["vldr"]) => (1 + words, 0, 0),
+            _ if is(&["vstr"]) => (1 + words, 0, first),
+            _ if is(&["vml", "vnml", "vfm", "vfnm"]) => (3, first, rest),
+            _ if is(&["vdiv", "vsqrt"]) => (14, first, rest),
+            _ if is(&["vcmp"]) => (1, 0, first | rest),
+            _ if is(&["vmrs", "vmsr"]) => (1, 0, 0),
             // Two words to or from core registers take two cycles; a result in a core register is on time.
-            let to_core = operands.starts_with('r');
-            let cores = operands.split(", ").filter(|o| o.starts_with('r') || *o == "lr").count();
-            let reads = if to_core { first | rest } else { rest };
-            return Self { cycles: if cores > 1 { 2 } else { 1 }, reads, ..Self::default() };
-        }
-        // VADD, VSUB, VMUL, VNMUL, VABS, VNEG, VCVT, VSEL.
-        let late = if is(&["vabs", "vneg"]) { 0 } else { first };
-        let reads = if registers.len() == 1 { first } else { rest };
-        Self { cycles: 1, late, reads, ..Self::default() }
+            _ if is(&["vmov"]) && operands.starts_with('r') => (1, 0, first | rest),
+            _ if is(&["vmov"]) => (1, 0, rest),
+            _ if is(&["vabs", "vneg"]) => (1, 0, rest),
+            // VADD, VSUB, VMUL, VNMUL, VCVT, VSEL.
+            _ => (1, first, rest),
+        };
+        // A register that alone is named is read and written.
+        let reads = if floats.len() == 1 && late != 0 { first } else { reads };
+        let both = is(&["vmov"]) && cores > 1;
+        Self { cycles: cycles + u32::from(both), late, reads, ..Self::default() }
     }
 
     /// The cycles that this takes behind `before`.

@@ -3,27 +3,18 @@
 use measured::{CELLS, CURVES, Function, Inputs, ON_HARD, ON_TYPICAL, ROWS};
 
 use crate::Result;
-use crate::firmware::M4F;
+use crate::firmware::{M4F, OPT_LEVEL};
 use crate::measure::{Measured, on_row};
-use crate::trace::{Program, Trace, selection};
+use crate::trace::selection;
 
 pub fn run(cells: &str, function: &str) -> Result {
-    let names = Function::ALL.map(|(_, symbol)| symbol.trim_start_matches("measured_"));
-    let called = Function::ALL.into_iter().zip(names).find(|(_, name)| *name == function);
-    let ((called, _), _) = called.ok_or_else(|| format!("{function}: one of {names:?}"))?;
+    let called = Function::ALL.into_iter().find(|known| format!("{known:?}") == function);
+    let called = called.ok_or_else(|| format!("{function}: one of {:?}", Function::ALL))?;
     let cells = CELLS.into_iter().find(|c| c.to_string() == cells);
     let cells = cells.ok_or_else(|| format!("CELLS is one of {CELLS:?}"))?;
-    let (program, mut trace) = (Program::new(M4F)?, Trace::default());
-    let selected = selection(&[cells], &[called], ON_TYPICAL | ON_HARD);
-    // The first row has the listing.
-    let listed = on_row(called, 0, cells);
-    program.trace(&mut trace, selected, Some(listed))?;
-    let start = *trace.instances.get(&listed).ok_or("not called with these cells")?;
-    let count = trace.calls[&listed].len() as u32;
-    let path = program.elf.with_file_name(format!("{function}.s"));
-    std::fs::write(&path, program.code.annotated(start, &trace.profile, count))?;
-    let measured = Measured { name: M4F.name, code: program.code, trace };
-    for (row, (name, _)) in ROWS.iter().enumerate() {
+    let selection = selection(&[cells], &[called], ON_TYPICAL | ON_HARD);
+    let measured = Measured::new(M4F, OPT_LEVEL, &[selection])?;
+    for (row, name) in ROWS.iter().enumerate() {
         if let Some(cycles) = measured.cycles(on_row(called, row, cells)) {
             println!(
                 "{name}: mean {:.1}, median {}, max {}",
@@ -40,7 +31,7 @@ pub fn run(cells: &str, function: &str) -> Result {
         worst.sort_unstable_by(|a, b| b.cmp(a));
         println!("worst, {inputs:?}: {worst:?}");
     }
-    let (code, stack) = (measured.code.code_bytes(start), measured.code.stack_bytes(start));
-    println!("code {code} B, stack {stack} B; listing: {}", path.display());
+    let bytes = [measured.code_bytes(called, cells), measured.stack_said(called, cells)];
+    println!("bytes of code and of stack: {bytes:?}");
     Ok(())
 }

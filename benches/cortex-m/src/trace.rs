@@ -6,13 +6,13 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
-use std::path::PathBuf;
+use std::path::Path;
 
 use measured::{CELLS, Function, Series, series};
 
 use crate::Result;
 use crate::disassembly::Disassembly;
-use crate::firmware::{Core, OPT_LEVEL, build, output, start};
+use crate::firmware::{Core, start};
 use crate::model::{Cost, refill};
 
 /// What one call took, within the called function and what it calls: from its first instruction to its
@@ -28,8 +28,6 @@ pub struct Trace {
     pub calls: BTreeMap<Series, Vec<Call>>,
     /// The function's instance that a series called.
     pub instances: BTreeMap<Series, u32>,
-    /// For each instruction, by its place: how often it ran and its cycles, in the series annotated.
-    pub profile: Vec<(u32, u32)>,
     /// The bytes of a curve, by its cells, and how deep a function's stack got.
     pub curve_bytes: BTreeMap<usize, u32>,
     pub painted: BTreeMap<(Function, usize), u32>,
@@ -42,27 +40,21 @@ pub fn selection(cells: &[usize], functions: &[Function], inputs: u32) -> u32 {
     bits.fold(inputs, |mask, bit| mask | bit)
 }
 
-/// The program for a core, and what its first run left: all curves, built.
-pub struct Program {
-    core: Core,
-    pub elf: PathBuf,
-    pub code: Disassembly,
-    curves: Vec<u8>,
-}
-
-impl Program {
-    pub fn new(core: Core) -> Result<Self> {
-        let elf = build(core, "cost", Some(OPT_LEVEL))?;
-        Ok(Self { core, code: Disassembly::of(core, &elf)?, curves: output(core, &elf)?, elf })
-    }
-
-    /// Runs the series that are selected, and adds them to the trace.
-    pub fn trace(&self, trace: &mut Trace, selection: u32, annotate: Option<Series>) -> Result {
-        let input = self.elf.with_extension("input");
-        std::fs::write(&input, [&selection.to_le_bytes(), &self.curves[..]].concat())?;
+impl Trace {
+    /// Has the program run the series that are selected, and adds them; `built` is what its first run left, all curves.
+    pub fn add(
+        &mut self,
+        core: Core,
+        elf: &Path,
+        code: &Disassembly,
+        built: &[u8],
+        selection: u32,
+    ) -> Result {
+        let input = elf.with_extension("input");
+        std::fs::write(&input, [&selection.to_le_bytes(), built].concat())?;
         let options = ["-d", "in_asm,exec,nochain"];
-        let mut child = start(self.core, &self.elf, Some(File::open(&input)?), &options)?;
-        let mut replay = Replay::new(&self.code, trace, selection, annotate);
+        let mut child = start(core, elf, Some(File::open(&input)?), &options)?;
+        let mut replay = Replay::new(code, self, selection);
         // The instructions of each block, by QEMU's number for it; and of the one just translated.
         let mut blocks: HashMap<u64, Vec<u32>> = HashMap::new();
         let mut translated = Vec::new();
@@ -110,11 +102,9 @@ impl Program {
         if !child.wait()?.success() || !is_complete {
             return Err(format!("the firmware stopped early\n{}{printed}", other.trim()).into());
         }
-        trace.note(&printed)
+        self.note(&printed)
     }
-}
 
-impl Trace {
     /// A line a number of cells, the bytes of a curve and of the functions' stacks: `1376 [160, 320, ...]`.
     fn note(&mut self, printed: &str) -> Result {
         for (cells, line) in CELLS.into_iter().zip(printed.lines()) {
@@ -122,7 +112,7 @@ impl Trace {
             let numbers = numbers.map(str::parse).collect::<Result<Vec<u32>, _>>()?;
             let (bytes, depths) = numbers.split_first().ok_or("the firmware printed nothing")?;
             self.curve_bytes.insert(cells, *bytes);
-            for ((function, _), depth) in Function::ALL.into_iter().zip(depths) {
+            for (function, depth) in Function::ALL.into_iter().zip(depths) {
                 let deepest = self.painted.entry((function, cells)).or_default();
                 *deepest = (*deepest).max(*depth);
             }
@@ -146,7 +136,6 @@ struct Replay<'a> {
     steps: Vec<Option<Step>>,
     keys: std::vec::IntoIter<Series>,
     key: Option<Series>,
-    annotate: Option<Series>,
     /// The call that runs, and where it returns to.
     call: Option<(Call, u32)>,
     last: Option<u32>,
@@ -155,15 +144,9 @@ struct Replay<'a> {
 }
 
 impl<'a> Replay<'a> {
-    fn new(
-        code: &'a Disassembly,
-        trace: &'a mut Trace,
-        selection: u32,
-        annotate: Option<Series>,
-    ) -> Self {
+    fn new(code: &'a Disassembly, trace: &'a mut Trace, selection: u32) -> Self {
         let mut steps: Vec<Option<Step>> = Vec::new();
         steps.resize_with(code.places(), || None);
-        trace.profile = vec![(0, 0); code.places()];
         for i in &code.instructions {
             let cost = Cost::new(i);
             let step = Step { cost, length: i.length, measured: false, begins: false };
@@ -175,12 +158,10 @@ impl<'a> Replay<'a> {
             }
         };
         mark("series_begins", |step| step.begins = true);
-        for (_, name) in Function::ALL {
-            mark(name, |step| step.measured = true);
-        }
+        mark("the_call", |step| step.measured = true);
         let keys = series(selection).collect::<Vec<_>>().into_iter();
         let (key, call, last, before) = (None, None, None, None);
-        Self { code, steps, keys, key, annotate, call, last, before, trace }
+        Self { code, steps, keys, key, call, last, before, trace }
     }
 
     fn step(&self, address: u32) -> Result<&Step> {
@@ -203,10 +184,6 @@ impl<'a> Replay<'a> {
             self.before = Some(last);
             let (instructions, cycles_so_far) = (call.instructions + 1, call.cycles + cycles);
             self.call = Some((Call { instructions, cycles: cycles_so_far }, back));
-            if self.annotate.is_some() && self.annotate == self.key {
-                let profile = &mut self.trace.profile[self.code.place(last)];
-                *profile = (profile.0 + 1, profile.1 + cycles);
-            }
         }
         match self.call {
             Some((done, back)) if address == back => {

@@ -1,166 +1,203 @@
-//! One hash over the bits of many answers, hard ones among them: the same on every machine.
+//! One hash over the bits of many answers, hard ones among them: the same on every machine. All that is public is asked,
+//! so that what must not panic is just this.
 
-use core::fmt::{self, Display, Write};
+use core::hash::{Hash, Hasher};
+use core::hint::black_box;
 
-use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
+use shutter_curve::{BezierPdf, CubicBezier, CurveError, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, uniform};
 
-/// FNV-1a, a byte at a time.
-struct Hash(u64);
+/// FNV-1a, a byte at a time, of numbers as each machine holds them: the low byte first.
+struct Fnv(u64);
 
-impl Hash {
-    fn words(&mut self, words: impl IntoIterator<Item = u32>) {
-        words.into_iter().for_each(|word| self.bytes(&word.to_le_bytes()));
-    }
-
-    fn bytes(&mut self, bytes: &[u8]) {
+impl Hasher for Fnv {
+    fn write(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01B3);
         }
     }
-
-    fn floats(&mut self, values: impl IntoIterator<Item = f32>) {
-        self.words(values.into_iter().map(f32::to_bits));
+    fn write_u32(&mut self, number: u32) {
+        self.write(&number.to_le_bytes());
     }
-
-    /// What was made, or else what was said.
-    fn made<T>(&mut self, made: Result<T, impl Display>) -> Option<T> {
-        made.map_err(|error| write!(self, "{error}")).ok()
+    /// Of an enum's variant.
+    fn write_isize(&mut self, number: isize) {
+        self.write(&(number as i64).to_le_bytes());
+    }
+    fn finish(&self) -> u64 {
+        self.0
     }
 }
 
-impl Write for Hash {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.bytes(text.as_bytes());
-        Ok(())
+impl Fnv {
+    fn add(&mut self, values: impl IntoIterator<Item: Hash>) {
+        values.into_iter().for_each(|value| value.hash(self));
+    }
+
+    fn floats(&mut self, values: impl IntoIterator<Item = f32>) {
+        self.add(values.into_iter().map(f32::to_bits));
+    }
+
+    /// What was made, or else why not.
+    fn made<T, E: Hash + PartialEq + Copy>(&mut self, made: Result<T, E>) -> Option<T> {
+        made.map_err(|error| self.add((error == black_box(error)).then_some(error))).ok()
+    }
+
+    fn curve<T>(&mut self, made: Result<T, CurveError>) -> Option<T> {
+        self.write(made.as_ref().err().map_or("", CurveError::message).as_bytes());
+        self.made(made)
+    }
+
+    /// All that an iterator of the crate does.
+    fn all<I, T: Hash>(&mut self, all: I, as_hashed: impl Fn(I::Item) -> T)
+    where
+        I: DoubleEndedIterator + ExactSizeIterator + Clone,
+    {
+        let mut ends = all.clone();
+        let some = [ends.nth(2), ends.nth_back(2), ends.next_back(), all.clone().last()];
+        self.add([all.len() as u32]);
+        self.add(some.into_iter().flatten().chain(all).map(as_hashed));
     }
 }
 
 /// What is no fraction or no time of a curve, or just about one.
-const ODD: [f32; 13] = [
-    f32::NAN,
-    f32::INFINITY,
-    f32::NEG_INFINITY,
-    -1.0,
-    2.0,
-    f32::MAX,
-    f32::MIN,
-    f32::MIN_POSITIVE,
-    f32::from_bits(1),
-    -0.0,
-    0.0,
-    1.0,
-    f32::from_bits(1.0f32.to_bits() - 1),
-];
+const ODD: [f32; 12] = {
+    const NONE: f32 = f32::INFINITY;
+    let [max, least, below_1] = [f32::MAX, f32::MIN_POSITIVE, 0.99999994];
+    [f32::NAN, NONE, -NONE, -1.0, 2.0, max, -max, least, 1e-45, -0.0, 1.0, below_1]
+};
 
-/// The hash for every number of cells that is measured, 0, 4, 8 and 16.
+/// For every number of cells that is measured, 0, 4, 8 and 16, the hash of the answers of every curve of the data, built where
+/// this runs, and of what is said to curves that are none: with every hard input, as many uniform ones and odd ones.
 pub fn hashes() -> [u64; 4] {
-    [hash::<0>(), hash::<4>(), hash::<8>(), hash::<16>()]
+    let hostile = HOSTILE.iter().map(|(t, f)| {
+        let ramp = |i: usize| core::array::from_fn(|k| (t[i + k], f[i + k]));
+        ([ramp(0), ramp(4)], &[][..])
+    });
+    let curves = CURVES.iter().map(|curve| ([curve.opening, curve.closing], curve.hard));
+    curves.chain(hostile).fold([0; 4], |all, (ramps, us)| {
+        let more = of_ramps(ramps, us);
+        core::array::from_fn(|i| all[i].rotate_left(1) ^ more[i])
+    })
 }
 
-/// The hash of the answers with so many cells: every curve of the data, built where this runs; every hard input, as many
-/// uniform ones and odd ones, in `u` and in time; schedules and pulses; and what is said to curves that are none.
-fn hash<const CELLS: usize>() -> u64 {
-    let mut hash = Hash(0xCBF2_9CE4_8422_2325);
-    for data in CURVES {
-        let us = data.hard.iter().copied().chain((0..512).map(uniform)).chain(ODD);
-        assert!(ramps::<CELLS>(&mut hash, [data.opening, data.closing], us), "{}", data.name);
-    }
-    for (t, f) in HOSTILE {
-        let [opening, closing] = [0, 4].map(|i| core::array::from_fn(|k| (t[i + k], f[i + k])));
-        ramps::<CELLS>(&mut hash, [opening, closing], (0..64).map(uniform).chain(ODD));
-    }
-    hash.0
+/// The hashes of all that is made of two ramps, for each number of cells, the fractions ones beside others.
+pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
+    [of::<0>(ramps, us), of::<4>(ramps, us), of::<8>(ramps, us), of::<16>(ramps, us)]
 }
 
-/// All that is made of two ramps; are they a curve?
-fn ramps<const CELLS: usize>(
-    hash: &mut Hash,
-    ramps: [Ramp; 2],
-    us: impl Iterator<Item = f32>,
-) -> bool {
+fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
+    let hash = &mut Fnv(0xCBF2_9CE4_8422_2325);
     let [opening, closing] = ramps.map(CubicBezier::new);
-    let curve = hash.made(ShutterCurve::<CELLS>::with_cells(opening, closing));
-    if let Some(curve) = &curve {
-        answers(hash, curve, us);
-        hash.floats(ODD.into_iter().flat_map(|t| [curve.cdf(t), curve.opening(t), curve.pdf(t)]));
-        schedules(hash, curve);
+    hash.add([opening == closing]);
+    if let Some(curve) = hash.curve(ShutterCurve::<CELLS>::with_cells(opening, closing)) {
+        answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
+        for odd in ODD {
+            hash.floats([curve.cdf(odd), curve.opening(odd), curve.pdf(odd)]);
+            hash.add([(curve.is_direct(odd), curve.evaluations(odd), curve.max_triggers(odd))]);
+        }
+        slice(hash, &curve);
+        schedules(hash, &curve);
     }
     single::<CELLS>(hash, opening);
     single::<CELLS>(hash, closing);
-    forms::<CELLS>(hash, ramps);
-    curve.is_some()
-}
 
-fn answers<const CELLS: usize>(
-    hash: &mut Hash,
-    curve: &ShutterCurve<CELLS>,
-    us: impl Iterator<Item = f32>,
-) {
-    hash.floats([curve.exposure(), curve.normalization(), curve.efficiency()]);
-    let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-    for u in us {
-        let t = curve.inverse_cdf(u);
-        hash.floats([t]);
-        for t in [t, start + length * u] {
-            hash.floats([curve.cdf(t), curve.opening(t), curve.pdf(t)]);
-        }
-    }
-    // More than one chunk of what a slice is worked off in.
-    let (mut us, mut ts) = ([0.0; 150], [0.0; 150]);
-    us.iter_mut().zip(ODD.into_iter().chain((0..).map(uniform))).for_each(|(u, value)| *u = value);
-    curve.inverse_cdf_slice(&us, &mut ts);
-    hash.floats(ts);
-}
-
-/// The other forms of a curve, with the times and the inner control points of this one.
-fn forms<const CELLS: usize>(hash: &mut Hash, [opening, closing]: [Ramp; 2]) {
+    // The other forms, with the times and the inner control points of this one.
+    let [opening, closing] = ramps;
     let [a, b, c, d] = [opening[0].0, opening[3].0, closing[0].0, closing[3].0];
     let fraction = |t: f32| (t - a) / (d - a);
-    let [[t1, t2], [t5, t6]] = [opening, closing].map(|p| [fraction(p[1].0), fraction(p[2].0)]);
+    let [[t1, t2], [t5, t6]] = ramps.map(|p| [fraction(p[1].0), fraction(p[2].0)]);
     let inner = [t1, opening[1].1, t2, opening[2].1, t5, closing[1].1, t6, closing[2].1];
-    let full = ShutterCurve::<CELLS>::shutteropening_with_cells([a, b, c, d], inner);
-    for curve in [full, ShutterCurve::linear_with_cells(a, b, c, d)] {
-        if let Some(curve) = hash.made(curve) {
+    let times = [a, b, c, d];
+    let (opening, closing) = CubicBezier::shutteropening(times, inner);
+    let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
+    for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)] {
+        let curve = hash.curve(curve);
+        hash.add(curve.map(|curve| curve.direct_triggers()));
+    }
+    let mixed = hash.curve(ShutterCurve::new(opening, lines.1));
+    hash.floats(mixed.map(|curve| curve.exposure()));
+    let other = [
+        ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner),
+        ShutterCurve::linear_with_cells(a, b, c, d),
+        ShutterCurve::with_cells(lines.0, closing),
+    ];
+    for curve in other {
+        if let Some(curve) = hash.curve(curve) {
+            hash.add([curve == black_box(curve)]);
             answers(hash, &curve, (0..16).map(uniform));
         }
     }
+    hash.finish()
 }
 
-fn schedules<const CELLS: usize>(hash: &mut Hash, curve: &ShutterCurve<CELLS>) {
-    hash.floats(curve.trigger_times(9));
+fn answers<const CELLS: usize>(
+    hash: &mut Fnv,
+    curve: &ShutterCurve<CELLS>,
+    us: impl Iterator<Item = f32>,
+) {
+    let (start, end) = (curve.open_start(), curve.close_end());
+    hash.floats([start, curve.open_end(), curve.close_start(), end]);
+    hash.floats([curve.exposure(), curve.normalization(), curve.efficiency()]);
+    for u in us {
+        let t = curve.inverse_cdf(u);
+        hash.floats([t]);
+        for t in [t, start + (end - start) * u] {
+            hash.floats([curve.cdf(t), curve.opening(t), curve.pdf(t)]);
+        }
+    }
+}
+
+/// So many that more than one chunk is worked off, of one length that the compiler does not know.
+fn slice<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
+    let (mut us, mut ts, length) = ([0.0; 150], [0.0; 150], black_box(150));
+    us.iter_mut().zip(ODD.into_iter().chain((0..).map(uniform))).for_each(|(u, value)| *u = value);
+    if let (Some(us), Some(ts)) = (us.get(..length), ts.get_mut(..length)) {
+        curve.inverse_cdf_slice(us, ts);
+    }
+    hash.floats(ts);
+}
+
+fn schedules<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
+    hash.all(curve.trigger_times(9), f32::to_bits);
     hash.floats(curve.trigger_times(u32::MAX).nth(1 << 30));
-    hash.words([curve.direct_triggers()]);
-    hash.words(ODD.map(|gap| curve.max_triggers(gap)));
+    hash.add([curve.direct_triggers()]);
     for (n, hz) in
         [(64, 1_000), (33, 1_000_000), (17, 1_000_000_000), (0, 1), (5, 0), (5, u32::MAX)]
     {
-        let ticks = hash.made(curve.trigger_ticks(n, hz));
-        hash.words(ticks.into_iter().flatten());
+        if let Some(ticks) = hash.made(curve.trigger_ticks(n, hz)) {
+            hash.add([ticks.is_direct(2)]);
+            hash.all(ticks, |tick| tick);
+        }
         for duty in [0.5, 1.0, 1e-6, 0.0, f32::NAN] {
-            let pulses = hash.made(curve.pulse_ticks(n, duty, hz));
-            hash.words(pulses.into_iter().flatten().flat_map(<[u32; 2]>::from));
+            if let Some(pulses) = hash.made(curve.pulse_ticks(n, duty, hz)) {
+                hash.all(pulses, |pulse| pulse);
+            }
         }
         let mut pulses = [(0, 0); 9];
         hash.made(curve.pulses_into(&mut pulses, 0.3, hz, 3, 7));
-        hash.words(pulses.into_iter().flat_map(<[u32; 2]>::from));
+        hash.add(pulses);
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
             let mut ticks = [0; 20];
             hash.made(curve.schedule_into(&mut ticks, hz, gap));
-            hash.words(ticks);
+            hash.add(ticks);
+            let planned = hash.made(curve.schedule::<64>(n, hz, gap));
+            hash.add(planned.iter().flatten());
             let most = hash.made(curve.most_triggers(n, hz, gap));
-            hash.words(most);
+            hash.add(most);
         }
     }
 }
 
-fn single<const CELLS: usize>(hash: &mut Hash, curve: CubicBezier) {
+fn single<const CELLS: usize>(hash: &mut Fnv, curve: CubicBezier) {
     let times = curve.points().map(|(t, _)| t);
-    let Some(pdf) = hash.made(BezierPdf::<CELLS>::with_cells(curve)) else { return };
+    let default = hash.curve(BezierPdf::new(curve));
+    hash.floats(default.map(|pdf| pdf.area()));
+    let Some(pdf) = hash.curve(BezierPdf::<CELLS>::with_cells(curve)) else { return };
     hash.floats([pdf.area(), pdf.normalization()]);
+    hash.add([pdf == black_box(pdf)]);
     for u in (0..32).map(uniform).chain(ODD) {
         let t = times[0] + (times[3] - times[0]) * u;
         hash.floats([pdf.inverse_cdf(u), pdf.cdf(t), pdf.pdf(t)]);

@@ -1,7 +1,12 @@
 //! Where a program runs: on one of QEMU's boards with an Arm core; as a bare Linux program, by system calls alone, for other
 //! processors in QEMU's user mode; or as WebAssembly, of which the host is asked to print. It starts in the program's `run`
 //! and panics in its `panicked`.
-#![allow(dead_code, unreachable_code, reason = "a program needs a part, and some run for ever")]
+#![allow(
+    dead_code,
+    unreachable_code,
+    unused_imports,
+    reason = "a program needs a part, and some run for ever"
+)]
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
@@ -29,17 +34,6 @@ fn panic(info: &PanicInfo) -> ! {
     crate::panicked(info)
 }
 
-/// As much as there is.
-fn fill(bytes: &mut [u8], mut read: impl FnMut(&mut [u8]) -> usize) {
-    let mut filled = 0;
-    loop {
-        match read(&mut bytes[filled..]) {
-            0 => return,
-            more => filled += more,
-        }
-    }
-}
-
 #[cfg(target_arch = "arm")]
 mod on {
     use semihosting::fs::File;
@@ -59,8 +53,9 @@ mod on {
             Self(File::open(c"/dev/stdin").expect("the host has an input"))
         }
 
-        pub fn read(&mut self, bytes: &mut [u8]) {
-            super::fill(bytes, |bytes| self.0.read(bytes).expect("it can be read"));
+        /// As many bytes as there are.
+        pub fn read(&mut self, bytes: &mut [u8]) -> usize {
+            self.0.read(bytes).expect("it can be read")
         }
     }
 
@@ -123,11 +118,10 @@ mod on {
             Self
         }
 
-        pub fn read(&mut self, bytes: &mut [u8]) {
+        pub fn read(&mut self, bytes: &mut [u8]) -> usize {
+            let (to, length) = (bytes.as_mut_ptr(), bytes.len());
             // SAFETY: `stdin` gives at most so many bytes, and they belong there.
-            super::fill(bytes, |bytes| unsafe {
-                syscall!(Sysno::read, 0, bytes.as_mut_ptr(), bytes.len()).unwrap_or(0)
-            });
+            unsafe { syscall!(Sysno::read, 0, to, length) }.expect("it can be read")
         }
     }
 

@@ -15,78 +15,27 @@ use core::mem::MaybeUninit;
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
 use measured::{CELLS, CURVES, DEFAULT, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS};
-use shutter_curve::{CubicBezier, CurveError, ScheduleError, ShutterCurve};
+use shutter_curve::{ShutterCurve, TriggerTicks};
 
 #[path = "../machine.rs"]
 mod machine;
 
 use machine::{In, Out, panicked, write};
 
+/// What is measured: a call and nothing else.
 #[inline(never)]
-fn measured_inverse_cdf<const C: usize>(curve: &ShutterCurve<C>, u: f32) -> f32 {
-    curve.inverse_cdf(u)
+fn the_call<A, B, O>(call: impl FnOnce(A, B) -> O, a: A, b: B) -> O {
+    call(a, b)
 }
 
-#[inline(never)]
-fn measured_cdf<const C: usize>(curve: &ShutterCurve<C>, t: f32) -> f32 {
-    curve.cdf(t)
+fn root<const I: usize>(x: f32) -> f32 {
+    the_call(|x, divisor| (ROOTS[I].of)(x, divisor), x, black_box(DIVISOR))
 }
 
-#[inline(never)]
-fn measured_opening<const C: usize>(curve: &ShutterCurve<C>, t: f32) -> f32 {
-    curve.opening(t)
+macro_rules! each {
+    ($($i:literal)*) => { [$(root::<$i>),*] };
 }
-
-#[inline(never)]
-fn measured_tick_step(ticks: &mut impl Iterator<Item = u32>) -> Option<u32> {
-    ticks.next()
-}
-
-#[inline(never)]
-fn measured_schedule<const C: usize>(
-    curve: &ShutterCurve<C>,
-    ticks: &mut [u32; TRIGGERS as usize],
-    gap: u32,
-) -> Result<(), ScheduleError> {
-    curve.schedule_into(ticks, TICK_HZ, gap)
-}
-
-#[inline(never)]
-fn measured_construct<const C: usize>(
-    (opening, closing): (CubicBezier, CubicBezier),
-) -> Result<ShutterCurve<C>, CurveError> {
-    ShutterCurve::with_cells(opening, closing)
-}
-
-#[inline(never)]
-fn measured_newton(curve: &TextbookNewton, u: f32) -> f32 {
-    curve.inverse_cdf(u)
-}
-
-#[inline(never)]
-fn measured_table(table: &InverseTable<256>, u: f32) -> f32 {
-    table.inverse_cdf(u)
-}
-
-#[inline(never)]
-fn measured_root<const I: usize>(x: f32, divisor: f32) -> f32 {
-    (ROOTS[I].of)(x, divisor)
-}
-
-const MEASURED_ROOTS: [fn(f32, f32) -> f32; ROOTS.len()] = [
-    measured_root::<0>,
-    measured_root::<1>,
-    measured_root::<2>,
-    measured_root::<3>,
-    measured_root::<4>,
-    measured_root::<5>,
-    measured_root::<6>,
-    measured_root::<7>,
-    measured_root::<8>,
-    measured_root::<9>,
-    measured_root::<10>,
-    measured_root::<11>,
-];
+const EACH_ROOT: [fn(f32) -> f32; ROOTS.len()] = each!(0 1 2 3 4 5 6 7 8 9 10 11);
 
 /// Tells the host that the next series begins.
 #[inline(never)]
@@ -144,7 +93,7 @@ fn run_with<const C: usize>(selection: u32, input: &mut In) {
     if selection == 0 {
         return write(bytes);
     }
-    input.read(bytes);
+    assert_eq!(input.read(bytes), bytes.len(), "the curves of the first run");
     // SAFETY: written by the first run of this very program.
     let curves = unsafe { curves.assume_init_ref() };
     let mut deepest = [0; Function::ALL.len()];
@@ -161,45 +110,49 @@ fn run_series<const C: usize>(series: Series, curve: &ShutterCurve<C>) -> u32 {
     let curve = black_box(curve);
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let us = series.us();
+    let ts = series.us().map(|u| start + length * u);
     match series.function {
-        Function::InverseCdf => depth(us, |u| measured_inverse_cdf(curve, u)),
-        Function::Cdf => depth(us.map(|u| start + length * u), |t| measured_cdf(curve, t)),
-        Function::Opening => depth(us.map(|u| start + length * u), |t| measured_opening(curve, t)),
+        Function::InverseCdf => depth(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
+        Function::Cdf => depth(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
+        Function::Opening => depth(ts, |t| the_call(ShutterCurve::opening, curve, t)),
         Function::TickStep => depth(series.frames(), |(n, steps)| {
             let mut ticks = curve.trigger_ticks(n, black_box(TICK_HZ)).expect("a good rate");
             for _ in 0..steps {
-                black_box(measured_tick_step(&mut ticks));
+                black_box(the_call(|ticks: &mut TriggerTicks<C>, ()| ticks.next(), &mut ticks, ()));
             }
         }),
         Function::Schedule => {
+            let mut ticks = [0; TRIGGERS as usize];
+            let plan = |curve: &ShutterCurve<C>,
+                        (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
+                curve.schedule_into(ticks, TICK_HZ, gap)
+            };
             // On hard curves triggers may share a tick.
             let gap = u32::from(series.inputs == Inputs::Uniform);
-            let mut ticks = [0; TRIGGERS as usize];
             depth([gap].into_iter(), |gap| {
-                let _ = black_box(measured_schedule(curve, &mut ticks, gap));
-                black_box(&ticks);
+                let planned = the_call(plan, curve, (&mut ticks, gap));
+                black_box((planned, &ticks)).0.is_ok()
             })
         }
         Function::Construct => {
             let mut built = None;
-            let depth = depth([data.ramps(None)].into_iter(), |ramps| {
-                built = measured_construct::<C>(ramps).ok();
+            let build =
+                |opening: &_, closing: &_| ShutterCurve::<C>::with_cells(*opening, *closing);
+            let depth = depth([data.ramps(None)].into_iter(), |(opening, closing)| {
+                built = the_call(build, &opening, &closing).ok();
             });
             black_box(built);
             depth
         }
         Function::Newton => {
-            let newton = TextbookNewton::new(data.opening, data.closing);
-            depth(us, |u| measured_newton(black_box(&newton), u))
+            let newton = black_box(TextbookNewton::new(data.opening, data.closing));
+            depth(us, |u| the_call(TextbookNewton::inverse_cdf, &newton, u))
         }
         Function::Table => {
-            let table = InverseTable::new(|u| curve.inverse_cdf(u));
-            depth(us, |u| measured_table(black_box(&table), u))
+            let table = black_box(InverseTable::<256>::new(|u| curve.inverse_cdf(u)));
+            depth(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
-        Function::Root => {
-            let root = MEASURED_ROOTS[series.curve];
-            depth(us.map(dividend), |x| root(x, black_box(DIVISOR)))
-        }
+        Function::Root => depth(us.map(dividend), EACH_ROOT[series.curve]),
     }
 }
 
