@@ -1,14 +1,13 @@
 //! Every `f32`: the inverse at all of them in [0, 1], and the cdf and the openness at all in a curve's interval, held against
 //! a second formulation in doubles. A billion of them take a minute or two a curve.
 
-use std::error::Error;
 use std::time::Instant;
 
 use crate::support::cases::CASES;
-use crate::support::curves::named;
+use crate::support::curves::{Kind, named};
 use crate::support::oracle::Curve;
 use crate::sweep::Sweep;
-use crate::{sweep_t, sweep_u};
+use crate::{Result, sweep_t, sweep_u};
 
 /// A sweep as a line of `docs/every-f32.csv`. What a function has no figure for stays empty.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
@@ -58,8 +57,11 @@ impl Row {
 type Named = (&'static str, &'static str, Curve);
 
 /// For the inverse.
-const TYPICAL: &[&str] = &["rman_soft", "triangle", "fast_open_slow_close", "pedestal_.2"];
-const HARD: &[&str] = &[
+const IN_U: [&str; 10] = [
+    "rman_soft",
+    "triangle",
+    "fast_open_slow_close",
+    "pedestal_.2",
     "ends of order p^6",
     "time stands still inside",
     "openness touches 0 inside",
@@ -76,8 +78,7 @@ const LOWEST_OCTAVE: f32 = 1.0 / (1 << 20) as f32;
 
 /// Those with these names: of the reference data, then of the hard cases.
 fn curves(names: &[&str]) -> Vec<Named> {
-    let kind =
-        |kind| if kind == crate::support::curves::Kind::Typical { "typical" } else { "hard" };
+    let kind = |kind| if kind == Kind::Typical { "typical" } else { "hard" };
     let data = named().into_iter().map(|named| (named.name, kind(named.kind), named.curve));
     let cases = CASES.iter().map(|case| (case.name, "hard", case.curve()));
     data.chain(cases).filter(|(name, ..)| names.contains(name)).collect()
@@ -85,36 +86,27 @@ fn curves(names: &[&str]) -> Vec<Named> {
 
 /// The cdf and the openness on four curves, then the inverse on ten: 8 octaves on every `f32`, and other counts where
 /// octaves serve. `found` hears of all rows so far.
-pub fn every_f32(
-    bar: &indicatif::ProgressBar,
-    found: impl Fn(&[Row]) -> Result<(), Box<dyn Error>>,
-) -> Result<(), Box<dyn Error>> {
-    let (in_time, in_u) = (curves(&IN_TIME), curves(&[TYPICAL, HARD].concat()));
-    let upper = u64::from(1f32.to_bits() - LOWEST_OCTAVE.to_bits()) + 1;
-    let all = u64::from(1f32.to_bits()) + 1;
-    let times: u64 = in_time.iter().map(|(.., curve)| sweep_t::count(curve)).sum();
-    bar.set_length(times + in_u.len() as u64 * (all + 3 * upper));
-    let tick = |count| bar.inc(count);
+pub fn every_f32(found: impl Fn(&[Row]) -> Result) -> Result {
     let mut rows = Vec::new();
-    for named in &in_time {
+    for named in curves(&IN_TIME) {
         let since = Instant::now();
-        let [cdf, opening] = sweep_t::sweep(&named.2, tick);
+        let [cdf, opening] = sweep_t::sweep(&named.2);
         // Half of the time that both took together.
         let seconds = 0.5 * since.elapsed().as_secs_f64();
-        rows.push(Row::new(CDF, named, 8, cdf, seconds));
-        rows.push(Row::new(OPENING, named, 8, opening, seconds));
+        rows.push(Row::new(CDF, &named, 8, cdf, seconds));
+        rows.push(Row::new(OPENING, &named, 8, opening, seconds));
         found(&rows)?;
     }
     for cells in [8, 0, 4, 16] {
-        for named in &in_u {
+        for named in curves(&IN_U) {
             let since = Instant::now();
             let sweep = match cells {
-                8 => sweep_u::sweep::<8>(&named.2, 0.0, tick),
-                0 => sweep_u::sweep::<0>(&named.2, LOWEST_OCTAVE, tick),
-                4 => sweep_u::sweep::<4>(&named.2, LOWEST_OCTAVE, tick),
-                _ => sweep_u::sweep::<16>(&named.2, LOWEST_OCTAVE, tick),
+                8 => sweep_u::sweep::<8>(&named.2, 0.0),
+                0 => sweep_u::sweep::<0>(&named.2, LOWEST_OCTAVE),
+                4 => sweep_u::sweep::<4>(&named.2, LOWEST_OCTAVE),
+                _ => sweep_u::sweep::<16>(&named.2, LOWEST_OCTAVE),
             };
-            rows.push(Row::new(INVERSE, named, cells, sweep, since.elapsed().as_secs_f64()));
+            rows.push(Row::new(INVERSE, &named, cells, sweep, since.elapsed().as_secs_f64()));
             found(&rows)?;
         }
     }

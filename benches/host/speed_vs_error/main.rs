@@ -6,18 +6,12 @@
 
 mod accuracy;
 mod aimed;
-mod cost;
-#[path = "../curves.rs"]
-mod curves;
 mod every_f32;
 mod follower;
 mod methods;
-mod number;
-mod others;
 mod pictures;
 mod report;
 mod search;
-mod style;
 #[path = "../../../tests/support/mod.rs"]
 mod support;
 mod sweep;
@@ -25,94 +19,52 @@ mod sweep_t;
 mod sweep_u;
 mod timing;
 
-use accuracy::Amount;
-use clap::Parser;
-use curves::CURVES;
-use indicatif::{ProgressBar, ProgressStyle};
-use methods::METHODS;
+use methods::CURVES;
 use report::Measured;
 use support::rendering::{PULSES, Picture, Pulses};
-
-#[derive(Parser)]
-#[command(about = "Speed against error")]
-struct Args {
-    /// Seconds instead of minutes, rougher figures, and the report in target/speed-vs-error.
-    #[arg(long)]
-    quick: bool,
-    /// Look for the worst of so many curves that are bred and as many that are aimed, and write docs/search.csv.
-    #[arg(long, value_name = "N")]
-    search: Option<u64>,
-    /// Try every f32 on ten curves, and write docs/every-f32.csv.
-    #[arg(long)]
-    every_f32: bool,
-    /// What cargo adds.
-    #[arg(long, hide = true)]
-    bench: bool,
-}
 
 type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 
 fn main() -> Result {
-    let args = Args::parse();
-    // All paths are the repository's; cargo starts a bench in its package.
+    // All paths are the repository's; cargo starts a bench in its package, and adds an argument.
     std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-    if let Some(curves) = args.search {
-        let bar = progress("search", 2 * curves);
-        let mut finds = search::search(curves, || bar.inc(1));
-        finds.extend(aimed::search(curves, || bar.inc(1)));
-        return save("docs/search.csv", &finds);
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => report("docs", 200, 4000, 101),
+        // Rough figures are to be looked at, not to be kept.
+        ["--quick"] => report("target/speed-vs-error", 20, 500, 5),
+        ["--search", curves] => {
+            let finds = [search::search(curves.parse()?), aimed::search(curves.parse()?)];
+            save("docs/search.csv", &finds.concat())
+        }
+        ["--every-f32"] => every_f32::every_f32(|rows| save("docs/every-f32.csv", rows)),
+        _ => Err("usage: see speed_vs_error/main.rs".into()),
     }
-    if args.every_f32 {
-        let bar = progress("every f32", 1);
-        return every_f32::every_f32(&bar, |rows| save("docs/every-f32.csv", rows));
-    }
-    let measured = measure(args.quick)?;
-    // Rough figures are to be looked at, not to be kept.
-    let (folder, curves) = if args.quick { ("target/speed-vs-error", 200) } else { ("docs", 3000) };
-    std::fs::create_dir_all(folder)?;
-    draw(&measured, curves, folder);
-    let report = format!("{folder}/speed-vs-error.md");
-    std::fs::write(&report, report::write(&measured))?;
-    println!("{}", report::ratios(&measured.times));
-    println!("wrote {report} and its pictures");
-    Ok(())
 }
 
-fn measure(quick: bool) -> Result<Measured> {
-    let amount = if quick {
-        Amount { random_curves: 20, samples: 500, neighbours: 500 }
-    } else {
-        Amount { random_curves: 200, samples: 4000, neighbours: 4000 }
-    };
-    let curves = accuracy::count(&amount);
-    let bar = progress("error", curves as u64);
-    let figures = accuracy::measure(&amount, || bar.inc(1));
-    bar.finish();
-
-    let repeats = if quick { 5 } else { 101 };
-    let bar = progress("time", (CURVES.len() * repeats) as u64);
-    let all = 0..CURVES.len();
-    let times =
-        all.clone().map(|i| timing::inverses(&timing::curve(i), repeats, || bar.inc(1))).collect();
-    let forwards = all.map(|i| timing::forwards(&timing::curve(i), repeats)).collect();
-    bar.finish();
-
+fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
+    std::fs::create_dir_all(folder)?;
+    let curves = accuracy::curves(random);
     let scene = Picture::new(&timing::curve(0));
-    let rendering = PULSES.map(|pulses| {
-        let errors = (6..=12).map(|k| (1 << k, rendered(&scene, pulses, 1 << k)));
-        (pulses, errors.collect())
-    });
-    Ok(Measured {
-        curves,
-        samples: amount.samples,
-        figures,
-        times,
-        forwards,
-        costs: cost::read("docs/cost.md"),
-        rendering: rendering.into(),
+    let rendering =
+        (6..=12).map(|k| (1 << k, PULSES.map(|pulses| rendered(&scene, pulses, 1 << k))));
+    let measured = Measured {
+        curves: curves.len(),
+        samples,
+        figures: accuracy::measure(&curves, samples),
+        times: (0..CURVES.len()).map(|i| timing::times(&timing::curve(i), repeats)).collect(),
+        cost: std::fs::read_to_string("docs/cost.md")?,
+        rendering: rendering.collect(),
         finds: table("docs/search.csv")?,
         every_f32: table("docs/every-f32.csv")?,
-    })
+    };
+    pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
+    pictures::rendering(&format!("{folder}/rendering.svg"));
+    pictures::worst_cases(&format!("{folder}/worst-cases.svg"), 15 * random);
+    let report = format!("{folder}/speed-vs-error.md");
+    std::fs::write(&report, report::write(&measured))?;
+    println!("{}\nwrote {report} and its pictures", report::ratios(&measured));
+    Ok(())
 }
 
 /// The root-mean-square error of a picture in `n` pulses; of several, where they are random.
@@ -122,44 +74,13 @@ fn rendered(scene: &Picture, pulses: Pulses, n: u32) -> f64 {
     (squares.sum::<f64>() / seeds as f64).sqrt()
 }
 
-fn draw(measured: &Measured, curves: u64, folder: &str) {
-    let path = |name: &str| format!("{folder}/{name}.svg");
-    let host = measured.times[0].iter().map(|time| time.single).enumerate().collect();
-    let mut panels = vec![("nanoseconds a sample on the host, soft curve", host)];
-    let cycles = METHODS.iter().enumerate().filter_map(|(index, method)| {
-        report::cost(measured, method).map(|cost| (index, cost.mean))
-    });
-    let cycles: Vec<_> = cycles.collect();
-    if !cycles.is_empty() {
-        panels.push(("mean cycles a sample on a Cortex-M4F (model), soft curve", cycles));
-    }
-    pictures::frontier(&path("frontier"), &panels, &measured.figures);
-    pictures::over_u(&path("error-over-u"));
-    pictures::histogram(&path("histogram"), &measured.figures);
-    pictures::rendering(&path("rendering"), &measured.rendering);
-    let bar = progress("worst cases", 2 * curves);
-    pictures::worst_cases(&path("worst-cases"), curves, || bar.inc(1));
-    bar.finish();
-}
-
-fn progress(what: &'static str, length: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} %, {eta} left");
-    let style = style.expect("a good template");
-    ProgressBar::new(length).with_style(style).with_message(what)
-}
-
 fn save<T: serde::Serialize>(path: &str, rows: &[T]) -> Result {
     let mut file = csv::Writer::from_path(path)?;
-    for row in rows {
-        file.serialize(row)?;
-    }
+    rows.iter().try_for_each(|row| file.serialize(row))?;
     Ok(file.flush()?)
 }
 
-/// The rows of a table that another run left, or none.
+/// The rows of a table that another run left.
 fn table<T: serde::de::DeserializeOwned>(path: &str) -> Result<Vec<T>> {
-    if !std::path::Path::new(path).exists() {
-        return Ok(Vec::new());
-    }
     Ok(csv::Reader::from_path(path)?.into_deserialize().collect::<Result<_, _>>()?)
 }

@@ -1,20 +1,43 @@
-//! The methods under comparison, each behind the same trait.
+//! The methods under comparison, each behind the same trait, and the curves that they are timed on.
+#![allow(dead_code)] // The other bench needs a part.
 
 use std::hint::black_box;
 
 use shutter_curve::ShutterCurve;
 
-use crate::support::baseline::{InverseTable, TextbookNewton};
+use crate::support::baseline::{InverseTable, Ramp, TextbookNewton};
 use crate::support::cases::shutter;
+use crate::support::curves::Rng;
 use crate::support::oracle::Curve;
-use crate::support::peers::{MonotoneCubicTable, Parts, bracketed, doubles};
+use crate::support::peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
+
+/// About a third of the mass in ramps; all of it; none.
+pub const CURVES: [(&str, Ramp, Ramp); 3] = [
+    (
+        "soft",
+        [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)],
+        [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
+    ),
+    (
+        "all ramp",
+        [(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)],
+        [(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)],
+    ),
+    ("box", [(0.0, 1.0); 4], [(1.0, 1.0); 4]),
+];
+
+/// Fractions in no order: more than a branch predictor learns by heart, so that every branch on u is taken by surprise.
+pub fn fractions() -> Vec<f32> {
+    let mut rng = Rng::new(1, 0);
+    (0..1 << 16).map(|_| rng.unit() as f32).collect()
+}
 
 pub trait Inverse {
-    fn inverse_cdf(&self, u: f32) -> f32;
+    /// The time, and how often a polynomial of the mass was evaluated for it.
+    fn solve(&self, u: f32) -> (f32, u32);
 
-    /// How often a polynomial of the mass was evaluated for it.
-    fn evaluations(&self, _u: f32) -> u32 {
-        0
+    fn inverse_cdf(&self, u: f32) -> f32 {
+        self.solve(u).0
     }
 
     /// One call after the other, each result kept from being optimised away.
@@ -32,87 +55,49 @@ pub trait Inverse {
 }
 
 impl<const CELLS: usize> Inverse for ShutterCurve<CELLS> {
+    fn solve(&self, u: f32) -> (f32, u32) {
+        (self.inverse_cdf(u), self.evaluations(u))
+    }
     fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse_cdf(u)
-    }
-    fn evaluations(&self, u: f32) -> u32 {
-        self.evaluations(u)
     }
     fn slice(&self, u: &[f32], t: &mut [f32]) {
         self.inverse_cdf_slice(u, t);
     }
 }
 
-impl Inverse for TextbookNewton {
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.inverse_cdf(u)
-    }
-    fn evaluations(&self, u: f32) -> u32 {
-        self.solve(u).1
-    }
-}
-
-struct Bracketed(Parts<f32>);
-
-impl Inverse for Bracketed {
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.0.inverse_cdf(u, bracketed).0
-    }
-    fn evaluations(&self, u: f32) -> u32 {
-        self.0.inverse_cdf(u, bracketed).1
-    }
-}
-
-struct Doubles(Parts<f64>);
-
-impl Inverse for Doubles {
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.0.inverse_cdf(u, doubles).0
-    }
-    fn evaluations(&self, u: f32) -> u32 {
-        self.0.inverse_cdf(u, doubles).1
-    }
-}
-
-impl<const N: usize> Inverse for InverseTable<N> {
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.inverse_cdf(u)
-    }
-}
-
-impl<const N: usize> Inverse for MonotoneCubicTable<N> {
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.inverse_cdf(u)
+/// A peer is the way in which its data are used.
+impl<F: Fn(f32) -> (f32, u32)> Inverse for F {
+    fn solve(&self, u: f32) -> (f32, u32) {
+        self(u)
     }
 }
 
 pub struct Method {
     pub name: &'static str,
-    /// A baseline's name in `docs/cost.md`, the table of cycles, or this crate's number of cells.
-    pub cost: &'static str,
+    /// Its call and number of cells in `docs/cost.md`, the table of cycles.
+    pub cost: [&'static str; 2],
     pub is_ours: bool,
     pub bytes: usize,
     pub build: fn(&Curve) -> Box<dyn Inverse>,
 }
 
-const fn baseline<T: Inverse>(
+const fn peer<T>(
     name: &'static str,
     cost: &'static str,
     build: fn(&Curve) -> Box<dyn Inverse>,
 ) -> Method {
-    Method { name, cost, is_ours: false, bytes: size_of::<T>(), build }
+    Method { name, cost: [cost, "8"], is_ours: false, bytes: size_of::<T>(), build }
 }
 
-const fn ours<const CELLS: usize>(name: &'static str, cost: &'static str) -> Method {
+const fn ours<const CELLS: usize>(name: &'static str, cells: &'static str) -> Method {
     let bytes = size_of::<ShutterCurve<CELLS>>();
+    let cost = ["`inverse_cdf`", cells];
     Method { name, cost, is_ours: true, bytes, build: |c| Box::new(shutter::<CELLS>(c)) }
 }
 
 /// The place of the textbook Newton, against which times are taken.
 pub const TEXTBOOK: usize = 4;
-/// The places of the crate's default and of the usual table.
-pub const DEFAULT: usize = 2;
-pub const TABLE: usize = 6;
 
 /// Tables are made from exact entries, so that only their own error is seen.
 pub const METHODS: [Method; 10] = [
@@ -120,25 +105,57 @@ pub const METHODS: [Method; 10] = [
     ours::<4>("`CELLS = 4`", "4"),
     ours::<8>("`CELLS = 8`", "8"),
     ours::<16>("`CELLS = 16`", "16"),
-    baseline::<TextbookNewton>("textbook Newton", "textbook Newton", |c| {
-        Box::new(TextbookNewton::new(c.opening, c.closing))
+    peer::<TextbookNewton>("textbook Newton", "textbook Newton in `f32`", |c| {
+        let newton = TextbookNewton::new(c.opening, c.closing);
+        Box::new(move |u| newton.solve(u))
     }),
-    baseline::<Bracketed>("bracketed Newton", "", |c| {
-        Box::new(Bracketed(Parts::new(c.opening, c.closing)))
+    peer::<Parts<f32>>("bracketed Newton", "", |c| {
+        let parts = Parts::<f32>::new(c.opening, c.closing);
+        Box::new(move |u| parts.inverse_cdf(u, bracketed))
     }),
-    baseline::<InverseTable<256>>("table of 256", "table", |c| {
+    peer::<InverseTable<256>>("table of 256", "linear table of 256", table::<256>),
+    peer::<InverseTable<1024>>("table of 1024", "", table::<1024>),
+    peer::<MonotoneCubicTable<64>>("cubic table of 64", "", |c| {
         let exact = shutter::<16>(c);
-        Box::new(InverseTable::<256>::new(|u| exact.inverse_cdf(u)))
+        let table = MonotoneCubicTable::<64>::new(|u| exact.inverse_cdf(u));
+        Box::new(move |u| (table.inverse_cdf(u), 0))
     }),
-    baseline::<InverseTable<1024>>("table of 1024", "", |c| {
-        let exact = shutter::<16>(c);
-        Box::new(InverseTable::<1024>::new(|u| exact.inverse_cdf(u)))
-    }),
-    baseline::<MonotoneCubicTable<64>>("cubic table of 64", "", |c| {
-        let exact = shutter::<16>(c);
-        Box::new(MonotoneCubicTable::<64>::new(|u| exact.inverse_cdf(u)))
-    }),
-    baseline::<Doubles>("Newton in f64", "", |c| {
-        Box::new(Doubles(Parts::new(c.opening, c.closing)))
+    peer::<Parts<f64>>("Newton in f64", "", |c| {
+        let parts = Parts::<f64>::new(c.opening, c.closing);
+        Box::new(move |u| parts.inverse_cdf(u, doubles))
     }),
 ];
+
+fn table<const N: usize>(curve: &Curve) -> Box<dyn Inverse> {
+    let exact = shutter::<16>(curve);
+    let table = InverseTable::<N>::new(|u| exact.inverse_cdf(u));
+    Box::new(move |u| (table.inverse_cdf(u), 0))
+}
+
+/// Answers for times, and how they are prepared.
+pub type Forward = Box<dyn Fn(&[f32], &mut [f32])>;
+type Prepared = fn(&Curve) -> Forward;
+
+/// The openness and the cdf in turn, by this crate and by the usual solver of animation curves.
+pub const FORWARDS: [(&str, Prepared); 4] = [
+    ("`opening`", |c| forward(shutter::<8>(c), |ours, t| ours.opening(t))),
+    ("`cdf`", |c| forward(shutter::<8>(c), |ours, t| ours.cdf(t))),
+    ("opening, 8 Newton steps", |c| {
+        forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {
+            parts.openness(t, |ramp, t| animation(ramp, t, 1e-6).unwrap_or(0.0))
+        })
+    }),
+    ("cdf, 8 Newton steps", |c| {
+        forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {
+            parts.cdf(t, |ramp, t| animation(ramp, t, 1e-6).unwrap_or(0.0))
+        })
+    }),
+];
+
+fn forward<T: 'static>(curve: T, call: impl Fn(&T, f32) -> f32 + 'static) -> Forward {
+    Box::new(move |times, values| {
+        for (t, value) in times.iter().zip(values) {
+            *value = call(&curve, black_box(*t));
+        }
+    })
+}

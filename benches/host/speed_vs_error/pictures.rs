@@ -1,24 +1,121 @@
-//! The pictures of the report.
+//! The pictures of the report: as those of `shutter`.
+
+use std::collections::HashSet;
+use std::ops::Range;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
-use crate::accuracy::Figures;
-use crate::methods::{DEFAULT, METHODS, TABLE, TEXTBOOK};
-use crate::style::{Axis, BLUE, Chart, GREY, INK, SCALE, VERMILION, chart, legend, picture, text};
+use crate::methods::METHODS;
+use crate::report::{Measured, cycles, name};
 use crate::support::cases::{judge, shutter};
 use crate::support::curves::{random_hard, random_typical};
-use crate::support::oracle::{Curve, Exact, Points};
-use crate::support::rendering::{PIXELS, PULSES, Picture, Pulses};
+use crate::support::oracle::{Curve, Exact};
+use crate::support::rendering::{PIXELS, PULSES, Picture};
 use crate::timing;
 
-/// Error against time: the greatest (full) and the mean error (ring) of each method, over what a sample
-/// costs. A panel is a name and the cost of methods by their places.
-pub fn frontier(path: &str, panels: &[(&'static str, Vec<(usize, f64)>)], figures: &[Figures]) {
+/// Drawn at twice the size, since the pen moves by whole units.
+const SCALE: i32 = 2;
+
+/// Text, by its size and its place relative to the point it is put at.
+fn text(size: i32, h: HPos, v: VPos) -> TextStyle<'static> {
+    style::text(size * SCALE, h, v)
+}
+
+/// A picture of this size and title, with what `draw` draws on it.
+fn picture(path: &str, size: (u32, u32), title: &str, draw: impl FnOnce(&Area)) {
+    let mut svg = String::new();
+    let drawn = (size.0 * SCALE as u32, size.1 * SCALE as u32);
+    {
+        let area = SVGBackend::with_string(&mut svg, drawn).into_drawing_area();
+        area.fill(&WHITE).expect("a picture");
+        draw(&area);
+        area.present().expect("a picture");
+    }
+    // What is said of each dot and is so without being said.
+    let svg = svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>");
+    std::fs::write(path, dressed(&svg, drawn, size, title)).expect("the picture is written");
+}
+
+/// An axis: what it shows, from where to where, and how its numbers are written.
+struct Axis {
+    name: &'static str,
+    range: Range<f64>,
+    label: fn(&f64) -> String,
+    labels: usize,
+}
+
+fn graph<'a, 'b>(area: &Area<'b>, x: &Axis, y: &Axis) -> Graph<'a, 'b> {
+    let mut graph = ChartBuilder::on(area)
+        .margin(12 * SCALE)
+        .x_label_area_size(46 * SCALE)
+        .y_label_area_size(62 * SCALE)
+        .build_cartesian_2d(x.range.clone(), y.range.clone())
+        .expect("a graph");
+    graph
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(FAINT.stroke_width(2))
+        .axis_style(GREY.stroke_width(2))
+        .label_style(style::font(13 * SCALE))
+        .axis_desc_style(style::font(14 * SCALE))
+        .x_desc(x.name)
+        .y_desc(y.name)
+        .x_labels(x.labels)
+        .y_labels(y.labels)
+        .x_label_formatter(&x.label)
+        .y_label_formatter(&y.label)
+        .draw()
+        .expect("axes");
+    graph
+}
+
+/// Names colours and signs: a series without points for each, and the legend, in a corner.
+fn legend<'a, 'b: 'a>(
+    graph: &mut Graph<'a, 'b>,
+    keys: &[(&str, ShapeStyle)],
+    position: SeriesLabelPosition,
+) {
+    for (name, style) in keys {
+        let none = std::iter::empty::<Circle<(f64, f64), i32>>();
+        let (series, style) = (graph.draw_series(none).expect("drawn"), *style);
+        series.label(*name).legend(move |(x, y)| Circle::new((x + 18, y), 9, style));
+    }
+    graph
+        .configure_series_labels()
+        .position(position)
+        .background_style(WHITE.mix(0.85))
+        .border_style(FAINT)
+        .legend_area_size(30 * SCALE)
+        .margin(8 * SCALE)
+        .label_font(style::font(13 * SCALE))
+        .draw()
+        .expect("a legend");
+}
+
+/// A whole number, raised.
+fn superscript(n: i32) -> String {
+    let raised = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let sign = if n < 0 { "⁻" } else { "" };
+    let digits = n.abs().to_string();
+    let digits = digits.bytes().map(|digit| raised[usize::from(digit - b'0')]);
+    format!("{sign}{}", digits.collect::<String>())
+}
+
+/// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a sample
+/// costs.
+pub fn frontier(path: &str, measured: &Measured) {
+    let times = measured.times[0].0.iter().map(|time| Some(time.single));
+    let cycles = (0..METHODS.len()).map(|method| Some(cycles(measured, method)?[0]));
+    let panels: [(&str, Vec<Option<f64>>); 2] = [
+        ("nanoseconds a sample on the host, soft curve", times.collect()),
+        ("mean cycles a sample on a Cortex-M4F (model), soft curve", cycles.collect()),
+    ];
     let title = "Error against time and against cycles: this crate and its peers";
-    picture(path, (620 * panels.len() as u32, 520), title, |root| {
-        for (area, (name, costs)) in root.split_evenly((1, panels.len())).iter().zip(panels) {
-            let logs = costs.iter().map(|(_, cost)| cost.log2());
+    picture(path, (1240, 520), title, |root| {
+        for (area, (name, costs)) in root.split_evenly((1, 2)).iter().zip(&panels) {
+            let logs = costs.iter().flatten().map(|cost| cost.log2());
             let low = logs.clone().fold(f64::INFINITY, f64::min);
             let high = logs.fold(f64::NEG_INFINITY, f64::max);
             let x = Axis {
@@ -27,148 +124,58 @@ pub fn frontier(path: &str, panels: &[(&'static str, Vec<(usize, f64)>)], figure
                 label: |x| format!("{:.0}", 2f64.powf(x.round())),
                 labels: 8,
             };
-            let y = Axis::decades("error, as a share of the interval", -9.5..0.5);
-            let mut chart = chart(area, "", &x, &y);
-            for &(method, cost) in costs {
-                let color = if METHODS[method].is_ours { BLUE } else { VERMILION };
-                let (most, mean) = figures[method].of_interval;
+            let y = Axis {
+                name: "error, as a share of the interval",
+                range: -9.5..0.5,
+                label: |y| match y.round() as i32 {
+                    0 => "1".into(),
+                    y => format!("10{}", superscript(y)),
+                },
+                labels: 11,
+            };
+            let mut graph = graph(area, &x, &y);
+            for ((method, figures), cost) in METHODS.iter().zip(&measured.figures).zip(costs) {
+                let Some(cost) = cost else { continue };
+                let color = if method.is_ours { BLUE } else { VERMILION };
+                let (most, mean) = figures.of_interval;
                 let at = |error: f64| (cost.log2(), error.max(1e-10).log10());
                 let line = PathElement::new([at(most), at(mean)], color.mix(0.4).stroke_width(4));
-                draw(&mut chart, [line]);
-                draw(&mut chart, [Circle::new(at(most), 10, color.filled())]);
-                draw(&mut chart, [Circle::new(at(mean), 8, color.stroke_width(4))]);
+                draw(&mut graph, [line]);
+                draw(&mut graph, [Circle::new(at(most), 10, color.filled())]);
+                draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
-                let (dx, dy, h) = match METHODS[method].name {
+                let (dx, dy, h) = match method.name {
                     "`CELLS = 16`" => (-18, 0, HPos::Right),
                     "`CELLS = 8`" => (0, -26, HPos::Center),
                     "table of 256" => (-18, -10, HPos::Right),
                     "table of 1024" => (-18, 14, HPos::Right),
                     _ => (18, 0, HPos::Left),
                 };
-                let label = METHODS[method].name.replace('`', "");
+                let label = method.name.replace('`', "");
                 let label = Text::new(label, (dx, dy), text(13, h, VPos::Center));
-                draw(&mut chart, [EmptyElement::at(at(most)) + label]);
+                draw(&mut graph, [EmptyElement::at(at(most)) + label]);
             }
-            frontier_legend(&mut chart);
+            let keys = [
+                ("this crate", BLUE.filled()),
+                ("others", VERMILION.filled()),
+                ("greatest error", INK.filled()),
+                ("mean error", INK.stroke_width(4)),
+            ];
+            legend(&mut graph, &keys, SeriesLabelPosition::MiddleLeft);
         }
     });
 }
 
-/// What colours and signs of the frontier mean: series without points, for their names.
-fn frontier_legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) {
-    let keys = [
-        ("this crate", BLUE.filled()),
-        ("others", VERMILION.filled()),
-        ("greatest error", INK.filled()),
-        ("mean error", INK.stroke_width(4)),
-    ];
-    for (name, style) in keys {
-        let none = std::iter::empty::<Circle<(f64, f64), i32>>();
-        let series = chart.draw_series(none).expect("drawn");
-        series.label(name).legend(move |(x, y)| Circle::new((x + 18, y), 9, style));
-    }
-    legend(chart, SeriesLabelPosition::MiddleLeft);
-}
-
-fn draw<'b, E>(chart: &mut Chart<'_, 'b>, elements: impl IntoIterator<Item = E>)
+fn draw<'b, E>(graph: &mut Graph<'_, 'b>, elements: impl IntoIterator<Item = E>)
 where
     for<'e> &'e E: plotters::element::PointCollection<'e, (f64, f64)>,
     E: plotters::element::Drawable<SVGBackend<'b>>,
 {
-    chart.draw_series(elements).expect("drawn");
-}
-
-/// A line with its name in the legend.
-fn line(
-    chart: &mut Chart,
-    name: &str,
-    color: RGBColor,
-    width: u32,
-    points: impl IntoIterator<Item = (f64, f64)>,
-) {
-    let style = color.stroke_width(2 * width);
-    let series = chart.draw_series(LineSeries::new(points, style)).expect("drawn");
-    if !name.is_empty() {
-        series.label(name).legend(move |(x, y)| PathElement::new([(x, y), (x + 36, y)], style));
-    }
-}
-
-/// The error over u in ulp(t) on three curves: this crate, the textbook Newton and a table.
-pub fn over_u(path: &str) {
-    let high: Points = [(0.0, 0.0), (0.0833, 0.0), (0.1667, 0.0), (0.25, 1.0)];
-    let mirror: Points = [(0.75, 1.0), (0.8333, 0.0), (0.9167, 0.0), (1.0, 0.0)];
-    let curves = [
-        ("soft", timing::curve(0)),
-        ("all ramp", timing::curve(1)),
-        ("ends of order p⁴", Curve::shutter(high, mirror)),
-    ];
-    let title = "The error over u on three curves: this crate, the textbook Newton and a table";
-    picture(path, (1240, 400), title, |root| {
-        for (area, (name, curve)) in root.split_evenly((1, 3)).iter().zip(&curves) {
-            let y = Axis::decades("error in ulp(t)", -2.5..7.5);
-            let mut chart = chart(area, name, &Axis::plain("u", 0.0..1.0), &y);
-            let exact = Exact::new(curve);
-            let methods = [
-                (TABLE, VERMILION, "table of 256"),
-                (TEXTBOOK, GREY, "textbook Newton"),
-                (DEFAULT, BLUE, "this crate"),
-            ];
-            for (method, color, name) in methods {
-                let inverse = (METHODS[method].build)(curve);
-                // The greatest of 16 neighbours: what matters, and a line that one can read.
-                let points = (1..256).map(|i| {
-                    let errors = (0..16).map(|k| (i as f32 + k as f32 / 16.0) / 256.0).map(|u| {
-                        let t = inverse.inverse_cdf(u);
-                        exact.forward_ulp(t, exact.inverse_cdf(u))
-                    });
-                    let most = errors.fold(0.0, f64::max);
-                    (f64::from(i) / 256.0, most.max(3e-3).log10())
-                });
-                line(&mut chart, name, color, 2, points);
-            }
-            legend(&mut chart, SeriesLabelPosition::UpperMiddle);
-        }
-    });
-}
-
-/// How the errors in ulp(t) are spread, with their signs.
-pub fn histogram(path: &str, figures: &[Figures]) {
-    let title = "How the errors of the inverse are spread";
-    picture(path, (720, 400), title, |root| {
-        const BINS: usize = 64;
-        let width = 1.6 / BINS as f64;
-        let bins = |errors: &[f32]| {
-            let mut bins = [0.0; BINS];
-            for error in errors {
-                let bin = ((f64::from(*error) + 0.8) / width) as usize;
-                bins[bin.min(BINS - 1)] += 1.0 / errors.len() as f64 / width;
-            }
-            bins
-        };
-        let (ours, compact) = (bins(&figures[DEFAULT].signed), bins(&figures[0].signed));
-        let most = ours.iter().chain(&compact).fold(1.0, |most: f64, height| most.max(*height));
-        let x = Axis::plain("t - exact, in ulp(t)", -0.8..0.8);
-        let y = Axis::plain("density", 0.0..1.05 * most);
-        let mut chart = chart(root, "", &x, &y);
-        let edge = |i: usize| i as f64 * width - 0.8;
-        let bars = ours.iter().enumerate().map(|(i, height)| {
-            Rectangle::new([(edge(i), 0.0), (edge(i + 1), *height)], BLUE.mix(0.55).filled())
-        });
-        let series = chart.draw_series(bars).expect("drawn");
-        series.label("CELLS = 8").legend(|(x, y)| {
-            Rectangle::new([(x, y - 10), (x + 36, y + 10)], BLUE.mix(0.55).filled())
-        });
-        let steps = compact.iter().enumerate();
-        let steps = steps.flat_map(|(i, height)| [(edge(i), *height), (edge(i + 1), *height)]);
-        line(&mut chart, "CELLS = 0", INK, 2, steps);
-        let ideal = [(-0.5, 0.0), (-0.5, 1.0), (0.5, 1.0), (0.5, 0.0)];
-        line(&mut chart, "rounding alone, errors even", VERMILION, 2, ideal);
-        legend(&mut chart, SeriesLabelPosition::UpperRight);
-    });
+    graph.draw_series(elements).expect("drawn");
 }
 
 /// Where the worst backward errors lie: each random curve's worst u and its error.
-pub fn worst_cases(path: &str, curves: u64, tick: impl Fn()) {
+pub fn worst_cases(path: &str, curves: u64) {
     let title = "Where the worst errors of the inverse lie";
     picture(path, (1240, 420), title, |root| {
         // Octaves from the earlier end, then from the later one.
@@ -179,7 +186,12 @@ pub fn worst_cases(path: &str, curves: u64, tick: impl Fn()) {
                 30.0 - (1.0 - f64::from(u)).log2().max(-30.0)
             }
         };
-        let y = Axis::plain("greatest error in ulp(u)", 0.0..1.05);
+        let y = Axis {
+            name: "greatest error in ulp(u)",
+            range: 0.0..1.05,
+            label: |y| format!("{y:.1}"),
+            labels: 6,
+        };
         let x = Axis {
             name: "u where it occurs",
             range: 0.0..56.0,
@@ -191,41 +203,35 @@ pub fn worst_cases(path: &str, curves: u64, tick: impl Fn()) {
             },
             labels: 15,
         };
-        let mut chart = chart(root, "", &x, &y);
-        let kinds = [
-            ("hard curves", VERMILION, random_hard as fn(u64, u64) -> Curve),
-            ("typical curves", BLUE, random_typical),
-        ];
-        for (name, color, random) in kinds {
-            let points: Vec<_> = (0..curves)
-                .map(|i| {
-                    let curve = random(5, i);
-                    let ours = shutter::<8>(&curve);
-                    let verdict = judge(&Exact::new(&curve), |u| ours.inverse_cdf(u));
-                    tick();
-                    (place(verdict.at), verdict.backward)
-                })
-                .collect();
-            let dots = points.into_iter().map(|at| Circle::new(at, 4, color.mix(0.5).filled()));
-            let series = chart.draw_series(dots).expect("drawn");
-            series.label(name).legend(move |(x, y)| Circle::new((x + 18, y), 8, color.filled()));
+        let mut graph = graph(root, &x, &y);
+        let kinds = [(VERMILION, random_hard as fn(u64, u64) -> Curve), (BLUE, random_typical)];
+        for (color, random) in kinds {
+            let points = (0..curves).map(|i| {
+                let curve = random(5, i);
+                let ours = shutter::<8>(&curve);
+                let verdict = judge(&Exact::new(&curve), |u| ours.inverse_cdf(u));
+                (place(verdict.at), verdict.backward)
+            });
+            // One dot where many would lie on each other.
+            let mut seen = HashSet::new();
+            let cell = |(x, y): (f64, f64)| ((4.0 * x) as u32, (75.0 * y) as u32);
+            let dots = points.filter(|at| seen.insert(cell(*at)));
+            draw(&mut graph, dots.map(|at| Circle::new(at, 4, color.mix(0.5).filled())));
         }
-        line(&mut chart, "promised", INK, 1, [(0.0, 1.0), (56.0, 1.0)]);
-        legend(&mut chart, SeriesLabelPosition::MiddleRight);
+        draw(&mut graph, [PathElement::new([(0.0, 1.0), (56.0, 1.0)], INK.stroke_width(2))]);
+        let keys = [
+            ("hard curves", VERMILION.filled()),
+            ("typical curves", BLUE.filled()),
+            ("promised: 1", INK.filled()),
+        ];
+        legend(&mut graph, &keys, SeriesLabelPosition::MiddleRight);
     });
 }
 
-fn superscript(n: i32) -> String {
-    let raised = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    n.to_string().bytes().map(|digit| raised[usize::from(digit - b'0')]).collect()
-}
-
-/// A moving bar exposed in three ways: what one sees, and the error against the number of pulses.
-pub fn rendering(path: &str, errors: &[(Pulses, Vec<(u32, f64)>)]) {
+/// A moving bar exposed in three ways: what one sees.
+pub fn rendering(path: &str) {
     const SHOWN: u32 = 32;
-    let title = "A moving bar exposed in pulses, and the error against their number";
-    picture(path, (1240, 430), title, |root| {
-        let (strips, plot) = root.split_horizontally(700 * SCALE);
+    picture(path, (700, 430), "A moving bar exposed in pulses", |strips| {
         let scene = Picture::new(&timing::curve(0));
         let rows = [("exact".to_string(), scene.exact().to_vec())].into_iter().chain(
             PULSES.map(|pulses| (name(pulses).to_string(), scene.exposed(pulses, SHOWN, 1))),
@@ -255,27 +261,5 @@ pub fn rendering(path: &str, errors: &[(Pulses, Vec<(u32, f64)>)]) {
                 pixel += run.len();
             }
         }
-        let y = Axis::decades("root-mean-square error", -5.0..0.0);
-        let x = Axis {
-            name: "pulses",
-            range: 5.8..12.2,
-            label: |x| format!("{:.0}", 2f64.powf(x.round())),
-            labels: 7,
-        };
-        let mut chart = chart(&plot, "", &x, &y);
-        for ((pulses, errors), color) in errors.iter().zip([BLUE, VERMILION, GREY]) {
-            let points = errors.iter().map(|(n, error)| (f64::from(*n).log2(), error.log10()));
-            draw(&mut chart, points.clone().map(|at| Circle::new(at, 6, color.filled())));
-            line(&mut chart, name(*pulses), color, 2, points);
-        }
-        legend(&mut chart, SeriesLabelPosition::UpperRight);
     });
-}
-
-pub fn name(pulses: Pulses) -> &'static str {
-    match pulses {
-        Pulses::Triggers => "triggers of this crate",
-        Pulses::Weighted => "equally spaced, weighted by openness",
-        Pulses::Random => "random, as the curve has it",
-    }
 }

@@ -1,58 +1,85 @@
 //! The report's text.
 
-use std::fmt::Write as _;
-
 use crate::accuracy::Figures;
-use crate::cost::Cost;
-use crate::curves::CURVES;
 use crate::every_f32::{INVERSE, Row};
-use crate::methods::{METHODS, Method, TEXTBOOK};
-use crate::number::number;
-use crate::pictures::name;
+use crate::methods::{CURVES, FORWARDS, METHODS, TEXTBOOK};
 use crate::search::Find;
-use crate::support::baseline::InverseTable;
-use crate::support::cases::{CASES, Case, Verdict, judge, shutter};
+use crate::support::cases::{CASES, judge, shutter};
 use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
-use crate::support::rendering::Pulses;
-use crate::timing::{FORWARDS, Time};
+use crate::support::rendering::{PULSES, Pulses};
+use crate::timing::Times;
 
 /// Everything measured.
 pub struct Measured {
     pub curves: usize,
     pub samples: usize,
     pub figures: Vec<Figures>,
-    /// By curve, then by method.
-    pub times: Vec<Vec<Time>>,
-    /// By curve: nanoseconds and error of [`FORWARDS`].
-    pub forwards: Vec<[(f64, f64); 4]>,
-    pub costs: Vec<Cost>,
-    pub rendering: Vec<(Pulses, Vec<(u32, f64)>)>,
+    /// By curve.
+    pub times: Vec<Times>,
+    /// The text of `docs/cost.md`.
+    pub cost: String,
+    /// The error of the pictures in so many pulses.
+    pub rendering: Vec<(u32, [f64; 3])>,
     pub finds: Vec<Find>,
     pub every_f32: Vec<Row>,
 }
 
 pub fn write(measured: &Measured) -> String {
-    let mut out = String::new();
-    introduction(&mut out, measured).expect("a string takes text");
-    methods(&mut out, measured).expect("a string takes text");
-    forwards(&mut out, measured).expect("a string takes text");
-    errors(&mut out).expect("a string takes text");
-    hard_cases(&mut out).expect("a string takes text");
-    search(&mut out, measured).expect("a string takes text");
-    every_f32(&mut out, measured).expect("a string takes text");
-    rendering(&mut out, measured).expect("a string takes text");
-    out
+    let sections = [
+        introduction(measured),
+        methods(measured),
+        forwards(measured),
+        hard_cases(),
+        search(measured),
+        every_f32(measured),
+        rendering(measured),
+    ];
+    sections.join("\n\n") + "\n"
 }
 
-fn introduction(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    write!(
-        out,
+/// A figure as one reads it.
+pub fn number(x: f64) -> String {
+    match x.abs() {
+        _ if !x.is_finite() => "∞".into(),
+        0.0 => "0".into(),
+        ..0.01 | 1e6.. => {
+            let text = format!("{x:.1e}");
+            let (digits, exponent) = text.split_once('e').expect("an exponent");
+            format!("{digits}·10<sup>{exponent}</sup>")
+        }
+        ..0.1 => format!("{x:.3}"),
+        ..10.0 => format!("{x:.2}"),
+        ..100.0 => format!("{x:.1}"),
+        _ => format!("{x:.0}"),
+    }
+}
+
+/// The same of whole numbers and of figures that a table may lack.
+fn text(x: Option<impl Into<f64>>) -> String {
+    x.map_or_else(|| "-".into(), |x| number(x.into()))
+}
+
+fn whole(x: Option<u64>) -> String {
+    x.map_or_else(|| "-".into(), |x| x.to_string())
+}
+
+/// A table, its columns' names between bars: so many columns of text, the others of figures.
+fn table(header: &str, texts: usize, rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let header = format!("| {header} |");
+    let figures = header.matches('|').count() - 1 - texts;
+    let ruled = format!("|{}{}", "---|".repeat(texts), "---:|".repeat(figures));
+    let rows = rows.into_iter().map(|row| format!("\n| {} |", row.join(" | ")));
+    format!("{header}\n{ruled}{}", rows.collect::<String>())
+}
+
+fn introduction(measured: &Measured) -> String {
+    format!(
         "# Speed against error
 
 Written by `cargo bench -p benches --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
-an ordinary machine, medians of interleaved repeats over 65 536 random `u`, so that no branch on `u` is ever
-predicted; on another machine trust the ratios. Seed feature: {SEED}, unless said otherwise.
+an ordinary machine, medians of interleaved repeats, in short runs, over 65 536 random `u`, so that no branch on `u` is ever
+predicted; on another machine trust the ratios.
 
 Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones
 as scenes hold them), {} fractions each: half of them uniform, a quarter towards either end on a scale of
@@ -72,36 +99,73 @@ The time of `inverse_cdf` as a share of the textbook Newton's, both times its si
 
 ![Error against cost](frontier.svg)
 
-Full dots are the greatest error, rings the mean.
-
-",
+Full dots are the greatest error, rings the mean.",
         std::env::consts::ARCH,
         measured.curves,
         measured.samples,
-        ratios(&measured.times),
+        ratios(measured),
     )
 }
 
 /// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's single calls.
-pub fn ratios(times: &[Vec<Time>]) -> String {
-    let [soft, all_ramp] = [CURVES[0].0, CURVES[1].0];
-    let mut out = format!(
-        "| | {soft}: single | slice | {all_ramp}: single | slice |\n|---|---:|---:|---:|---:|"
-    );
-    for (index, method) in METHODS.iter().enumerate().filter(|(_, method)| method.is_ours) {
-        let shares = times[..2].iter().map(|times| {
+pub fn ratios(measured: &Measured) -> String {
+    let ours = METHODS.iter().enumerate().filter(|(_, method)| method.is_ours);
+    let rows = ours.map(|(index, method)| {
+        let shares = measured.times[..2].iter().flat_map(|(times, _)| {
             let (time, textbook) = (times[index], times[TEXTBOOK].single);
-            format!("{:.2} | {:.2}", time.single / textbook, time.slice / textbook)
+            [time.single, time.slice].map(|time| format!("{:.2}", time / textbook))
         });
-        let shares: Vec<_> = shares.collect();
-        out += &format!("\n| {} | {} |", method.name, shares.join(" | "));
-    }
-    out
+        [method.name.into()].into_iter().chain(shares).collect()
+    });
+    let [soft, all_ramp] = [CURVES[0].0, CURVES[1].0];
+    table(&format!("| {soft}: single | slice | {all_ramp}: single | slice"), 1, rows)
 }
 
-fn methods(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    writeln!(
-        out,
+/// A method's mean and greatest cycles on the soft curve, where `docs/cost.md` has them.
+pub fn cycles(measured: &Measured, method: usize) -> Option<[f64; 2]> {
+    let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
+    let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;
+    let mean = head.iter().position(|name| *name == "mean")?;
+    let [call, cells] = METHODS[method].cost;
+    let row = rows
+        .find(|row| row.len() > mean && row[..3] == [&format!("| {call}"), CURVES[0].0, cells])?;
+    // Behind it the 99 %, then the greatest.
+    let cycles = [mean, mean + 2].map(|column| row[column].trim_matches('*').parse().ok());
+    Some([cycles[0]?, cycles[1]?])
+}
+
+fn methods(measured: &Measured) -> String {
+    let costs = METHODS.iter().enumerate().map(|(index, method)| {
+        let times = measured.times.iter().flat_map(|(times, _)| {
+            [times[index].single, times[index].slice].map(|time| format!("{time:.1}"))
+        });
+        let cycles = cycles(measured, index);
+        let cycles = [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])));
+        let head = [method.name.to_owned(), method.bytes.to_string()];
+        head.into_iter().chain(times).chain(cycles).collect()
+    });
+    let timed = CURVES.map(|(name, ..)| format!("{name}: single, ns | slice, ns")).join(" | ");
+    let costs =
+        table(&format!("method | bytes | {timed} | M4F cycles, soft: mean | max"), 1, costs);
+    let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
+        let numbers = [
+            figures.quantile(1.0),
+            figures.quantile(0.999),
+            figures.mean(),
+            figures.of_interval.0,
+            figures.of_interval.1,
+            figures.backward,
+            figures.steps_back,
+            figures.failures,
+            figures.evaluations.0,
+        ];
+        let worst = figures.evaluations.1.to_string();
+        [method.name.into()].into_iter().chain(numbers.map(number)).chain([worst]).collect()
+    });
+    let header = "method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) \
+                  | steps back | failures | evaluations: mean | worst";
+    let errors = table(header, 1, errors);
+    format!(
         "## The methods
 
 The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
@@ -114,326 +178,173 @@ cubics; and Newton in doubles.
 `soft` has a third of its mass in ramps, `all ramp` all of it, `box` none. Cycles are a model of a Cortex-M4F without
 wait states, over uniform `u`, where `cost.md` has them.
 
-| method | bytes | {} |",
-        CURVES
-            .map(|(name, ..)| format!("{name}: single, ns | slice, ns | ratios to textbook"))
-            .join(" | "),
-    )?;
-    let has_costs = !measured.costs.is_empty();
-    let header = if has_costs { " M4F cycles, soft: mean | max |" } else { "" };
-    // The header's line ends in a bar; the cycles follow it.
-    if has_costs {
-        out.truncate(out.trim_end().len());
-        writeln!(out, "{header}")?;
-    }
-    let columns = 2 + 3 * CURVES.len() + if has_costs { 2 } else { 0 };
-    writeln!(out, "|---|{}", "---:|".repeat(columns - 1))?;
-    for (index, method) in METHODS.iter().enumerate() {
-        write!(out, "| {} | {} |", method.name, method.bytes)?;
-        for times in &measured.times {
-            let (time, textbook) = (times[index], times[TEXTBOOK]);
-            write!(
-                out,
-                " {:.1} | {:.1} | {:.2}, {:.2} |",
-                time.single,
-                time.slice,
-                time.single / textbook.single,
-                time.slice / textbook.single
-            )?;
-        }
-        if has_costs {
-            match cost(measured, method) {
-                Some(cost) => write!(out, " {:.0} | {:.0} |", cost.mean, cost.max)?,
-                None => write!(out, " | |")?,
-            }
-        }
-        writeln!(out)?;
-    }
-    writeln!(
-        out,
-        "
-The slice's ratio too is to single calls of the textbook Newton.
+{costs}
 
 ### Error
 
-| method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) | steps back | failures | evaluations: mean | worst |
-|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
-    )?;
-    for (method, figures) in METHODS.iter().zip(&measured.figures) {
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            method.name,
-            number(figures.quantile(1.0)),
-            number(figures.quantile(0.999)),
-            number(figures.mean()),
-            number(figures.of_interval.0),
-            number(figures.of_interval.1),
-            number(figures.backward),
-            number(figures.steps_back),
-            number(figures.failures),
-            number(figures.evaluations.0),
-            figures.evaluations.1
-        )?;
-    }
-    writeln!(
-        out,
-        "
+{errors}
+
 Evaluations are of the mass, a polynomial of degree 6; this crate's direct polynomials and its plateau take none.
-"
+
+![Worst cases](worst-cases.svg)
+
+Each random curve's worst `u`, over about 1000 that are likely to be bad: octave ends, section bounds with their
+neighbours, the smallest numbers, random ones. Where several lie at one place, it has one dot."
     )
 }
 
-/// The seed of this build.
-const SEED: &str = if cfg!(feature = "libm") {
-    "libm"
-} else if cfg!(feature = "micromath") {
-    "micromath"
-} else {
-    "none"
-};
-
-/// A method's cycles, this crate's with the seed of this build.
-pub fn cost<'a>(measured: &'a Measured, method: &Method) -> Option<&'a Cost> {
-    let seed = if method.is_ours { SEED } else { "" };
-    measured.costs.iter().find(|cost| cost.method == method.cost && cost.seed == seed)
-}
-
-fn forwards(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    writeln!(
-        out,
+fn forwards(measured: &Measured) -> String {
+    let rows = CURVES.iter().zip(&measured.times).map(|((name, ..), (_, forwards))| {
+        let cells =
+            forwards.iter().flat_map(|(time, error)| [format!("{time:.1}"), number(*error)]);
+        [(*name).into()].into_iter().chain(cells).collect()
+    });
+    let names = FORWARDS.map(|(name, _)| format!("{name}, ns | error")).join(" | ");
+    let table = table(&format!("curve | {names}"), 1, rows);
+    format!(
         "## Openness and cdf
 
 Against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
 bisection. Nanoseconds a sample at random times, and the greatest error seen, absolute: of the openness, and of the
 fraction of the exposure.
 
-| curve | {} |
-|---|---:|---:|---:|---:|---:|---:|---:|---:|",
-        FORWARDS.map(|name| format!("{name}, ns | error")).join(" | ")
-    )?;
-    for ((name, ..), forwards) in CURVES.iter().zip(&measured.forwards) {
-        let cells = forwards.map(|(time, error)| format!("{time:.1} | {}", number(error)));
-        writeln!(out, "| {name} | {} |", cells.join(" | "))?;
-    }
-    writeln!(
-        out,
-        "
-Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp.
-"
+{table}
+
+Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp."
     )
 }
 
-fn errors(out: &mut String) -> std::fmt::Result {
-    writeln!(
-        out,
-        "## Where the errors are
-
-![Error over u](error-over-u.svg)
-
-The greatest error of 16 neighbouring samples. On the plateau all are exact to their rounding.
-
-![Histogram of errors](histogram.svg)
-
-The signed error of all samples: no better than rounding is possible, and little worse is seen. Some times are exact,
-hence the peak in the middle.
-
-![Worst cases](worst-cases.svg)
-
-Each random curve's worst `u`, over about 1000 that are likely to be bad: octave ends, section bounds with their
-neighbours, the smallest numbers, random ones.
-"
-    )
-}
-
-fn hard_cases(out: &mut String) -> std::fmt::Result {
-    let us = |case: &Case| hard_us(&Exact::new(&case.curve()), 4, 400);
-    let counts = || CASES.iter().map(|case| us(case).len());
-    writeln!(
-        out,
+fn hard_cases() -> String {
+    let rows = CASES.iter().map(|case| {
+        let curve = case.curve();
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+        let [textbook, by_table] = [TEXTBOOK, TEXTBOOK + 2].map(|i| (METHODS[i].build)(&curve));
+        let [textbook, by_table] =
+            [textbook, by_table].map(|m| judge(&exact, |u| m.inverse_cdf(u)));
+        let own = judge(&exact, |u| ours.inverse_cdf(u));
+        let evaluations = hard_us(&exact, 4, 400).iter().map(|u| ours.evaluations(*u)).max();
+        vec![
+            case.name.into(),
+            number(textbook.of_interval),
+            textbook.failures.to_string(),
+            textbook.steps_back.to_string(),
+            number(by_table.of_interval),
+            by_table.failures.to_string(),
+            number(own.of_interval),
+            number(own.forward),
+            number(own.backward),
+            format!("{}, {}", own.failures, own.steps_back),
+            evaluations.unwrap_or(0).to_string(),
+        ]
+    });
+    let header = "case | textbook: error | failures | steps back | table: error | failures | this crate: error | ulp(t) \
+                  | ulp(u) | failures, steps back | evaluations: worst";
+    let table = table(header, 1, rows);
+    format!(
         "## Hard cases
 
 Each is a test in `tests/hard_cases.rs`, which also rebuilds where other systems fail. The textbook Newton and the
 table of 256 beside this crate with 8 octaves: the greatest error as a share of the interval, failures and steps back
-of {} to {} `u` a curve, and this crate's errors in ulp(t) and, once half an ulp(t) is forgiven, in ulp(u). The error
+of about 1000 `u` a curve, and this crate's errors in ulp(t) and, once half an ulp(t) is forgiven, in ulp(u). The error
 in ulp(t) is large where the density is next to nothing: there a small ulp(u) is all that can be had.
 
-| case | textbook: error | failures | steps back | table: error | failures | this crate: error | ulp(t) | ulp(u) | failures, steps back | evaluations: worst |
-|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        counts().min().unwrap_or(0),
-        counts().max().unwrap_or(0)
-    )?;
-    for case in CASES {
-        let curve = case.curve();
-        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
-        let textbook = (METHODS[TEXTBOOK].build)(&curve);
-        let table = InverseTable::<256>::new(|u| ours.inverse_cdf(u));
-        let judge = |inverse: &dyn Fn(f32) -> f32| judge(&exact, inverse);
-        let [textbook, table, crate_]: [Verdict; 3] = [
-            judge(&|u| textbook.inverse_cdf(u)),
-            judge(&|u| table.inverse_cdf(u)),
-            judge(&|u| ours.inverse_cdf(u)),
-        ];
-        let evaluations = us(case).iter().map(|u| ours.evaluations(*u)).max();
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {}, {} | {} |",
-            case.name,
-            number(textbook.of_interval),
-            textbook.failures,
-            textbook.steps_back,
-            number(table.of_interval),
-            table.failures,
-            number(crate_.of_interval),
-            number(crate_.forward),
-            number(crate_.backward),
-            crate_.failures,
-            crate_.steps_back,
-            evaluations.unwrap_or(0)
-        )?;
-    }
-    writeln!(
-        out,
-        "
-### Where others fail
-
-The failures that are known of other systems, rebuilt from their public descriptions: the greatest error over {} equally
-spaced inputs.
-
-{}",
-        crate::others::COUNT,
-        crate::others::table()
+{table}"
     )
 }
 
-fn search(out: &mut String, measured: &Measured) -> std::fmt::Result {
+fn search(measured: &Measured) -> String {
     let (bred, aimed): (Vec<&Find>, Vec<&Find>) =
         measured.finds.iter().partition(|find| find.is_bred);
-    let Some(first) = bred.first() else { return Ok(()) };
-    writeln!(
-        out,
+    let tried = [&bred, &aimed].map(|finds| finds.first().map_or(0, |find| find.curves));
+    let bred = bred.into_iter().map(|find| {
+        let whole = find.evaluations.map(u64::from).or(find.steps_back).map(|n| n as f64);
+        let worst = find.forward.or(find.backward).or(find.round_trip).or(whole);
+        vec![find.what.clone(), text(worst), find.at.clone()]
+    });
+    let bred = table("aim | worst found | control points of the opening; of the closing", 1, bred);
+    let aimed = aimed.into_iter().map(|find| {
+        vec![
+            find.what.clone(),
+            text(find.backward),
+            whole(find.evaluations.map(u64::from)),
+            whole(find.steps_back),
+            whole(find.cdf_steps_back),
+            whole(find.tick_steps_back),
+            text(find.cdf),
+            text(find.density),
+            text(find.few_ticks),
+            text(find.many_ticks),
+            whole(find.breaches),
+        ]
+    });
+    let header = "family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
+                  | of openness and pdf | of ticks, up to 2<sup>24</sup> | more | promises broken";
+    let aimed = table(header, 1, aimed);
+    format!(
         "### Found by search
 
 `cargo bench -p benches --bench speed_vs_error -- --search N` draws random curves, three of four of them hard, and climbs from the
 worst of them by moving control points. {} valid curves were tried, each on about 650 `u`; the errors
 in ulp(t), the evaluations and the round trip are those of every seventh of these.
 
-| aim | worst found | control points of the opening; of the closing |
-|---|---:|---|",
-        first.curves
-    )?;
-    for find in bred {
-        let whole = [find.evaluations.map(u64::from), find.steps_back].into_iter().flatten();
-        let figures = [find.forward, find.backward, find.round_trip].into_iter().flatten();
-        let worst = figures.chain(whole.map(|worst| worst as f64)).next().unwrap_or(0.0);
-        writeln!(out, "| {} | {} | {} |", find.what, number(worst), find.at)?;
-    }
-    let Some(family) = aimed.first() else { return writeln!(out) };
-    writeln!(
-        out,
-        "
+{bred}
+
 Then it judges all that is promised on curves and inputs that meet difficulties exactly, {} of each family
 (`tests/support/aimed.rs`), with `CELLS` = 0 and 8.
 
-| family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp | of openness and pdf | of ticks, up to 2<sup>24</sup> | more | promises broken |
-|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        family.curves
-    )?;
-    for find in aimed {
-        let figure = |figure: Option<f64>| number(figure.unwrap_or(0.0));
-        let count = |count: Option<u64>| count.unwrap_or(0);
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            find.what,
-            figure(find.backward),
-            find.evaluations.unwrap_or(0),
-            count(find.steps_back),
-            count(find.cdf_steps_back),
-            count(find.tick_steps_back),
-            figure(find.cdf),
-            figure(find.density),
-            figure(find.few_ticks),
-            figure(find.many_ticks),
-            count(find.breaches),
-        )?;
-    }
-    writeln!(out)
+{aimed}",
+        tried[0], tried[1]
+    )
 }
 
-fn every_f32(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    if measured.every_f32.is_empty() {
-        return Ok(());
-    }
-    let seconds: f64 = measured.every_f32.iter().map(|row| row.seconds).sum();
+fn every_f32(measured: &Measured) -> String {
+    let minutes = measured.every_f32.iter().map(|row| row.seconds).sum::<f64>() / 60.0;
     let answers: u64 = measured.every_f32.iter().map(|row| row.count).sum();
-    writeln!(
-        out,
+    let head = |row: &Row| [row.curve.clone(), row.kind.clone()];
+    let counts = |row: &Row| [Some(row.count), Some(row.out_of_range), row.steps_back].map(whole);
+    let (of_inverse, of_values): (Vec<&Row>, Vec<&Row>) =
+        measured.every_f32.iter().partition(|row| row.function == INVERSE);
+    let of_inverse = of_inverse.into_iter().map(|row| {
+        let errors = [row.forward, Some(row.error), Some(row.judged)].map(text);
+        let last = whole(row.evaluations.map(u64::from));
+        [&head(row)[..], &[row.cells.to_string()], &counts(row), &errors, &[last]].concat()
+    });
+    let header = "curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) \
+                  | judged | evaluations: worst of every 16th f32";
+    let of_inverse = table(header, 2, of_inverse);
+    let of_values = of_values.into_iter().map(|row| {
+        let errors = [Some(row.error), Some(row.judged), row.without_floor].map(text);
+        [&[format!("`{}`", row.function)], &head(row)[..], &counts(row), &errors].concat()
+    });
+    let header = "function | curve | kind | answers | out of range | steps back | error, ulp | judged | without the floor";
+    let of_values = table(header, 3, of_values);
+    format!(
         "## Every f32
 
 `cargo bench -p benches --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
 and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
 `opening` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
 runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that
-follows u or t, and samples and the worst of each 4 million against the double-double oracle (*judged*). These {} answers
-took {:.0} minutes on two busy cores, in a run of its own.
+follows u or t, and samples and the worst of each 4 million against the double-double oracle (*judged*). These {answers} answers
+took {minutes:.0} minutes on two busy cores, in a run of its own.
 
-| curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) | judged | evaluations: worst of every 16th f32 |
-|---|---|---:|---:|---:|---:|---:|---:|---:|---:|",
-        answers,
-        seconds / 60.0
-    )?;
-    let dash = |figure: Option<String>| figure.unwrap_or_else(|| "-".into());
-    let (of_inverse, of_values): (Vec<&Row>, Vec<&Row>) =
-        measured.every_f32.iter().partition(|row| row.function == INVERSE);
-    for row in of_inverse {
-        writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            row.curve,
-            row.kind,
-            row.cells,
-            row.count,
-            row.out_of_range,
-            dash(row.steps_back.map(|steps| steps.to_string())),
-            dash(row.forward.map(number)),
-            number(row.error),
-            number(row.judged),
-            dash(row.evaluations.map(|evaluations| evaluations.to_string())),
-        )?;
-    }
-    writeln!(
-        out,
-        "
+{of_inverse}
+
 The forward error leaves out answers where the density is so low that doubles cannot tell the time to an ulp.
 
 `cdf` and `opening`: the error in ulp at some time within an ulp of the one asked for, an ulp of the cdf being at least that of
 2<sup>-24</sup>, and the same without that floor.
 
-| function | curve | kind | answers | out of range | steps back | error, ulp | judged | without the floor |
-|---|---|---|---:|---:|---:|---:|---:|---:|"
-    )?;
-    for row in of_values {
-        writeln!(
-            out,
-            "| `{}` | {} | {} | {} | {} | {} | {} | {} | {} |",
-            row.function,
-            row.curve,
-            row.kind,
-            row.count,
-            row.out_of_range,
-            dash(row.steps_back.map(|steps| steps.to_string())),
-            number(row.error),
-            number(row.judged),
-            dash(row.without_floor.map(number)),
-        )?;
-    }
-    writeln!(out)
+{of_values}"
+    )
 }
 
-fn rendering(out: &mut String, measured: &Measured) -> std::fmt::Result {
-    writeln!(
-        out,
+fn rendering(measured: &Measured) -> String {
+    let rows = measured.rendering.iter().map(|(n, errors)| {
+        [n.to_string()].into_iter().chain(errors.iter().map(|error| number(*error))).collect()
+    });
+    let table = table(&format!("pulses | {}", PULSES.map(name).join(" | ")), 0, rows);
+    format!(
         "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
@@ -446,14 +357,14 @@ Kolmogorov-Smirnov tests of the samples.
 
 Root-mean-square error over the picture, soft curve (random: mean of 16 seeds):
 
-| pulses | {} |
-|---:|---:|---:|---:|",
-        measured.rendering.iter().map(|(pulses, _)| name(*pulses)).collect::<Vec<_>>().join(" | ")
-    )?;
-    for (i, (n, _)) in measured.rendering[0].1.iter().enumerate() {
-        let row: Vec<_> =
-            measured.rendering.iter().map(|(_, errors)| number(errors[i].1)).collect();
-        writeln!(out, "| {n} | {} |", row.join(" | "))?;
+{table}"
+    )
+}
+
+pub fn name(pulses: Pulses) -> &'static str {
+    match pulses {
+        Pulses::Triggers => "triggers of this crate",
+        Pulses::Weighted => "equally spaced, weighted by openness",
+        Pulses::Random => "random, as the curve has it",
     }
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! What the sweeps over every `f32` share: what they find, and two threads.
 
-use std::sync::atomic::{AtomicI64, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The numbers that one thread takes at a time.
 pub const CHUNK: i64 = 1 << 22;
@@ -40,26 +40,33 @@ impl Sweep {
     }
 }
 
+/// Does the jobs 0, 1, ... up to `count`, on two threads; the results are in order.
+pub fn on_two_threads<T: Send>(count: usize, job: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let (next, job) = (&AtomicUsize::new(0), &job);
+    let work = move || {
+        let jobs = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        jobs.take_while(|i| *i < count).map(|i| (i, job(i))).collect::<Vec<_>>()
+    };
+    let mut done = std::thread::scope(|scope| {
+        let other = scope.spawn(work);
+        let mut done = work();
+        done.extend(other.join().expect("no job panics"));
+        done
+    });
+    done.sort_by_key(|(i, _)| *i);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
 /// Sweeps the numbers from `first` to `last` in parts, on two threads; each sweeps so many functions at once.
-pub fn on_two_threads<const N: usize>(
+pub fn in_parts<const N: usize>(
     first: i64,
     last: i64,
     part: impl Fn(i64, i64) -> [Sweep; N] + Sync,
 ) -> [Sweep; N] {
-    let (next, part) = (&AtomicI64::new(first), &part);
+    let parts = on_two_threads(((last - first) / CHUNK + 1) as usize, |i| {
+        let from = first + i as i64 * CHUNK;
+        part(from, (from + CHUNK - 1).min(last))
+    });
     let both = |a: [Sweep; N], b: [Sweep; N]| std::array::from_fn(|i| a[i].and(b[i]));
-    let work = move || {
-        let mut found = [Sweep::default(); N];
-        loop {
-            let from = next.fetch_add(CHUNK, Ordering::Relaxed);
-            if from > last {
-                return found;
-            }
-            found = both(found, part(from, (from + CHUNK - 1).min(last)));
-        }
-    };
-    std::thread::scope(|scope| {
-        let other = scope.spawn(work);
-        both(work(), other.join().expect("the sweep does not panic"))
-    })
+    parts.into_iter().fold([Sweep::default(); N], both)
 }

@@ -6,17 +6,12 @@ use crate::follower::Follower;
 use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, exp2, ulp_f32};
 use crate::support::promise::CDF_FLOOR;
-use crate::sweep::{CHUNK, SAMPLED, Sweep, on_two_threads};
+use crate::sweep::{CHUNK, SAMPLED, Sweep, in_parts};
 
 /// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of so
 /// many is taken, in stretches of neighbours.
 const NEXT_TO_0: f64 = 1.0 / (1u128 << 64) as f64;
 const TAKEN_NEXT_TO_0: i64 = 16;
-
-/// How many times there are from the curve's start to its end, both counted.
-pub fn count(curve: &Curve) -> u64 {
-    (place(curve.close_end()) - place(curve.open_start())) as u64 + 1
-}
 
 /// The `f32` in order: 0 for 0, and from there up and down.
 fn place(t: f32) -> i64 {
@@ -29,16 +24,15 @@ fn at(place: i64) -> f32 {
     if place < 0 { -size } else { size }
 }
 
-/// Sweeps the cdf and the openness of the curve over every `f32` in its interval; `tick` hears how many are done.
-pub fn sweep(curve: &Curve, tick: impl Fn(u64) + Sync) -> [Sweep; 2] {
+/// Sweeps the cdf and the openness of the curve over every `f32` in its interval.
+pub fn sweep(curve: &Curve) -> [Sweep; 2] {
     let (shutter, exact) = (shutter::<8>(curve), Exact::new(curve));
     let (first, last) = (place(curve.open_start()), place(curve.close_end()));
     let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
     let still = if first < 0 && last > 0 { place((NEXT_TO_0 * length) as f32) } else { -1 };
-    on_two_threads(first, last, |from, to| {
+    in_parts(first, last, |from, to| {
         let is_still = from >= -still && to <= still;
         let taken = if is_still { from + CHUNK / TAKEN_NEXT_TO_0 - 1 } else { to };
-        tick((to - from) as u64 + 1);
         part(&shutter, &exact, from, taken.min(to))
     })
 }

@@ -5,15 +5,13 @@ use shutter_curve::ShutterCurve;
 use crate::follower::Follower;
 use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, rounding_cell, ulp_f32};
-use crate::sweep::{SAMPLED, Sweep, on_two_threads};
+use crate::sweep::{SAMPLED, Sweep, in_parts};
 
-/// Sweeps the `f32` from `first` to 1; `tick` hears how many are done.
-pub fn sweep<const CELLS: usize>(curve: &Curve, first: f32, tick: impl Fn(u64) + Sync) -> Sweep {
+/// Sweeps the `f32` from `first` to 1.
+pub fn sweep<const CELLS: usize>(curve: &Curve, first: f32) -> Sweep {
     let (shutter, exact) = (shutter::<CELLS>(curve), Exact::new(curve));
-    let [found] = on_two_threads(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
-        let found = part(&shutter, &exact, from as u32, to as u32);
-        tick(found.count);
-        [found]
+    let [found] = in_parts(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
+        [part(&shutter, &exact, from as u32, to as u32)]
     });
     found
 }

@@ -1,22 +1,16 @@
-//! Host time a sample: medians of interleaved repeats, so that a busy machine hits all methods alike.
+//! Host time a sample: medians of interleaved repeats, in runs so short that a busy machine interrupts few of them.
 
 use std::hint::black_box;
+use std::ops::Range;
 use std::time::Instant;
 
-use crate::curves::CURVES;
-use crate::methods::METHODS;
-use crate::support::cases::shutter;
-use crate::support::curves::Rng;
+use crate::methods::{CURVES, FORWARDS, METHODS, fractions};
 use crate::support::oracle::{Curve, Exact};
-use crate::support::peers::{Parts, animation};
 
 pub fn curve(index: usize) -> Curve {
     let (_, opening, closing) = CURVES[index];
     Curve::shutter(opening, closing)
 }
-
-/// More than a branch predictor learns by heart, so that every branch on u is taken by surprise.
-const COUNT: usize = 1 << 16;
 
 /// Nanoseconds a sample.
 #[derive(Clone, Copy, Debug)]
@@ -25,72 +19,62 @@ pub struct Time {
     pub slice: f64,
 }
 
-fn inputs() -> Vec<f32> {
-    let mut rng = Rng::new(1, 0);
-    (0..COUNT).map(|_| rng.unit() as f32).collect()
-}
+/// Samples a run.
+const RUN: usize = 1 << 11;
 
-fn nanoseconds(call: impl FnOnce()) -> f64 {
-    let start = Instant::now();
-    call();
-    start.elapsed().as_nanos() as f64 / COUNT as f64
-}
-
-fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
-}
-
-/// For every method, its times on the curve.
-pub fn inverses(curve: &Curve, repeats: usize, tick: impl Fn()) -> Vec<Time> {
-    let (u, mut t) = (inputs(), vec![0.0; COUNT]);
-    let methods: Vec<_> = METHODS.iter().map(|method| (method.build)(curve)).collect();
-    let mut times = vec![(Vec::new(), Vec::new()); METHODS.len()];
-    for _ in 0..repeats {
-        for (method, times) in methods.iter().zip(&mut times) {
-            times.0.push(nanoseconds(|| method.singles(&u)));
-            times.1.push(nanoseconds(|| method.slice(&u, black_box(&mut t))));
-        }
-        tick();
-    }
-    let times = times.into_iter();
-    times.map(|(single, slice)| Time { single: median(single), slice: median(slice) }).collect()
-}
-
-/// What is timed by [`forwards`].
-pub const FORWARDS: [&str; 4] =
-    ["`opening`", "`cdf`", "opening, 8 Newton steps", "cdf, 8 Newton steps"];
-
-/// The time and the greatest error of the openness and of the cdf, by this crate and by the usual solver of
-/// animation curves.
-pub fn forwards(curve: &Curve, repeats: usize) -> [(f64, f64); 4] {
-    let (ours, exact) = (shutter::<8>(curve), Exact::new(curve));
-    let parts = Parts::<f32>::new(curve.opening, curve.closing);
-    let solve = |ramp: &_, t| animation(ramp, t, 1e-6).unwrap_or(0.0);
-    let length = curve.close_end() - curve.open_start();
-    let times: Vec<f32> = inputs().iter().map(|u| curve.open_start() + u * length).collect();
-    let openness = |t: f32| exact.openness(t).hi;
-    let cdf = |t: f32| exact.cdf(t).hi;
-    [
-        forward(&times, repeats, |t| ours.opening(t), openness),
-        forward(&times, repeats, |t| ours.cdf(t), cdf),
-        forward(&times, repeats, |t| parts.openness(t, solve), openness),
-        forward(&times, repeats, |t| parts.cdf(t, solve), cdf),
-    ]
-}
-
-fn forward(
-    times: &[f32],
+/// A call's time for a sample, by the medians of its runs; each call is told which samples to take.
+fn medians(
+    calls: &mut [Box<dyn FnMut(Range<usize>) + '_>],
+    samples: usize,
     repeats: usize,
-    call: impl Fn(f32) -> f32,
-    truth: impl Fn(f32) -> f64,
-) -> (f64, f64) {
-    let run = || {
-        for &t in times {
-            black_box(call(black_box(t)));
+) -> Vec<f64> {
+    let mut times = vec![vec![Vec::new(); samples / RUN]; calls.len()];
+    for run in (0..repeats).flat_map(|_| 0..samples / RUN) {
+        for (call, times) in calls.iter_mut().zip(&mut times) {
+            let start = Instant::now();
+            call(run * RUN..(run + 1) * RUN);
+            times[run].push(start.elapsed().as_nanos() as f64);
         }
+    }
+    let median = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
     };
-    let time = median((0..repeats).map(|_| nanoseconds(run)).collect());
-    let errors = times.iter().step_by(8).map(|&t| (f64::from(call(t)) - truth(t)).abs());
-    (time, errors.fold(0.0, f64::max))
+    times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / samples as f64).collect()
+}
+
+/// Of the methods, and nanoseconds and errors of [`FORWARDS`].
+pub type Times = (Vec<Time>, Vec<(f64, f64)>);
+
+/// For every method, its times on the curve; and of [`FORWARDS`] the times and the greatest errors.
+pub fn times(curve: &Curve, repeats: usize) -> Times {
+    let u = fractions();
+    let length = curve.close_end() - curve.open_start();
+    let ts: Vec<f32> = u.iter().map(|u| curve.open_start() + u * length).collect();
+    let methods = METHODS.map(|method| (method.build)(curve));
+    let forwards = FORWARDS.map(|(_, build)| build(curve));
+    let mut out = vec![vec![0.0; u.len()]; METHODS.len() + FORWARDS.len()];
+    let (u, ts) = (&u, &ts);
+    let mut calls: Vec<Box<dyn FnMut(Range<usize>)>> = Vec::new();
+    let (of_inverses, of_forwards) = out.split_at_mut(METHODS.len());
+    for (method, out) in methods.iter().zip(of_inverses) {
+        calls.push(Box::new(|run| method.singles(&u[run])));
+        calls.push(Box::new(|run| method.slice(&u[run.clone()], black_box(&mut out[run]))));
+    }
+    for (forward, out) in forwards.iter().zip(of_forwards) {
+        calls.push(Box::new(|run| forward(&ts[run.clone()], black_box(&mut out[run]))));
+    }
+    let medians = medians(&mut calls, u.len(), repeats);
+    drop(calls);
+    let (inverses, forwards) = medians.split_at(2 * METHODS.len());
+    let inverses = inverses.chunks(2).map(|pair| Time { single: pair[0], slice: pair[1] });
+    let exact = Exact::new(curve);
+    let forwards =
+        forwards.iter().zip(&out[METHODS.len()..]).enumerate().map(|(i, (time, out))| {
+            let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
+            let errors =
+                ts.iter().zip(out).step_by(8).map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
+            (*time, errors.fold(0.0, f64::max))
+        });
+    (inverses.collect(), forwards.collect())
 }
