@@ -1,6 +1,7 @@
 //! The frames: plan, fire, check.
 
 use core::cell::RefCell;
+use core::mem::MaybeUninit;
 
 use cortex_m::asm::wfi;
 use cortex_m_rt::{entry, exception};
@@ -9,6 +10,7 @@ use defmt::{Format, error, info};
 use defmt_semihosting as _;
 use heapless::Vec;
 use semihosting::process::ExitCode;
+use semihosting::sys::arm_compat::sys_get_cmdline_uninit;
 use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks};
 
 use crate::board::{TICK_HZ, TIMER_IRQ, acknowledge, interrupt_in, now, start, trigger_line};
@@ -40,10 +42,44 @@ const DIRECT_TICK: u32 = 160;
 const _: () = assert!(LATEST + DIRECT_TICK + LEAD < MIN_GAP);
 
 /// An error to make, to see that it is seen.
-const FAULT: Option<&str> = option_env!("TRIGGER_FAULT");
+#[derive(Clone, Copy, PartialEq)]
+enum Fault {
+    None,
+    Lost,
+    Twice,
+    Early,
+    Late,
+    Close,
+    NoWrap,
+}
+
+impl Fault {
+    /// The one that the command line names, which the runner makes of the environment's `TRIGGER_FAULT`. An unknown one
+    /// ends the program.
+    fn planted() -> Self {
+        let mut line = [MaybeUninit::uninit(); 256];
+        let line =
+            sys_get_cmdline_uninit(&mut line).ok().and_then(|line| str::from_utf8(line).ok());
+        // Without the runner there is another command line.
+        match line.map(|line| line.trim_end_matches('\0').strip_prefix("TRIGGER_FAULT=")) {
+            Some(None | Some("")) => Self::None,
+            Some(Some("lost")) => Self::Lost,
+            Some(Some("twice")) => Self::Twice,
+            Some(Some("early")) => Self::Early,
+            Some(Some("late")) => Self::Late,
+            Some(Some("close")) => Self::Close,
+            Some(Some("nowrap")) => Self::NoWrap,
+            _ => {
+                error!("TRIGGER_FAULT is lost, twice, early, late, close or nowrap");
+                ExitCode::from(2).exit_process()
+            }
+        }
+    }
+}
 
 /// A frame as it is being fired.
 struct Frame {
+    fault: Fault,
     /// The pulses that come after the next, and when the shutter starts to open.
     ticks: Option<TriggerTicks<'static>>,
     base: u32,
@@ -54,8 +90,14 @@ struct Frame {
     fired: Vec<u32, { CAPACITY + 1 }>,
 }
 
-static FRAME: Mutex<RefCell<Frame>> =
-    Mutex::new(RefCell::new(Frame { ticks: None, base: 0, due: None, next: 0, fired: Vec::new() }));
+static FRAME: Mutex<RefCell<Frame>> = Mutex::new(RefCell::new(Frame {
+    fault: Fault::None,
+    ticks: None,
+    base: 0,
+    due: None,
+    next: 0,
+    fired: Vec::new(),
+}));
 
 impl Frame {
     /// Arms the timer for the next pulse, if there is one.
@@ -81,9 +123,9 @@ enum Wrong {
 }
 
 /// The ticks of a frame, of fewer triggers where the gap asks for it.
-fn plan(wanted: u32) -> Result<TriggerTicks<'static>, ScheduleError> {
+fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
-    let gap = if FAULT == Some("close") { 1 } else { MIN_GAP + LATEST };
+    let gap = if fault == Fault::Close { 1 } else { MIN_GAP + LATEST };
     let n = CURVE.most_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
     CURVE.trigger_ticks(n, TICK_HZ)
 }
@@ -92,20 +134,32 @@ fn plan(wanted: u32) -> Result<TriggerTicks<'static>, ScheduleError> {
 fn fire(frame: &mut Frame) {
     acknowledge();
     let Some(due) = frame.due else { return };
-    while (now().wrapping_sub(due) as i32) < 0 && FAULT != Some("early") {}
-    // Each fault but `early` spoils one pulse.
-    let fault = FAULT.filter(|_| frame.next == 5);
-    if fault == Some("late") {
-        while now().wrapping_sub(due) <= LATEST {}
-    }
-    if fault != Some("lost") {
-        pulse(frame);
-    }
-    if fault == Some("twice") {
+    // A fault spoils one pulse. Which, is settled before the pulse is waited for.
+    if frame.next == 5 && frame.fault != Fault::None {
+        fire_wrongly(frame, due);
+    } else {
+        while is_before(due) {}
         pulse(frame);
     }
     frame.next += 1;
     frame.proceed();
+}
+
+fn is_before(due: u32) -> bool {
+    (now().wrapping_sub(due) as i32) < 0
+}
+
+/// As [`fire`] does, but for the fault.
+fn fire_wrongly(frame: &mut Frame, due: u32) {
+    let fault = frame.fault;
+    while fault != Fault::Early && is_before(due) {}
+    while fault == Fault::Late && is_before(due.wrapping_add(LATEST + 1)) {}
+    if fault != Fault::Lost {
+        pulse(frame);
+    }
+    if fault == Fault::Twice {
+        pulse(frame);
+    }
 }
 
 /// One pulse, and when it was.
@@ -160,8 +214,10 @@ fn check(base: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong>
 
 #[entry]
 fn main() -> ! {
+    let fault = Fault::planted();
+    critical_section::with(|cs| FRAME.borrow_ref_mut(cs).fault = fault);
     // The counter wraps in the middle of the third frame.
-    start(if FAULT == Some("nowrap") { u32::MAX } else { PERIOD * 3 + PERIOD / 4 });
+    start(if fault == Fault::NoWrap { u32::MAX } else { PERIOD * 3 + PERIOD / 4 });
     let begin = now().wrapping_add(PERIOD);
     let mut good = true;
     let mut wrapped = false;
@@ -169,7 +225,7 @@ fn main() -> ! {
     for (i, wanted) in FRAMES.into_iter().enumerate() {
         let base = begin.wrapping_add(i as u32 * PERIOD);
         let begun = now();
-        let plan = match plan(wanted) {
+        let plan = match plan(wanted, fault) {
             Ok(plan) => plan,
             Err(error) => {
                 error!("frame {}: {}", i, error);

@@ -7,8 +7,8 @@
 //!
 //! It exits with 0 only if every pulse of every frame came once, in order, never early, at most
 //! `LATEST` ticks late and with the minimum gap kept, and if the counter wrapped within a frame.
-//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nowrap`) when it is built shows that
-//! the check sees such a fault.
+//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nowrap`) before that command plants such
+//! a fault, which the check sees: it exits with 1. With 2 if the fault is another one.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 // Registers are written, as they must be, in `board` alone; the entry and the handler take unsafe attributes.
 #![cfg_attr(target_os = "none", allow(unsafe_code))]
