@@ -4,12 +4,22 @@
 #   boards/pico/run.sh             exits with 0 only if every pulse comes on the cycle that `trigger_ticks` says
 #   boards/pico/run.sh --jitter    the same, and the table of docs/firmware.md: state machine against alarm
 #
-# TRIGGER_FAULT=lost (or twice, early, late, close) builds a fault into the firmware, to see that it is seen.
+# TRIGGER_FAULT=lost (or twice, early, late, close) plants a fault in the firmware, to see that it is seen; one build,
+# apart from what is flashed, has them all. Exits with 1 then, and with 2 if there is no such fault.
 set -euo pipefail
 cd "$(dirname "$0")"
 
 target=thumbv6m-none-eabi
-fail() { echo "pico: $*" >&2; exit 1; }
+say() { echo "pico: $*" >&2; }
+fail() { say "$*"; exit 1; }
+
+# The program alone; without a fault, the alarm beside it as well.
+features=()
+case ${TRIGGER_FAULT:-} in
+"") ;;
+lost | twice | early | late | close) features=(--bin strobe --features faults) ;;
+*) say "TRIGGER_FAULT is lost, twice, early, late or close, not $TRIGGER_FAULT" && exit 2 ;;
+esac
 
 command -v node >/dev/null || fail "missing node, to run the emulator: your system's package nodejs, version 18 or later"
 node --eval 'process.exit(process.versions.node.split(".")[0] >= 18 ? 0 : 1)' ||
@@ -21,10 +31,12 @@ command -v cargo >/dev/null || fail "missing cargo: https://rustup.rs"
 # The emulator, if it is not there as the lock file has it.
 if ! [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ]; then
     command -v npm >/dev/null || fail "missing npm, to fetch the emulator rp2040js: your system's package npm"
+    say "fetching the emulator rp2040js ..."
     (cd emulator && npm ci --no-audit --no-fund --loglevel error >&2) || fail "npm cannot fetch the emulator rp2040js"
 fi
 
-cargo build --quiet --locked --release --target $target --package firmware
+say "building the firmware ..."
+cargo build --quiet --locked --release --target $target --package firmware "${features[@]}"
 folder=$(cargo metadata --no-deps --format-version 1 | node --print 'JSON.parse(fs.readFileSync(0)).target_directory')
 # What has to come, by the host.
 cargo run --quiet --locked --package expected >"$folder/expected.json"

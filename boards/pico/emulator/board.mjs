@@ -9,6 +9,8 @@ import { ConsoleLogger, GPIOPinState, LogLevel, RP2040 } from "rp2040js";
 const FLASH = 0x10000000;
 /** Where the vectors are, behind the second boot stage. */
 const VECTORS = FLASH + 0x100;
+/** The first of the watchdog's scratch registers. */
+const SCRATCH = 0x4005800c;
 const NANOSECONDS = 8;
 /** One byte of 10 bits at 115 200 baud. */
 const BYTE_CYCLES = Math.round(125e6 / 11520);
@@ -37,6 +39,13 @@ export class Board {
     mcu.uart[0].onByte = (byte) => this.#hear(byte);
     // By itself the emulator runs these in bursts, in no relation to the processor.
     for (const pio of mcu.pio) pio.run = () => {};
+  }
+
+  /** Writes a name of up to 8 bytes where a firmware with the feature `faults` looks for one. */
+  plant(fault) {
+    const name = Buffer.alloc(8);
+    name.write(fault);
+    for (const i of [0, 4]) this.mcu.writeUint32(SCRATCH + i, name.readUInt32LE(i));
   }
 
   /** Calls `listener(isHigh, cycle)` at each edge of a pin that the firmware drives. */

@@ -1,5 +1,6 @@
 // node check.mjs FIRMWARE EXPECTED: runs the controller in the emulator and judges every pulse and every answer.
 //
+// With TRIGGER_FAULT in the environment the firmware, which needs its feature `faults` then, is told to make that fault.
 // Exits with 1 if a pulse is not where the host's `trigger_ticks` has it, to the cycle, or an answer is not the right one.
 
 import { readFileSync } from "node:fs";
@@ -13,6 +14,7 @@ const PATIENCE = 62_500_000;
 const [elf, expectedFile] = process.argv.slice(2);
 const { overhead, steps } = JSON.parse(readFileSync(expectedFile, "utf8"));
 const board = new Board(elf);
+if (process.env.TRIGGER_FAULT) board.plant(process.env.TRIGGER_FAULT);
 const edges = [];
 board.watch(LAMP, (isHigh, cycle) => edges.push({ isHigh, cycle }));
 

@@ -44,6 +44,8 @@ impl Board {
     pub fn take() -> Self {
         let chip = pac::Peripherals::take().unwrap();
         let core = pac::CorePeripherals::take().unwrap();
+        #[cfg(feature = "faults")]
+        plant(&chip.WATCHDOG);
         let mut resets = chip.RESETS;
         let mut watchdog = Watchdog::new(chip.WATCHDOG);
         let clocks = init_clocks_and_plls(
@@ -74,6 +76,16 @@ impl Board {
             syst: core.SYST,
             resets,
         }
+    }
+}
+
+/// Plants the fault whose name the scratch registers hold, if they hold any.
+#[cfg(feature = "faults")]
+fn plant(watchdog: &pac::WATCHDOG) {
+    let name = [watchdog.scratch0().read().bits(), watchdog.scratch1().read().bits()];
+    let [[a, b, c, d], [e, f, g, h]] = name.map(u32::to_le_bytes);
+    if name != [0; 2] {
+        strobe::plant([a, b, c, d, e, f, g, h]);
     }
 }
 

@@ -3,7 +3,6 @@
 use shutter_curve::ScheduleError;
 
 use crate::change::Refused;
-use crate::fault::spoil;
 use crate::limits::{LONGEST_FRAME, MIN_LOW, MIN_PULSE, TICK_HZ};
 use crate::settings::Settings;
 
@@ -49,7 +48,8 @@ impl Frame {
             }
             _ => Refused::Schedule(error),
         })?;
-        let n = spoil(&mut ticks, n, settings.length);
+        #[cfg(feature = "faults")]
+        let n = crate::fault::spoil(&mut ticks, n, settings.length);
 
         self.push(n as u32 - 1);
         // The state machine counts from the end of one pulse to the start of the next.

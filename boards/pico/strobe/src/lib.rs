@@ -6,6 +6,7 @@
 mod change;
 mod curves;
 mod duration;
+#[cfg(feature = "faults")]
 mod fault;
 mod frame;
 mod limits;
@@ -14,6 +15,8 @@ mod settings;
 
 pub use change::{Change, Refused};
 pub use curves::CURVES;
+#[cfg(feature = "faults")]
+pub use fault::plant;
 pub use frame::Frame;
 pub use limits::{LONGEST_FRAME, MIN_LOW, MIN_PULSE, OVERHEAD, TICK_HZ};
 pub use lines::{Broken, Lines};
