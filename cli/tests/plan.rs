@@ -46,6 +46,13 @@ fn names_in(dir: &Path) -> Vec<OsString> {
     names
 }
 
+/// The scenes that ship.
+fn scenes() -> Vec<PathBuf> {
+    let scenes: Vec<_> = fs::read_dir(SCENES).unwrap().map(|f| f.unwrap().path()).collect();
+    assert!(scenes.len() >= 8);
+    scenes
+}
+
 /// The table's rows, as their columns.
 fn table(out: &str) -> Vec<Vec<&str>> {
     let rows = out.lines().skip_while(|line| !line.trim_start().starts_with('#')).skip(1);
@@ -55,11 +62,11 @@ fn table(out: &str) -> Vec<Vec<&str>> {
 #[test]
 fn every_scene_that_ships_is_planned_and_drawn() {
     let dir = empty_dir("scenes");
-    let scenes: Vec<_> = fs::read_dir(SCENES).unwrap().map(|f| f.unwrap().path()).collect();
-    assert!(scenes.len() >= 4);
+    let scenes = scenes();
     for scene in &scenes {
         let picture = dir.join(scene.file_stem().unwrap()).with_extension("svg");
-        let run = run([scene, Path::new("--out"), &picture]);
+        let set_ups = picture.with_extension("set-ups.svg");
+        let run = run([scene, Path::new("--out"), &picture, Path::new("--set-ups"), &set_ups]);
         assert_eq!((run.code, run.err.as_str()), (0, ""), "{}", scene.display());
         assert!(run.out.lines().all(|line| line.chars().count() <= 80));
         assert!(run.out.contains("exposure ") && run.out.contains("efficiency "));
@@ -67,8 +74,10 @@ fn every_scene_that_ships_is_planned_and_drawn() {
         assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
         assert!(svg.contains("openness") && svg.contains("fraction of the exposure"));
         assert!(svg.contains("time ("));
+        let svg = fs::read_to_string(set_ups).unwrap();
+        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
     }
-    assert_eq!(names_in(&dir).len(), scenes.len(), "nothing but the pictures");
+    assert_eq!(names_in(&dir).len(), 2 * scenes.len(), "nothing but the pictures");
 }
 
 #[test]
@@ -88,13 +97,16 @@ fn without_a_command_it_plans() {
 
 #[test]
 fn a_form_is_all_that_is_printed() {
-    let soft = Plan::parse(include_str!("../scenes/soft.toml")).unwrap();
-    for (name, form) in
-        [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)]
-    {
-        let run = run([Path::new("--emit"), Path::new(name)]);
-        assert_eq!((run.code, run.err.as_str()), (0, ""));
-        assert_eq!(run.out, emit(form, "soft", &soft));
+    for scene in scenes() {
+        let plan = Plan::parse(&fs::read_to_string(&scene).unwrap()).unwrap();
+        let scene_name = scene.file_stem().unwrap().to_str().unwrap();
+        for (name, form) in
+            [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)]
+        {
+            let run = run([&scene, Path::new("--emit"), Path::new(name)]);
+            assert_eq!((run.code, run.err.as_str()), (0, ""), "{scene_name}");
+            assert_eq!(run.out, emit(form, scene_name, &plan));
+        }
     }
     let run = run([Path::new("--emit"), Path::new("pascal")]);
     assert_eq!((run.code, run.out.as_str()), (2, ""));
