@@ -175,7 +175,8 @@ fi
 
 if ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print ..."
-    cargo install --quiet --locked --root "$cache" defmt-print --version '^1' >&2 ||
+    # Not optimised: it has little to decode, and is sooner built.
+    CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" defmt-print --version '^1' >&2 ||
         fail "missing defmt-print: cargo install --locked defmt-print"
 fi
 
