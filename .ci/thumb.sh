@@ -52,7 +52,12 @@ unpack() {
         (cd "$work/debs" && apt-get download "$@") >"$work/log" 2>&1
     fi || { cat "$work/log" >&2; fail "cannot download Debian's $*; missing $hint"; }
     local deb
-    for deb in "$work"/debs/*.deb; do dpkg -x "$deb" "$work/root" || fail "cannot unpack $deb; missing $hint"; done
+    for deb in "$work"/debs/*.deb; do
+        # Of the compiler's source only the library is needed, a tenth of the files.
+        dpkg --fsys-tarfile "$deb" |
+            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' ||
+            fail "cannot unpack $deb; missing $hint"
+    done
     mv "$work/root" "$folder"
     rm -r "$work"
 }
