@@ -544,7 +544,8 @@ impl Exact {
 
     /// An ulp is at least 2⁻³⁸ of the ramp's greatest openness, which is what is promised in a deep dip.
     fn density_ulp(&self, got: f32, t: f32, scale: Dd) -> f64 {
-        let ramp = if t < self.curve.open_end() { &self.opening } else { &self.closing };
+        let is_opening = t < self.curve.open_end() || !self.curve.is_shutter;
+        let ramp = if is_opening { &self.opening } else { &self.closing };
         let least = exp2(-38) * ramp.greatest * scale.hi;
         let samples = self.times_near(t).map(|t| self.openness_dd(t));
         // Between two samples the openness may have an extremum, or a ramp its end.
