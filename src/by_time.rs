@@ -62,8 +62,8 @@ impl Ramp {
         let RampPoint { side, place, .. } = self.at_time(t);
         let [f0, f1, f2, f3] = self.openness;
         let f = if side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
-        // Scaled so that the second halves of all coefficients, and their products with the least place, keep their
-        // bits.
+        // Scaled so that the second halves of all coefficients that count, and their products with the least place, keep
+        // their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];

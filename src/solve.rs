@@ -8,9 +8,10 @@
 //! 3. one more step for that, and a computed bound of what it leaves ([`left`]), which accepts the answer or not.
 //!
 //! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
-//! if the target is within half of the error of it, and at the cap on evaluations, which no search is known to reach:
-//! after `FREE` evaluations each measured place halves a bracket of certain signs, and between neighbouring `f32` a step
-//! is accepted. At the cap the answer is the last place that was measured, without a proof.
+//! if the target is within half of the error of it, and at the cap on evaluations. After `FREE` evaluations each measured
+//! place halves a bracket of certain signs, and between neighbouring `f32` a step is accepted, unless more is asked for
+//! than measuring gives: no search for an `f32` is known to reach the cap, but a few for ticks are. There the answer is the
+//! last place that was measured, without a proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
@@ -223,7 +224,7 @@ pub(crate) const fn solve<const N: usize>(
         if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             return (Pair::sum(p, way), evaluations);
         }
-        // Exit: the cap. Nothing is proven of this answer, and no search is known to give it.
+        // Exit: the cap. Nothing is proven of this answer.
         if evaluations >= MAX_EVALUATIONS - 1 {
             return (Pair::new(p), evaluations);
         }
