@@ -9,7 +9,7 @@ code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead =
 code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
     doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
 code("let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-    Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))""")
+    let borrowed = bits ^ (top ^ below) & 1 << 23; Some((octave, (borrowed << 8) as i32))""")
 code("let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
     let significand = significand & !(1 << 31); const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
     let top = octave::top(self.tops[side & 1][is_beyond as usize]);
@@ -17,16 +17,16 @@ code("let zeros = high.leading_zeros();", """let significand = high << (zeros & 
     let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
     let octave = self.octaves[side & 1].get(index.wrapping_sub(OF_HALF) as usize)?;
     let position = significand as i32 | below & i32::MIN;""")
-code("const fn center(&self) -> u64 {", """(self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
+code("const fn center(&self) -> u64 {", """(self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
     if top < LEAST_TOP || from >= to { return None; }
-    let to = to as f32; let octave = power_of_two(exponent(high));
-    let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave; let middle = 0.5 * (from as f32 + to);
-    let (mut width, mut finer) = (octave, 0);
+    let to = to as f32; let power = power_of_two(exponent(high));
+    let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power; let middle = 0.5 * (from as f32 + to);
+    let (mut width, mut finer) = (power, 0);
     while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
-code("const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
+code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let top = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP } + steps * TOP_STEP;
     let beyond = top.wrapping_sub(floor_bits(from));
@@ -42,7 +42,7 @@ code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), 
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
 code("let before_last = self.last.wrapping_sub(u.to_bits());", """if before_last < self.count { return self.by_line(u.to_bits()); }
-    let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize; match self.octave(side, ramp, bits) {""")
+    let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize; match self.look_up(side, ramp, bits) {""")
 code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
     return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
     let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
@@ -119,7 +119,7 @@ valid(
 FILLED = Fraction(source(r"const FILLED: f32 = (0\.\d+);"))
 MOST_FINER = int(source(r"const MOST_FINER: u32 = (\d+);"))
 REACH = Fraction(source(r"let reach = span\.half / span\.width \+ (0\.\d+);"))
-EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* octave;"))
+EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;"))
 WORD = 2**32
 EPSILON = WORD // 2**23
 MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
@@ -353,15 +353,15 @@ $ x in (0);
 
 
 code("const fn times_high(a: i32, x: i32) -> i32 {", "((a as i64 * x as i64) >> 32) as i32 }")
-TRUNCATION = Fraction(source(r"const TRUNCATION: f32 = ([\d.]+);"))
-TRUNCATED = Fraction(source(r"const TRUNCATED: f64 = (-[\d.]+);"))
-least, most = TRUNCATED - TRUNCATION, TRUNCATED + TRUNCATION
+HALF_TRUNCATION = Fraction(source(r"const HALF_TRUNCATION: f32 = ([\d.]+);"))
+MEAN_TRUNCATION = Fraction(source(r"const MEAN_TRUNCATION: f64 = (-[\d.]+);"))
+least, most = MEAN_TRUNCATION - HALF_TRUNCATION, MEAN_TRUNCATION + HALF_TRUNCATION
 stated = source(r"in the unit of the coefficients: from (-[\d.]+) to ([\d.]+)")
 require([least, most] == [Fraction(x) for x in stated], "the comment's bounds are those of the constants")
 require(gappa(horner(float(least), float(most))), "Horner's truncation")
 near = Fraction(1, 500)
 require(not gappa(horner(float(least + near), float(most))) and not gappa(horner(float(least), float(most - near))), "tighter")
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
-proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is TRUNCATED and TRUNCATION about it, for |x| up to 0.4999")
+proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
 require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;", "")
+code("let middle = (c[0] * power_of_two_f64(-self.unit) - MEAN_TRUNCATION * factor as f64) as i64;", "")

@@ -18,7 +18,7 @@ code("pub(crate) const fn at_pair(self, place: Pair) -> Pair {", """let Pair { h
 code("pub(crate) fn noise(&self) -> f32 {", """let terms = |side, x| { let c = self.ramp.mass_in_single(side);
     c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
     let here = self.place.hi; let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
-    terms * per_mass_unit(self.ramp.share.hi) / (1u64 << 40) as f32 }""")
+    terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 40) as f32 }""")
 
 
 def first(j, k):
@@ -98,7 +98,7 @@ for n in (3, 6):
 # `noise` sums the first numbers' terms at x, with 12 roundings, one more of the sum with the other end's, and one of the scaling,
 # and takes 2^-40.
 least = (1 - U) ** 14 / (1 + U)
-down = int(source(r"per_mass_unit\(self\.ramp\.share\.hi\) / \(1u64 << (\d+)\) as f32"))
+down = int(source(r"fraction_per_mass\(self\.ramp\.share\.hi\) / \(1u64 << (\d+)\) as f32"))
 require(worst <= least / 2**down, "noise")
 require(worst > least / 2 ** (down + 1), "noise: half of it would not do")
 proven(f"noise, 2^-{down} of the terms as computed, bounds the error of a mass")

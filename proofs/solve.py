@@ -42,8 +42,10 @@ def factor(pattern):
 # By how many ROUNDINGs each kind of anchor counts.
 source(r"return Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};")
 source(r"Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};\n        // From where `t'")
-OTHER_END = factor(r"Anchor \{ place, back: BACK, c, sought: -sought, rounding: ([\d.]+) \* ROUNDING \}")
-INSIDE = factor(r"Anchor \{ place, back, c, sought: sought\.abs\(\), rounding: ([\d.]+) \* ROUNDING \}")
+source(r"(Anchor \{ place, back: BACK, c, sought: -sought, rounding: FROM_OTHER \})")
+OTHER_END = factor(r"const FROM_OTHER: f32 = ([\d.]+) \* ROUNDING;")
+source(r"(Anchor \{ place, back, c, sought: sought\.abs\(\), rounding: FROM_FLAT \})")
+INSIDE = factor(r"const FROM_FLAT: f32 = ([\d.]+) \* ROUNDING;")
 
 
 class Degree:

@@ -32,7 +32,7 @@ valid("by_line: a u from FINE to 1 is a whole number of 2^-32", line(FINE), line
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
-code("let high = (time >> 32) as i32;", """if high.wrapping_add(1 << 25) as u32 >> 26 == 0 { return self.rounded_with_care(u, time); }
+code("let high = (time >> 32) as i32;", """if high.wrapping_add(1 << 25) as u32 >> 26 == 0 { return if time == NO_TIME { self.searched(u) } else { self.rounded_with_care(time) }; }
     (high | (time as u32 != 0) as i32) as f32 * self.scale""")
 code("let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == sign; let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
     let (high, low) = ((time >> 32) as i32, time as u32);

@@ -3,10 +3,13 @@
 
 use crate::plan::{DOUBLES, Plan};
 
+/// 2¹² units.
+const SLACK: f64 = 4096.0;
+
 /// The plateau's line, `t = base + A u`.
 ///
-/// In doubles the time is within four roundings of the exact one, each at most 2⁸ units; in units it is within one. So
-/// the two are less than the slack of 2¹² units apart, and if all within the slack rounds to one `f32`, that is the
+/// In doubles the time is within four roundings of the exact one, each at most 2⁸ of the plan's units of time, of which
+/// a time has at most 2⁶²; in units it is within one. So the two are less than [`SLACK`] units apart, and if all within the slack rounds to one `f32`, that is the
 /// answer of both.
 struct Line {
     base: f64,
@@ -21,7 +24,7 @@ impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(plan: &Plan<CELLS>) -> Self {
         let (base, slope, unit, [from, to]) = plan.line();
-        Self { base, slope, slack: 4096.0 * unit, from, to }
+        Self { base, slope, slack: SLACK * unit, from, to }
     }
 
     /// The time, and whether it is the answer.

@@ -74,7 +74,7 @@ pub(crate) const fn errors(
     let (mut s, mut last, mut i) = (1.0, cosine, 0);
     while i <= points {
         let position = nearest(value(&along.fraction, s));
-        let rest = octave.rest(octave.ahead_of_center(position));
+        let rest = octave.polynomial(octave.ahead_of_center(position));
         let error = (rest as f64 - value(&along.time, s)).abs() as f32;
         let mut kind = KINDS;
         loop {

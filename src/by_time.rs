@@ -5,14 +5,14 @@ use crate::pair::{Pair, flipped};
 use crate::ramp::{BACK, Ramp};
 use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
-use crate::units::{LAST_PLACE, LENGTH, exponent, per_mass_unit, power_of_two};
+use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
-/// An error in time, relative to the way from the ramp's end: less than a quarter of the least distance between
-/// neighbours, also of those of [`on_grid`], so that these keep their order.
+/// An error in time, relative to the way from the ramp's end. Neighbouring `f32` are at least 2⁻²⁵ of that apart, those of
+/// [`on_grid`] too: less than a quarter of it, so that they keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
-/// A slope from a quarter to half of a ramp's mean `t'`. If the least `t'` is below, a time may be searched for from
-/// there.
+/// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
+/// below, a time may be searched for from there.
 const SLOW: f32 = 0.25 * LENGTH / LAST_PLACE;
 
 /// A point of a ramp, found by its time: its place from the end that faces a side.
@@ -82,11 +82,11 @@ impl RampPoint<'_> {
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
         let mass = self.ramp.mass_since(self.side).at_pair(self.place);
-        mass.scaled(per_mass_unit(self.ramp.share.hi))
+        mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
     /// A bound of the rounding error of [`mass`](Self::mass) and of a search for a mass that is next to it, which may
-    /// measure from the other end: see [`Series::at`].
+    /// measure from the other end: what [`Series::at_pair`] loses of either end's terms.
     // proofs/series.py
     pub(crate) fn noise(&self) -> f32 {
         let terms = |side, x| {
@@ -95,19 +95,19 @@ impl RampPoint<'_> {
         };
         let here = self.place.hi;
         let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
-        terms * per_mass_unit(self.ramp.share.hi) / (1u64 << 40) as f32
+        terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 40) as f32
     }
 }
 
-/// `t` rounded to half an ulp of the farther end of a ramp that runs across time 0: next to 0, `f32` are denser than a
-/// search is exact.
+/// A time on a ramp that runs across time 0, moved by at most half an ulp of the farther end, onto a multiple of that half or
+/// of all of it: next to 0, `f32` are denser than a search is exact.
 #[inline(never)]
 const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
     if t.abs() >= half || t == start || t == end {
         return t;
     }
-    // The sum is at most 2.5 half.
+    // The sum is from half to 2.5 half, so the bits below its last place are rounded off.
     let t = (t + 1.5 * half) - 1.5 * half;
     if t < start {
         start

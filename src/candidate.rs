@@ -20,8 +20,8 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
 /// (`proofs/octaves.py`). A polynomial's middle makes up for the middle of that.
-const TRUNCATION: f32 = 1.328;
-const TRUNCATED: f64 = -0.664;
+const HALF_TRUNCATION: f32 = 1.328;
+const MEAN_TRUNCATION: f64 = -0.664;
 
 /// A polynomial as it is held against the exact time.
 pub(crate) struct Candidate {
@@ -68,7 +68,7 @@ impl Side<'_> {
             octave.c[DEGREE - k] = round(c[k] * per_unit);
             k = unknown(k - 1);
         }
-        let middle = (c[0] * power_of_two_f64(-self.unit) - TRUNCATED * factor as f64) as i64;
+        let middle = (c[0] * power_of_two_f64(-self.unit) - MEAN_TRUNCATION * factor as f64) as i64;
         let start = fixed(self.exposure.outer(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
@@ -77,7 +77,7 @@ impl Side<'_> {
             middle: middle as f64 * power_of_two_f64(self.unit),
             unit,
             steep: steep * per_unit as f32,
-            truncated: TRUNCATION + 1.0 / factor as f32,
+            truncated: HALF_TRUNCATION + 1.0 / factor as f32,
         })
     }
 }

@@ -7,12 +7,14 @@ use crate::moment::rounded_sum;
 use crate::pair::{Pair, significand};
 use crate::units::{WHOLE, WHOLE_EXPONENT};
 
-/// A mass may be what a measured part leaves of a ramp's share. If the mass is more than this fraction of the part, the
-/// part's noise, relative to the mass, is at most four times what it is relative to the part.
+/// A mass may be a difference, what a measured part leaves of a ramp's share. If that is more than this fraction of the
+/// part, the part's noise, relative to the mass, is at most four times what it is relative to the part.
 const LITTLE: f32 = 0.25;
 
-/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is: the
-/// noise of a measured part is below 2⁻³⁰ of it (`proofs/markov.py`), and so below this of the mass.
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A part
+/// is measured to 2⁻⁴¹ of its terms, which may be 1083 times as great as the part: so to 2⁻³⁰ of the part, and to four
+/// times that of the mass ([`LITTLE`]).
+// proofs/markov.py
 const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
 
 /// Where a time lies on the curve.
@@ -83,28 +85,28 @@ impl Exposure {
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
         let on = self.ramp(ramp).at_time(t);
         let part = on.mass();
-        // From the start of the ramp, or back from its end. What the part leaves of a share may be little.
-        let little = LITTLE * part.hi;
-        let (mass, little) = match (ramp, on.side) {
+        // From the start of the ramp, or back from its end: then a mass below this has lost too much to be told.
+        let least = LITTLE * part.hi;
+        let (mass, least_told) = match (ramp, on.side) {
             (0, 0) => (part, 0.0),
-            (0, _) => (self.ramps[0].share.minus(part), little),
+            (0, _) => (self.ramps[0].share.minus(part), least),
             (_, 0) => (self.ramps[0].share.plus(self.plateau).plus(part), 0.0),
-            _ => (Pair::new(WHOLE).minus(part), little),
+            _ => (Pair::new(WHOLE).minus(part), least),
         };
-        self.nearest(t, mass, little, Some(on))
+        self.nearest(t, mass, least_told, Some(on))
     }
 
-    /// The `f32` nearest to the mass that `t` has, as a fraction; settled where pairs cannot tell which that is, as
-    /// where the mass is `little` or less, or none.
+    /// The `f32` nearest to the mass that `t` has, as a fraction; settled where pairs cannot tell which that is, and
+    /// where the mass is `least_told` or less.
     #[inline(always)]
-    fn nearest(&self, t: f32, mass: Pair, little: f32, on: Option<RampPoint>) -> f32 {
+    fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();
         // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
         let rest = (mass.hi - nearest) + mass.lo;
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
         let distance = (0.5 * (next - nearest) - rest).abs();
-        let is_told = nearest > little && distance >= nearest * NEAR_MIDDLE;
+        let is_told = nearest > least_told && distance >= nearest * NEAR_MIDDLE;
         let nearest =
             if is_told { nearest } else { self.settled(t, [nearest, next], distance, on) };
         if nearest < WHOLE { nearest / WHOLE } else { 1.0 }
@@ -130,13 +132,13 @@ impl Exposure {
         if nearest <= 0.0 {
             return 0.0;
         }
-        // The search for the middle is itself not exact.
+        // Twice, for the last step of the search, which is not exact either.
         let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
         if distance > noise {
             return nearest;
         }
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
-        // The side by the lesser neighbour, so that both ask for the same time.
+        // The side by the lesser neighbour, so that the question is the same whichever was the nearest.
         let (least, greatest) = if next < nearest { (next, nearest) } else { (nearest, next) };
         let (side, a) =
             if least < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };

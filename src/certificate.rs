@@ -20,7 +20,7 @@ pub(crate) const ULP_ERROR: f32 = 0.49;
 // proofs/certificate.py
 pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
 /// The same of a time.
-const ROUNDED: f32 = 1.0 / (1u64 << 46) as f32;
+const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
@@ -66,7 +66,7 @@ impl Side<'_> {
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
-            rounding: truncated + steep * off / span.width + (ends[1] / unit) as f32 * ROUNDED,
+            rounding: truncated + steep * off / span.width + (ends[1] / unit) as f32 * TIME_OFF,
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },

@@ -104,7 +104,8 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which a fraction has been collected from a side, in [`WHOLE`], within an `error` relative to it.
+    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side; with an `error` relative
+    /// to it.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
@@ -112,6 +113,7 @@ impl Exposure {
             Section::Ramp(ramp, target) => {
                 // One address instead of the curve's and an index, which the search would keep on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
+                // Wanted; and accepted where no `f32` place is better.
                 ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }
@@ -135,8 +137,8 @@ impl Exposure {
         Section::Plateau(Moment { base, until, back: side == 1, way, unit, evaluations: 0 })
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Each is told by the lesser part of the exposure,
-    /// which has more bits below 1; so without a plateau both are one number.
+    /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is computed
+    /// from the lesser of the two parts, which has more bits. So without a plateau both are one number.
     pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
@@ -158,7 +160,7 @@ impl Exposure {
         ]
     }
 
-    /// The same from side 0 in units of 2⁻⁶⁴, to 2⁻⁵⁵ and 2⁻⁴⁵ of the lesser part; the greatest is all ones.
+    /// The same from side 0 in units of 2⁻⁶⁴, each within 2⁻⁵⁵ and 2⁻⁴⁵ of its lesser part; 1 is all ones.
     pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {
@@ -179,6 +181,7 @@ impl Exposure {
             words(if is_less[0] { near } else { rest }, self.trace()),
             words(if is_less[1] { until } else { far }, self.trace()),
         ];
+        // 2⁶⁴ less it, where it was counted from the end.
         [
             if is_less[0] { joins[0] } else { (!joins[0]).saturating_add(1) },
             if is_less[1] { joins[1] } else { (!joins[1]).saturating_add(1) },
@@ -186,8 +189,8 @@ impl Exposure {
     }
 
     /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
-    /// rounding of pairs, 2⁻⁴⁴. Without a plateau, what is beyond the join is within 2⁻²³, four ulp: the polynomial of
-    /// the near ramp serves it, too, and has a second certificate along the far ramp ([`octaves`](crate::octaves)).
+    /// rounding of pairs, 2⁻⁴⁴. Without a plateau it is even 2⁻²³, four ulp, too little for octaves of its own: the
+    /// polynomial of the near ramp serves what is beyond the join, too, and has a second certificate along the far ramp.
     const fn trace(&self) -> u64 {
         if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }

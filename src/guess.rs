@@ -8,8 +8,8 @@
 /// Logarithms here have 20 fraction bits, so that a difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// By how much a logarithm is above the linear one on average.
-const MEAN: i32 = (0.043 * LOG_ONE as f32) as i32;
+/// About half of the most, 0.086, by which a logarithm is above the linear one.
+const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// 2³⁰ over `k`, rounded up.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
@@ -24,7 +24,7 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
         least = if root < least { root } else { least };
         i += 1;
     }
-    power(least - MEAN)
+    power(least - MIDDLE)
 }
 
 /// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand.
@@ -35,7 +35,7 @@ const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
 }
 
-/// `x / k` for `k` up to 6, within 4/3, where `x` is the difference of two logarithms: without a division, which the
+/// `x / k` for `k` up to 6, within 4/3 of its last place, where `x` is the difference of two logarithms: without a division, which the
 /// compiler would check.
 // proofs/guess.py: divided
 #[inline(always)]

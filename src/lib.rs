@@ -29,7 +29,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// To read in this order; each file needs only those before it.
+// To read in this order; each file needs only those before it, and `error`: what can be wrong with a curve.
 //
 // Numbers    `units`: every scale and its reason. `pair`: two `f32` as one number. `series`: polynomials of these.
 // Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
@@ -38,8 +38,8 @@
 // A curve    `exposure`: two ramps and a plateau, by fraction. `cdf`: the same by time.
 // Directly   `octave`: a polynomial that needs no search. How it is built: `path`, the exact ramp; `span`, the part that
 //            it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of a side.
-// An answer  `plan`: the steps from one `u` to its time. `batch`: many at once.
-// Outside    `error`, `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
+// An answer  `plan`: the steps from one `u` to its time. `batch`: a short cut by doubles, for one `u` and for many.
+// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
 mod batch;
 mod bezier;
 mod bound;

@@ -19,8 +19,8 @@ pub(crate) struct Octave {
     pub(crate) middle: i64,
     /// A power of two, or minus that from the later side; 0 where there is no polynomial.
     pub(crate) factor: i32,
-    /// The significand from which `x` is counted, doubled. Its lowest 5 bits are a shift instead: `x` is the difference
-    /// times 2 to that.
+    /// The position, doubled where it has to be, from which `x` is counted. Its lowest 5 bits are a shift, too: `x` is the
+    /// difference times 2 to that.
     pub(crate) center: u32,
     /// `P(x) = c[7] x + c[6] x² + ...`: in the order in which Horner's rule needs them.
     pub(crate) c: [i32; DEGREE],
@@ -57,9 +57,9 @@ impl Octave {
 
     /// The `x` of a position, in 2⁻³².
     ///
-    /// An octave holds the end of one binade and the start of the next one. In the upper binade a position is how far
-    /// the significand, in 32 bits, is above 2³¹. In the lower one it is how far it is below 2³², negative, and counts
-    /// half as much. So the upper one is doubled.
+    /// An octave holds the end of one binade and the start of the next one. A *position* counts from the power of two
+    /// between them. In the upper binade it is how far the significand, in 32 bits, is above 2³¹, and has to be doubled. In
+    /// the lower one it is how far that is below 2³², negative, in units half as great.
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         let ahead = position & !(position >> 31);
@@ -68,7 +68,8 @@ impl Octave {
 
     /// The `x` of a position that is doubled where it has to be.
     ///
-    /// The difference and its multiple fit the word, even if one of the numbers does not ([`octaves`](crate::octaves)).
+    /// The difference and its multiple fit the word, even if one of the numbers does not: a span leaves room for that
+    /// (`FILLED` in [`span`](crate::span)).
     #[inline(always)]
     pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
         doubled.wrapping_sub(self.center as i32) << (self.center & FINER)
@@ -78,12 +79,12 @@ impl Octave {
     /// multiply-and-add of 32 bits, and the last one of 64, on a microcontroller that has them.
     #[inline(always)]
     pub(crate) const fn time(&self, x: i32) -> i64 {
-        self.middle.wrapping_add(self.factor as i64 * self.rest(x) as i64)
+        self.middle.wrapping_add(self.factor as i64 * self.polynomial(x) as i64)
     }
 
     /// `P(x)`, written out, because firmware is often built for size, which would keep it a loop.
     #[inline(always)]
-    pub(crate) const fn rest(&self, x: i32) -> i32 {
+    pub(crate) const fn polynomial(&self, x: i32) -> i32 {
         let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
         let value = times_high(c8, x).wrapping_add(c7);
         let value = times_high(value, x).wrapping_add(c6);

@@ -11,7 +11,7 @@ use crate::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
 /// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
 /// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
 /// taken that leaves no octave without a polynomial, or else the last.
-const STRETCHES: [u32; 4] = [0, 5, 6, 4];
+const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
 pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
@@ -60,11 +60,14 @@ impl Side<'_> {
             // A ramp without octaves has a top, too: fractions of the plateau that are not on its line are looked up
             // under it, and have to find octaves without a polynomial.
             let far = self.exposure.joins(self.side)[1];
-            return (stretched([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), first);
+            return (
+                top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
+                first,
+            );
         }
         let (path, mut stretch) = (self.path(ramp), 0);
         loop {
-            let highest = stretched(range, STRETCHES[stretch % STRETCHES.len()]);
+            let highest = top_beyond(range, MOVES[stretch % MOVES.len()]);
             stretch += 1;
             let (mut index, mut end) = (first, first);
             while index < octaves.len() {
@@ -77,7 +80,7 @@ impl Side<'_> {
                 }
                 if let Some(span) = Span::new(range, top) {
                     octaves[index] = self.octave(ramp, &path, &span);
-                    if !octaves[index].exists() && stretch < STRETCHES.len() {
+                    if !octaves[index].exists() && stretch < MOVES.len() {
                         // To be tried with the next top.
                         break;
                     }
@@ -114,7 +117,7 @@ impl Side<'_> {
 
 /// The bits of the top that is so many steps beyond the end of a range.
 #[inline(never)]
-const fn stretched([from, to]: [f64; 2], steps: u32) -> u32 {
+const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {
     // At or above the end, or a 64-bit fraction below it would be looked up in the octave above.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };

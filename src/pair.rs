@@ -113,8 +113,8 @@ impl Pair {
         Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
-    /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp: what the quotient's product with `x` lacks of
-    /// `self` tells the rest.
+    /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp. The second number is what the first leaves,
+    /// `(self - hi x) / x`.
     // proofs/pairs.py: over
     #[inline(always)]
     pub(crate) const fn over(self, x: Self) -> Self {

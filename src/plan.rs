@@ -18,7 +18,7 @@
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
-//! ([`octaves`](crate::octaves)). A search's is below a quarter of that distance if its step was accepted, so the order
+//! ([`certificate`](crate::certificate)). A search's is below a quarter of that distance if its step was accepted, so the order
 //! holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
@@ -77,9 +77,11 @@ impl<const CELLS: usize> Plan<CELLS> {
         let (mut base, mut slope, mut last, mut count) = (0, 0, to, 0);
         let mut serves = true;
         if open < close {
+            // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
             let per_unit = power_of_two_f64(-unit);
             base = (open as f64 * per_unit) as i64 - (shapes[0].area() * per_unit) as i64;
-            slope = (close as f64 * per_unit) as i64 + (shapes[1].area() * per_unit) as i64 - base;
+            let at_1 = (close as f64 * per_unit) as i64 + (shapes[1].area() * per_unit) as i64;
+            slope = at_1 - base;
             serves = Self::is_fine(slope);
             if serves {
                 // 1 itself has the exact end.
@@ -91,7 +93,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        // `CELLS > 0` lets the compiler leave the building out where there are no octaves.
+        // Where the line is too coarse, so are octaves. `CELLS > 0` lets the compiler leave the building out where there
+        // are none.
         while CELLS > 0 && serves && side < 2 {
             tops[side] = octaves::build(&exposure, &shapes, unit, side, &mut octaves[side]);
             side += 1;
@@ -100,8 +103,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         Ok(Self { exposure, scale, last, count, base, slope, tops, octaves })
     }
 
-    /// Has a line with this slope enough bits? If the curve is so far from time 0 that it has fewer than 40, every `u`
-    /// is searched for.
+    /// Has a line with this slope enough bits? If the curve is so far from time 0 that its area is less than 2⁴⁰ units,
+    /// every `u` is searched for.
     const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
@@ -120,24 +123,21 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let time = self.direct(u);
-        // A small processor converts 32 bits, not 64. If the upper word has 25 bits or more, all that counts of the
-        // lower one is whether it is 0.
+        // A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has 26
+        // or more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*.
         // proofs/words.py
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
-            return self.rounded_with_care(u, time);
+            return if time == NO_TIME { self.searched(u) } else { self.rounded_with_care(time) };
         }
         (high | (time as u32 != 0) as i32) as f32 * self.scale
     }
 
-    /// The same for a time near 0, and the search where there is none.
+    /// A time near 0, rounded once.
     // proofs/words.py
     #[inline(always)]
-    fn rounded_with_care(&self, u: f32, time: i64) -> f32 {
-        if time == NO_TIME {
-            return self.searched(u);
-        }
-        // A time that fits one word is moved into the upper one first.
+    fn rounded_with_care(&self, time: i64) -> f32 {
+        // A time of one word is moved up by 31 first, which keeps the sign.
         let sign = (time >> 63) as i32;
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
@@ -153,14 +153,14 @@ impl<const CELLS: usize> Plan<CELLS> {
     // proofs/octaves.py: both look-ups find the octave that was built
     #[inline(always)]
     pub(crate) fn direct(&self, u: f32) -> i64 {
-        // Below `count` on the line alone; and negative beyond the plateau, on the closing ramp.
+        // Less than `count` only on the line. The top bit is set beyond the plateau, where the ramp is 1, the closing one.
         let before_last = self.last.wrapping_sub(u.to_bits());
         if before_last < self.count {
             return self.by_line(u.to_bits());
         }
         let (side, bits) = Self::nearer(u);
         let ramp = (before_last >> 31) as usize;
-        match self.octave(side, ramp, bits) {
+        match self.look_up(side, ramp, bits) {
             Some((octave, position)) => octave.time(octave.offset(position)),
             None => NO_TIME,
         }
@@ -182,14 +182,14 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
     /// outside [0, 1] and for NaN.
     #[inline(always)]
-    fn octave(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
+    fn look_up(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // The significand of `a`, and as the sign whether `top - bits` borrowed for it from the exponent: then `a` is
-        // in the lower of the two binades. The bit that a subtraction borrows is the exclusive or of both numbers and
-        // their difference.
-        Some((octave, ((bits ^ (top ^ below) & 1 << 23) << 8) as i32))
+        // `top - bits` borrowed from the exponent if bit 23 of the three differs so: then `a` is in the lower of the two
+        // binades. That bit takes the place of the exponent's last one; the shift makes it the sign, and drops the rest.
+        let borrowed = bits ^ (top ^ below) & 1 << 23;
+        Some((octave, (borrowed << 8) as i32))
     }
 
     /// The time on the plateau's line, in units, of a `u` with these bits.
@@ -269,11 +269,11 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
-        // With a plateau both joins are on the line, 1/2 too. Without one, a join at 1/2 has to be on the closing ramp, since
-        // 1/2 in 64 bits counts from side 1.
+        // With a plateau both joins are on the line, 1/2 too. Without one, `direct_u64` takes 1/2 for side 1, so a join there
+        // has to be on the closing ramp.
         let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
         let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
-        // Also where the plateau holds no `f32`.
+        // By the slope, not by `count`: a plateau too short for an `f32` may hold fractions of 64 bits.
         let serves = Self::is_fine(self.slope);
         PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } }
     }
@@ -289,7 +289,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
-        // If the upper word is 0, `a` is below all octaves, and the index is that of none.
+        // If the upper word is 0, `a` is below all octaves, and the index is that of none, or of one without a polynomial.
         let zeros = high.leading_zeros();
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31);

@@ -18,10 +18,16 @@ use crate::pair::{Pair, flipped};
 use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ROUNDING, solve};
-use crate::units::{LAST_PLACE, WHOLE, mass_unit, power_of_two_f64, ramp_unit};
+use crate::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
 
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
+
+/// The rounding of an anchor's slopes: from the other end the distance is itself rounded, from a flat place twice, and one
+/// coefficient may be a difference of greater ones.
+// proofs/solve.py
+const FROM_OTHER: f32 = 1.25 * ROUNDING;
+const FROM_FLAT: f32 = 3.0 * ROUNDING;
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +84,7 @@ impl Ramp {
         let is_dark = share < 0.5 * f32::from_bits(1) as f64;
         let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
         let per_unit = power_of_two_f64(-ramp_unit(times[0], times[3]));
-        let per_mass = mass_unit(share.hi) as f64 * WHOLE as f64 / area;
+        let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
         let masses = [in_places(seen[0].mass(), per_mass), in_places(seen[1].mass(), per_mass)];
         let since = [in_places(seen[0].time().c, per_unit), in_places(seen[1].time().c, per_unit)];
         let ends = [
@@ -149,15 +155,15 @@ impl Ramp {
         [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
     }
 
-    /// The moment at which a fraction has been collected since the end that faces a side. The errors are those of
-    /// [`solve`], in [`WHOLE`] as the fraction.
+    /// The moment at which the fraction `target` has been collected since the end that faces a side. Target and errors,
+    /// which are those of [`solve`], are in [`WHOLE`].
     #[inline(always)]
     pub(crate) const fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
-        let unit = mass_unit(self.share.hi);
-        let target = target.scaled(unit);
+        let factor = mass_per_fraction(self.share.hi);
+        let target = target.scaled(factor);
         let anchor = self.anchor(side, target);
         let guess = guess(&anchor.c, anchor.sought);
-        let error = [error[0] * unit, error[1] * unit];
+        let error = [error[0] * factor, error[1] * factor];
         self.moment(side, solve(self.mass_since(side), target, &anchor, guess, error))
     }
 
@@ -178,7 +184,7 @@ impl Ramp {
     #[inline(always)]
     const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
         // The other end, then the minima.
-        let from_other = target.minus_loose(self.share.scaled(mass_unit(self.share.hi)));
+        let from_other = target.minus_loose(self.share.scaled(mass_per_fraction(self.share.hi)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
@@ -196,7 +202,7 @@ impl Ramp {
         }
         if nearest == 2 {
             let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side ^ 1));
-            return Anchor { place, back: BACK, c, sought: -sought, rounding: 1.25 * ROUNDING };
+            return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER };
         }
         // The powers count away from the flat place's nearer end. They are mirrored if the target lies the other way.
         let flat = &self.flats[nearest & 1];
@@ -208,9 +214,10 @@ impl Ramp {
         let (base, sign) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
         let place = Pair::sum(base, flipped(from_end, sign));
         let back = sought.to_bits() & BACK;
+        // Mirrored, both the distance and the mass count the other way, so it is the even powers that change their sign.
         let sign = sign ^ back;
         let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
-        Anchor { place, back, c, sought: sought.abs(), rounding: 3.0 * ROUNDING }
+        Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }
     }
 }
 

@@ -39,8 +39,8 @@ impl Series<'_> {
         }
     }
 
-    /// The value at a place. Its second number counts by the slope, which is at most N · 2⁻²⁴ of the sum of the series'
-    /// terms without their signs, so single precision is enough: the value is within 2⁻⁴⁰ of that sum.
+    /// The value at a place. The place's second number adds itself times the slope. That is at most N · 2⁻²⁴ of Σ |c_k|
+    /// |x|^k, so single precision is enough for it: the value is within 2⁻⁴⁰ of that sum.
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at_pair(self, place: Pair) -> Pair {

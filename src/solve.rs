@@ -75,12 +75,14 @@ impl<const N: usize> Anchor<N> {
 /// The first Taylor coefficients around a place.
 pub(crate) struct Taylor {
     value: f32,
+    /// The slope, and half of the second derivative.
     pub(crate) d1: f32,
     pub(crate) d2: f32,
 }
 
 impl Taylor {
-    /// Of `c[0] x + c[1] x² + ...`, by synthetic division: each pass of Horner's rule leaves one more coefficient.
+    /// Of `S = c[0] x + c[1] x² + ...`, by synthetic division. With `S = x Q`, the first pass of Horner's rule leaves `Q`,
+    /// the second `Q + x Q' = S'`, and the third, one place up, `S'' / 2`.
     #[inline(always)]
     pub(crate) const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {
         let mut c = *c;
@@ -128,7 +130,9 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// `|missing - s (d_1 + d_2 s)| + |s| (rounding D + 5 |moved| (2 |c_2| + E Y) + 3.4 E s²)`.
 ///
 /// The first term is what the step leaves of the first two Taylor terms as they are known, the second what is not known
-/// of these, the third what `moved` does to them, and the fourth bounds all further ones.
+/// of these, the third what `moved` does to them, and the fourth bounds all further ones. (`c_j` is `c[j - 1]`; 5 is the
+/// greatest `j - 1`, and 3.4 a little more than the greatest `C(j,3) / j`.) Below, `cubes` is `E`, `bends` is
+/// `2 |c_2| + E Y`, and `slopes` is `D`.
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
@@ -139,6 +143,7 @@ pub(crate) const fn left<const N: usize>(
     s: f32,
     rounding: f32,
 ) -> f32 {
+    // Loaded anew, or the compiler would keep all of them in registers for this.
     let c = core::hint::black_box(c);
     let size = s.abs();
     let y = x.abs() + size;
@@ -169,6 +174,7 @@ pub(crate) const fn solve<const N: usize>(
     if sought <= 0.5 * wanted {
         return (place, 0);
     }
+    // Compared by bits, since an integer comparison does not wait for the FPU, and a NaN counts as much.
     let hardly_any = (PAIRS_BELOW * sought + wanted).to_bits() as i32;
     let reach = anchor.reach();
     let mut evaluations = 0;

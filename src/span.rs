@@ -19,7 +19,7 @@ pub(crate) struct Span {
     pub(crate) middle: f32,
     pub(crate) half: f32,
     /// The power of two that is in the octave, or at its end: what positions count 2⁻³² of.
-    pub(crate) octave: f32,
+    pub(crate) power: f32,
     /// What offsets count 2⁻³² of: 2 to minus `finer` of that.
     pub(crate) width: f32,
     finer: u32,
@@ -35,35 +35,35 @@ impl Span {
             return None;
         }
         let to = to as f32;
-        let octave = power_of_two(exponent(high));
-        let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * octave;
+        let power = power_of_two(exponent(high));
+        let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power;
         let middle = 0.5 * (from as f32 + to);
         // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it: the
         // center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift. At
         // a quarter of the width, a half of exactly this left the word, and the polynomial gave the time of its other
         // end.
-        let (mut width, mut finer) = (octave, 0);
+        let (mut width, mut finer) = (power, 0);
         while finer < MOST_FINER && half <= FILLED * width {
             width *= 0.5;
             finer += 1;
         }
-        Some(Self { from, to, middle, half, octave, width, finer })
+        Some(Self { from, to, middle, half, power, width, finer })
     }
 
     /// The middle's position, nearly, with the shift in its lowest bits; in 33 bits, as it counts from 0.
     pub(crate) const fn center(&self) -> u64 {
-        (self.middle / self.octave * WORD) as u64 & !(FINER as u64) | self.finer as u64
+        (self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64
     }
 
     /// A stretch, its fractions counted as positions are, from the power of two on.
     pub(crate) const fn counted(&self, mut stretch: Path) -> Path {
-        stretch.fraction[0] -= self.octave as f64;
-        scale(&mut stretch.fraction, (WORD / self.octave) as f64, 1.0);
+        stretch.fraction[0] -= self.power as f64;
+        scale(&mut stretch.fraction, (WORD / self.power) as f64, 1.0);
         stretch
     }
 
     /// The center as a position, and the offset of a position.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
-        (self.center() as f64 - WORD as f64, (self.octave / self.width / WORD) as f64)
+        (self.center() as f64 - WORD as f64, (self.power / self.width / WORD) as f64)
     }
 }

@@ -155,12 +155,13 @@ impl TickScale {
     pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
         // An `f32` interval has from 2³⁷ units to 2⁶².
         let up = length.leading_zeros().wrapping_sub(1) & 31;
-        let down = unit + 96 - up as i32;
+        // 32 for the upper word, and 64 for the unit of the factor.
+        let shift = unit + 96 - up as i32;
         let rate = tick_hz as u64;
-        let factor = if down < 0 {
-            rate.checked_shr(down.unsigned_abs())
+        let factor = if shift < 0 {
+            rate.checked_shr(shift.unsigned_abs())
         } else {
-            rate.checked_shl(down.unsigned_abs())
+            rate.checked_shl(shift.unsigned_abs())
         };
         // If a tick is much longer than the interval, the factor is 0, and so are all ticks.
         Self { start, up: 1 << up, factor: factor.unwrap_or(0) }

@@ -5,14 +5,15 @@
 //! |---|---|---|---|
 //! | a place along a ramp | 0 at one of its ends | [`LAST_PLACE`] at the other | `f32`, [`Pair`](crate::pair::Pair) |
 //! | a fraction of the exposure that is searched for | 0 | [`WHOLE`] | pairs |
-//! | a mass on a ramp | 0 | 2⁸⁰ to 2⁸¹, all of the ramp: [`mass_unit`] | pairs |
+//! | a mass on a ramp | 0 | 2⁸⁰ to 2⁸¹, all of the ramp: [`mass_per_fraction`] | pairs |
 //! | a time on a ramp | 0 at its end | 2⁶⁴ to 2⁶⁵, all of the ramp: [`ramp_unit`] | pairs |
 //! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
 //! | a fraction of the exposure on the plateau's line | 0 | 2³² | `u32` |
 //! | a fraction `odd / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
-//! | an octave's place and its polynomial's `x` | the octave's middle | 2³¹ either way, [`WORD`] to an octave | `i32` |
+//! | a position in an octave | its power of two | 2³² to that power, either way | `i32`, wrapping |
+//! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
-//! | a tick's length | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a moved-up unit of time ([`ticks`](crate::ticks)) | `u64` |
+//! | the ticks in a unit of time, moved up | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick ([`ticks`](crate::ticks)) | `u64` |
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -20,8 +21,8 @@
 /// one.
 pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 
-/// The whole exposure, in the unit of fractions: the least `f32`, and what rounding makes of it, are then normal
-/// numbers.
+/// The whole exposure; a fraction *in WHOLE* is counted so that all of it is this. The least `f32`, and what rounding
+/// makes of it, are then normal numbers.
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
@@ -41,20 +42,22 @@ pub(crate) const TOP_STEP: u32 = 1 << 20;
 /// The factor from [`WHOLE`] to a ramp's own unit of mass, for a ramp with this share of the exposure: in it the ramp
 /// has from 2⁸⁰ to 2⁸¹ (0 if it is dark), so that all coefficients keep their bits.
 #[inline(always)]
-pub(crate) const fn mass_unit(share: f32) -> f32 {
+pub(crate) const fn mass_per_fraction(share: f32) -> f32 {
     power_of_two(up_of_mass(share))
 }
 
 /// The factor back.
 #[inline(always)]
-pub(crate) const fn per_mass_unit(share: f32) -> f32 {
+pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
     power_of_two(-up_of_mass(share))
 }
 
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
+    // That of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark.
+    const DARK: i32 = WHOLE_EXPONENT - 150;
     let exponent = exponent(share);
-    80 - if exponent < -46 { -46 } else { exponent }
+    80 - if exponent < DARK { DARK } else { exponent }
 }
 
 /// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its

@@ -96,7 +96,7 @@ impl Side<'_> {
                     continue;
                 }
                 // As a look-up has it: the significand of 32 bits, less 2³² in the lower binade.
-                let doubled = ((a / f64::from(span.octave) - 1.0) * f64::from(WORD)).floor() as i64;
+                let doubled = ((a / f64::from(span.power) - 1.0) * f64::from(WORD)).floor() as i64;
                 let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
                 let time = octave.time(octave.offset(position)) - start;
                 let time = time as f64 * power_of_two_f64(self.unit);
