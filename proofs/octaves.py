@@ -37,7 +37,7 @@ code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, 
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
     if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
-code("octave.c[DEGREE - k] = round(c[k] * per_unit);", "")
+code("octave.c[DEGREE - k] = round(c[k] * per_step);", "")
 code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")

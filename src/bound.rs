@@ -7,8 +7,8 @@
 //!
 //! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
 //! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M
-//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. To `M`
-//! only that counts which has a degree beyond `n`. That is not `t`, not `c₁ x`, and not `Q(x₀ + x₁ s)`. So with `Y₁ =
+//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. What has
+//! a degree of at most `n` may be taken away first: `t`, `c₁ x`, and `Q(x₀ + x₁ s)`. So with `Y₁ =
 //! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
 //! on is enough, and for `R f` that times `Σ |f_k| A^k`.
 //!
@@ -57,8 +57,8 @@ pub(crate) struct Errors {
 }
 
 /// The errors of an octave's polynomial along a stretch, whose fraction counts as a position does, and whose time in
-/// the unit of the coefficients. Samples are wrong by at most `noise`. For the tails the offset `x` by powers of `s`, in
-/// single precision.
+/// the unit of the coefficients. Samples are wrong by at most `noise`. For the tails, `x` has the coefficients of the
+/// offset by powers of `s`, in single precision.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -136,7 +136,7 @@ const fn bound(
 const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
     let linear = x0.abs() + x1.abs() * axis;
     let curve = absolute(curved, axis) * axis * axis;
-    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference.
+    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference; from c[6], that of x², down.
     let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
     loop {
         k = unknown(k).wrapping_sub(1);

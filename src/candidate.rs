@@ -19,7 +19,7 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
 ];
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
-/// (`proofs/octaves.py`). A polynomial's middle makes up for the middle of that.
+/// (`proofs/octaves.py`), half of that range, and its mean, which a polynomial's middle makes up for.
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
@@ -28,8 +28,8 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The time from the side's start that its value is added to.
     pub(crate) middle: f64,
-    /// The unit of its value, in time.
-    pub(crate) unit: f64,
+    /// The time of a coefficient's 1.
+    pub(crate) step: f64,
     /// A bound of its slope.
     pub(crate) steep: f32,
     /// What rounding adds to it, with that of the side's start.
@@ -41,7 +41,8 @@ impl Side<'_> {
     #[inline(always)]
     pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
         let c = span.interpolated(stretch);
-        // The largest value that Horner's rule meets fills 31 bits; rounding may not bring it beyond.
+        // How far x reaches, with room for the center's lowest bits. Horner's rule by absolute values, for the value and
+        // the slope: the largest value that it meets fills 31 bits, and rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 && k <= DEGREE {
@@ -60,12 +61,12 @@ impl Side<'_> {
         if exponent - self.unit > 30 {
             return None;
         }
-        let (unit, per_unit) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
+        let (step, per_step) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
         let mut k = DEGREE;
         while k > 0 && k <= DEGREE {
-            octave.c[DEGREE - k] = round(c[k] * per_unit);
+            octave.c[DEGREE - k] = round(c[k] * per_step);
             k = unknown(k - 1);
         }
         let middle = (c[0] * power_of_two_f64(-self.unit) - MEAN_TRUNCATION * factor as f64) as i64;
@@ -75,8 +76,8 @@ impl Side<'_> {
         Some(Candidate {
             octave,
             middle: middle as f64 * power_of_two_f64(self.unit),
-            unit,
-            steep: steep * per_unit as f32,
+            step,
+            steep: steep * per_step as f32,
             truncated: HALF_TRUNCATION + 1.0 / factor as f32,
         })
     }
@@ -89,6 +90,7 @@ impl Span {
         let (center, per_position) = self.offsets();
         let mut offset = singles(&along.fraction, center, per_position);
         let [x0, x1, x2, x3, x4, x5, x6] = offset;
+        // Its values at ±1 are even ± odd, so that `even + odd n` is the node `n` between them.
         let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
         // Divided differences ...
         let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], DEGREE + 1);
@@ -129,7 +131,7 @@ const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], o
     let (mut i, mut last) = (order.wrapping_sub(1), 0.0);
     while i <= DEGREE {
         let (this, first) = (d[i], i.wrapping_sub(order));
-        // Not where it has but begun.
+        // One place early, only to take up `last`.
         if first <= DEGREE {
             d[i] = (this - last) / (x[i] - x[first]);
         }

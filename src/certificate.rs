@@ -15,18 +15,19 @@ pub(crate) const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
 /// one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be, by this and by this share of it: where an octave's ramp is looked up, for joins are
-/// rounded, and on a path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+/// How far off a fraction may be: by the first where a look-up rounds a join, and by the second as a share of it on a path,
+/// where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
-/// The same of a time.
+/// How far off a time may be on a path, as a share of it.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
 impl Side<'_> {
-    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, in what they may be at most.
+    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be: for a
+    /// tick, relative to the time, in light, and in light beyond the ramp. What [`certain`] asks for is that all are below 1.
     #[inline(never)]
     pub(crate) const fn certificate(
         &self,
@@ -36,7 +37,7 @@ impl Side<'_> {
         ramp: usize,
         [first, last]: [f64; 2],
     ) -> [f32; 4] {
-        let Candidate { ref octave, middle, unit, steep, truncated } = *candidate;
+        let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
         let (exposure, side) = (self.exposure, self.side);
         // What an error may be is 1 in each of these units.
         let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
@@ -44,34 +45,35 @@ impl Side<'_> {
             OFF[0] + OFF[1] * span.to,
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
-        let per = unit as f32;
-        let per_tick = per / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
+        let single = step as f32;
+        let per_tick = single / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
         // In `f64`, since the openness of a single curve may have any scale.
-        let per_light = unit / exposure.area / (ULP_ERROR * ulp - off) as f64;
+        let per_light = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
-            per / self.size_of_time(ends[0]) / FORWARD_ERROR,
-            per / self.size_of_time(ends[1]) / FORWARD_ERROR,
+            single / self.size_of_time(ends[0]) / FORWARD_ERROR,
+            single / self.size_of_time(ends[1]) / FORWARD_ERROR,
         ];
         // In the unit of the coefficients.
         along.time[0] -= middle;
-        scale(&mut along.time, 1.0 / unit, 1.0);
+        scale(&mut along.time, 1.0 / step, 1.0);
         let time = singles(&along.time, 0.0, 1.0);
         let openness = singles(&along.openness, 0.0, per_light);
         // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in time, so
         // it lies below the chord between both ends.
         let [_, t1, t2, t3] = time;
-        let half = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
-        let size = [0.5 * (per_size[0] + per_size[1]) - half * t2, half * t1, half * t2, half * t3];
+        let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
+        let mean = 0.5 * (per_size[0] + per_size[1]);
+        let size = [mean - slope * t2, slope * t1, slope * t2, slope * t3];
         let (center, per_position) = span.offsets();
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
-            rounding: truncated + steep * off / span.width + (ends[1] / unit) as f32 * TIME_OFF,
+            rounding: truncated + steep * off / span.width + (ends[1] / step) as f32 * TIME_OFF,
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                (self.greatest_beyond(ramp, per / per_tick) * per_light) as f32
+                (self.greatest_beyond(ramp, single / per_tick) * per_light) as f32
             } else {
                 0.0
             },
@@ -79,6 +81,7 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
+        // A sample's position is rounded to 1/2, where a tick's fraction may lose 2.
         let noise = limits.rounding + 0.25 * limits.lost;
         let (mut way, mut bounds) = (0, [f32::INFINITY; 4]);
         while way < WAYS {
@@ -127,7 +130,7 @@ impl Side<'_> {
             p *= 2.0;
             doublings = unknown(doublings - 1);
         }
-        // f' is three times the differences, or between.
+        // f' is three times a mean of the differences.
         let bends = (f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs();
         f0 as f64 + 3.0 * p as f64 * bends as f64
     }
@@ -154,8 +157,8 @@ impl Limits {
     #[inline(never)]
     const fn share(&self, &[time, light, relative]: &[f32; KINDS]) -> [f32; 4] {
         let error = time + self.rounding;
-        // How far along the ramp so much time is at most: it passes at the least slope at least, and a cubic that
-        // never falls rises at least as fast as around a point where it stands still.
+        // How far along the ramp so much time leads at most. A way `d` takes at least `d` times the least slope and, where
+        // time bends upwards, at least t3 d³ / 4, as around a point where it stands still. One of these has to be as much.
         let [_, t1, t2, t3] = self.time;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest =

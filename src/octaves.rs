@@ -8,9 +8,9 @@ use crate::shape::Shape;
 use crate::span::Span;
 use crate::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
 
-/// By how many steps a top may be beyond the end of its ramp. A ramp's last octave is often too much for one
-/// polynomial. If the tops are moved out, the last part of the ramp has a polynomial of its own. The first number is
-/// taken that leaves no octave without a polynomial, or else the last.
+/// By how many steps the tops are moved beyond the end of their ramp, one after the other. A ramp's last octave is often too much for one
+/// polynomial. If the tops are moved, the last part of the ramp has a polynomial of its own. The first number is taken
+/// that leaves no octave without a polynomial, or else the last.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
@@ -27,7 +27,8 @@ pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64
 }
 
 /// Builds the octaves of a side, in units of time of `2^unit`. Returns the tops by ramp, in [`TOP_STEP`]s above
-/// [`LEAST_TOP`]. The far ramp's octaves come first, and the near ramp's top is raised by one octave for each of them.
+/// [`LEAST_TOP`]. The far ramp's octaves come first, and the near ramp's top is raised by one octave for each of them,
+/// so that a difference to a ramp's own top is an index among both.
 ///
 /// Out of line, and with a slice, so that it is the same for any number of octaves.
 #[inline(never)]
@@ -57,30 +58,30 @@ impl Side<'_> {
     const fn of_ramp(&self, ramp: usize, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // A ramp without octaves has a top, too: fractions of the plateau that are not on its line are looked up
-            // under it, and have to find octaves without a polynomial.
+            // A ramp without octaves has a top, too. Fractions of the plateau below FINE are not on its line and are
+            // looked up here: the top is at or above all of them, and what they find has no polynomial.
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
                 first,
             );
         }
-        let (path, mut stretch) = (self.path(ramp), 0);
+        let (path, mut trial) = (self.path(ramp), 0);
         loop {
-            let highest = top_beyond(range, MOVES[stretch % MOVES.len()]);
-            stretch += 1;
+            let highest = top_beyond(range, MOVES[trial % MOVES.len()]);
+            trial += 1;
             let (mut index, mut end) = (first, first);
             while index < octaves.len() {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
-                // An octave below the least top has a place, too, or a fraction there would be looked up in the next
-                // ramp's.
+                // One octave below the least top has a place, too, or a fraction in it would be looked up in the next
+                // ramp's first.
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {
-                    octaves[index] = self.octave(ramp, &path, &span);
-                    if !octaves[index].exists() && stretch < MOVES.len() {
+                    octaves[index] = self.certified(ramp, &path, &span);
+                    if !octaves[index].exists() && trial < MOVES.len() {
                         // To be tried with the next top.
                         break;
                     }
@@ -95,7 +96,7 @@ impl Side<'_> {
 
     /// The octave of a part of a ramp, with a polynomial where one keeps the promise.
     #[inline(never)]
-    const fn octave(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
+    const fn certified(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
         let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));

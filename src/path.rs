@@ -8,6 +8,13 @@ use crate::cubic::Cubic;
 use crate::exposure::Exposure;
 use crate::shape::Shape;
 
+/// As close as single precision comes: a step of Newton's below this share of its place is the last one. One more step
+/// in `f64` comes closer.
+const CLOSE: f32 = 1.0 / (1 << 20) as f32;
+const CLOSER: f64 = 1.0 / (1u64 << 36) as f64;
+/// Bisections alone would come as close.
+const MOST_STEPS: usize = 40;
+
 /// A side of the curve, as its octaves are built.
 pub(crate) struct Side<'a> {
     pub(crate) exposure: &'a Exposure,
@@ -84,12 +91,6 @@ impl Path {
     }
 }
 
-/// As close as single precision comes: a step of Newton's below this share of its place is the last one. One more step
-/// in `f64` comes closer.
-const CLOSE: f32 = 1.0 / (1 << 20) as f32;
-const CLOSER: f64 = 1.0 / (1u64 << 36) as f64;
-/// Bisections alone would come as close.
-const MOST_STEPS: usize = 40;
 /// The coefficients of a polynomial by powers of `x` as those by powers of `x / unit`, times `factor`.
 #[inline(never)]
 pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
@@ -146,8 +147,8 @@ pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f6
     single
 }
 
-/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside a bracket, which a step that
-/// leaves it halves.
+/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside a
+/// bracket, which a step that leaves it halves.
 #[inline(never)]
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
@@ -184,7 +185,8 @@ pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
     }
 }
 
-/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes.
+/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes. Loops that count down
+/// end where it wraps, so that one comparison ends the loop and spares the check of a bound.
 #[inline(always)]
 pub(crate) const fn unknown(n: usize) -> usize {
     core::hint::black_box(n)

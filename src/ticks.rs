@@ -8,9 +8,10 @@ use crate::pair::Pair;
 use crate::plan::{Plan, PlateauU64};
 use crate::units::fixed;
 
-/// Intervals of more than 2 to this ticks are beyond what a direct polynomial places to a quarter of a tick.
+/// In an interval of more than 2^`DIRECT_TICKS` ticks a polynomial may be off by more than a quarter of a tick: there all
+/// triggers are searched for.
 const DIRECT_TICKS: i32 = 24;
-/// An interval may have 2 to this ticks.
+/// An interval has at most 2^`MOST_TICKS` ticks.
 const MOST_TICKS: i32 = 31;
 /// In frames of more triggers all are searched for: polynomials, whose error in `u` is up to half an ulp of an `f32`,
 /// might swap neighbours.
@@ -98,7 +99,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         // An `f32` above 2²⁴ is an integer, and what the second half adds to it is below 2⁸.
         let whole = ticks.hi as u32;
         let rest = (ticks.hi - whole as f32) + ticks.lo + 0.5;
-        // The cast rounds a positive number down.
+        // Made positive first, since the cast cuts towards 0.
         (whole + (rest + 256.0) as u32).saturating_sub(256)
     }
 }
@@ -119,8 +120,7 @@ pub(crate) fn moment<const CELLS: usize>(
     plan.exposure.at_fraction(side, a, FOR_TICK)
 }
 
-/// The least exponent of a power of two that a `length`, in units of `2^unit` of the curve's time, does not exceed in
-/// ticks.
+/// The least `e` for which a `length`, in units of `2^unit` of the curve's time, is at most 2^e ticks.
 fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
     // Below 2⁹⁶.
     let ticks = length as u128 * tick_hz as u128;
@@ -153,7 +153,7 @@ pub(crate) struct TickScale {
 impl TickScale {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
     pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
-        // An `f32` interval has from 2³⁷ units to 2⁶².
+        // An interval has from 2³⁷ units, an ulp of a time of 2⁶¹, to 2⁶².
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         // 32 for the upper word, and 64 for the unit of the factor.
         let shift = unit + 96 - up as i32;
