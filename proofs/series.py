@@ -1,4 +1,4 @@
-"""src/series.rs: how exact a series' value is; solve.rs: `Series::at_pair`; ramp.rs: `noise`. By exact rational arithmetic.
+"""src/series.rs: how exact a series' value is, at an `f32` and at a pair; by_time.rs: `noise`. By exact rational arithmetic.
 
 Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|^k. Two-sum and Dekker's product are exact.
 """
@@ -15,9 +15,10 @@ code("pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; 
     while let [lower @ .., highest] = c { slope = slope * x + c.len() as f32 * highest.hi; c = lower; } slope }""")
 code("pub(crate) const fn at_pair(self, place: Pair) -> Pair {", """let Pair { hi, lo } = self.at(place.hi);
     Pair { hi, lo: lo + self.slope(place.hi) * place.lo } }""")
-code("pub(crate) fn noise(&self) -> f32 {", """let terms = |side, x| { let c = self.ramp.mass_in_single(side);
-    c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
-    let here = self.place.hi; let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
+code("pub(crate) fn noise(&self, side: usize) -> f32 {", """let terms = |side: usize| {
+    let x = if side == self.side { self.place.hi } else { LAST_PLACE - self.place.hi };
+    let c = self.ramp.mass_in_single(side); c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
+    let terms = terms(self.side) + terms(side);
     terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 40) as f32 }""")
 
 

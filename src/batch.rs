@@ -9,8 +9,8 @@ const SLACK: f64 = 4096.0;
 /// The plateau's line, `t = base + A u`.
 ///
 /// In doubles the time is within four roundings of the exact one, each at most 2⁸ of the plan's units of time, of which
-/// a time has at most 2⁶²; in units it is within one. So the two are less than [`SLACK`] units apart, and if all within the slack rounds to one `f32`, that is the
-/// answer of both.
+/// a time has at most 2⁶²; in units it is within one. So the two are less than [`SLACK`] units apart, and if all within
+/// the slack rounds to one `f32`, that is the answer of both.
 struct Line {
     base: f64,
     slope: f64,

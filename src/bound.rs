@@ -1,27 +1,27 @@
 //! A bound of a polynomial's error over all of an octave, not at samples alone.
 //!
-//! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to 1:
-//! the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f` beside
-//! it, `R f` is the error in exposure, of degree 51. Nothing is inverted for it, and where time has a kink over exposure,
-//! these polynomials have none.
+//! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to
+//! 1: the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f`
+//! beside it, `R f` is the error in exposure, of degree 51. Nothing is inverted for it, and where time has a kink over
+//! exposure, these polynomials have none.
 //!
 //! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
 //! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M
-//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. What has
-//! a degree of at most `n` may be taken away first: `t`, `c₁ x`, and `Q(x₀ + x₁ s)`. So with `Y₁ =
+//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. What
+//! has a degree of at most `n` may be taken away first: `t`, `c₁ x`, and `Q(x₀ + x₁ s)`. So with `Y₁ =
 //! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
 //! on is enough, and for `R f` that times `Σ |f_k| A^k`.
 //!
 //! Each sample goes the answer's own way, from the position of a fraction to the polynomial's value in 32 bits, so that
-//! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between them.
-//! All else may be in `f32`, whose rounding [`SLACK`] makes up for.
+//! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between
+//! them. All else may be in `f32`, whose rounding [`SLACK`] makes up for.
 //!
 //! docs/proofs.md leads from this to what an answer is off by.
 
 use crate::octave::{DEGREE, Octave};
 use crate::path::{Path, absolute, unknown, value};
 
-/// Even numbers of points, less one, and the cosine of π over that: from the cheapest bound to the closest.
+/// N, which is even, for N + 1 points, and the cosine of π/N: from the cheapest bound to the closest.
 const POINTS: [(usize, f64); 3] =
     [(22, 0.9898214418809327), (48, 0.9978589232386035), (96, 0.9994645874763657)];
 

@@ -7,8 +7,8 @@ use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
-/// An error in time, relative to the way from the ramp's end. Neighbouring `f32` are at least 2⁻²⁵ of that apart, those of
-/// [`on_grid`] too: less than a quarter of it, so that they keep their order.
+/// An error in time, relative to the way from the ramp's end. Neighbouring `f32`, and those that [`on_grid`] leaves,
+/// are 2⁻²⁵·⁹ of that apart or more. This is less than a quarter of it, so they keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
 /// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
@@ -62,8 +62,8 @@ impl Ramp {
         let RampPoint { side, place, .. } = self.at_time(t);
         let [f0, f1, f2, f3] = self.openness;
         let f = if side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
-        // Scaled so that the second halves of all coefficients that count, and their products with the least place, keep
-        // their bits.
+        // Scaled so that the second halves of all coefficients that count, and their products with the least place,
+        // keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
@@ -85,30 +85,30 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the rounding error of [`mass`](Self::mass) and of a search for a mass that is next to it, which may
-    /// measure from the other end: what [`Series::at_pair`] loses of either end's terms.
+    /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is next
+    /// to it: what [`Series::at_pair`] loses of the terms from either's end.
     // proofs/series.py
-    pub(crate) fn noise(&self) -> f32 {
-        let terms = |side, x| {
+    pub(crate) fn noise(&self, side: usize) -> f32 {
+        let terms = |side: usize| {
+            let x = if side == self.side { self.place.hi } else { LAST_PLACE - self.place.hi };
             let c = self.ramp.mass_in_single(side);
             c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
         };
-        let here = self.place.hi;
-        let terms = terms(self.side, here) + terms(self.side ^ 1, LAST_PLACE - here);
+        let terms = terms(self.side) + terms(side);
         terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 40) as f32
     }
 }
 
-/// A time on a ramp that runs across time 0, moved by at most half an ulp of the farther end, onto a multiple of that half or
-/// of all of it: next to 0, `f32` are denser than a search is exact.
+/// A time on a ramp that runs across time 0, moved by at most half an ulp of the farther end, onto a multiple of a
+/// quarter, a half or all of it: next to 0, `f32` are denser than a search is exact.
 #[inline(never)]
 const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
-    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
-    if t.abs() >= half || t == start || t == end {
+    let near = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
+    if t.abs() >= near || t == start || t == end {
         return t;
     }
-    // The sum is from half to 2.5 half, so the bits below its last place are rounded off.
-    let t = (t + 1.5 * half) - 1.5 * half;
+    // The sum is from 0.5 to 2.5 `near`, so the bits below its last place are rounded off.
+    let t = (t + 1.5 * near) - 1.5 * near;
     if t < start {
         start
     } else if t > end {

@@ -26,13 +26,13 @@ const MEAN_TRUNCATION: f64 = -0.664;
 /// A polynomial as it is held against the exact time.
 pub(crate) struct Candidate {
     pub(crate) octave: Octave,
-    /// The time from the side's start that its value is added to.
+    /// The time from the outer end that its value is added to.
     pub(crate) middle: f64,
     /// The time of a coefficient's 1.
     pub(crate) step: f64,
     /// A bound of its slope.
     pub(crate) steep: f32,
-    /// What rounding adds to it, with that of the side's start.
+    /// What rounding adds to it, with that of the outer end.
     pub(crate) truncated: f32,
 }
 
@@ -41,8 +41,8 @@ impl Side<'_> {
     #[inline(always)]
     pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
         let c = span.interpolated(stretch);
-        // How far x reaches, with room for the center's lowest bits. Horner's rule by absolute values, for the value and
-        // the slope: the largest value that it meets fills 31 bits, and rounding may not bring it beyond.
+        // How far x reaches, with room for the center's lowest bits. Horner's rule by absolute values, for the value
+        // and the slope: the largest value that it meets fills 31 bits, and rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 && k <= DEGREE {
@@ -124,8 +124,8 @@ impl Span {
     }
 }
 
-/// The divided differences of the next order, in the places from it on. Out of line, as the next function, because loops
-/// that the compiler unrolls in each place cost kilobytes.
+/// The divided differences of the next order, in the places from it on. Out of line, as the next function, because
+/// loops that the compiler unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
     let (mut i, mut last) = (order.wrapping_sub(1), 0.0);

@@ -7,15 +7,15 @@ use crate::moment::rounded_sum;
 use crate::pair::{Pair, significand};
 use crate::units::{WHOLE, WHOLE_EXPONENT};
 
-/// A mass may be a difference, what a measured part leaves of a ramp's share. If that is more than this fraction of the
-/// part, the part's noise, relative to the mass, is at most four times what it is relative to the part.
+/// A mass may be what a measured part leaves of a ramp's share, or of the whole. While it is more than this fraction of
+/// the part, the part's noise, relative to the mass, is at most four times what it is relative to the part.
 const LITTLE: f32 = 0.25;
 
-/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A part
-/// is measured to 2⁻⁴¹ of its terms, which may be 1083 times as great as the part: so to 2⁻³⁰ of the part, and to four
-/// times that of the mass ([`LITTLE`]).
-// proofs/markov.py
-const NEAR_MIDDLE: f32 = 1.0 / (1 << 28) as f32;
+/// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
+/// part is measured to 2⁻⁴⁰·² of its terms, which may be 1083 times as great as the part: so to 2⁻³⁰·¹ of the part, and
+/// to four times that of the mass ([`LITTLE`]). The inverse of the middle adds 2⁻²⁹·⁶.
+// docs/proofs.md: `cdf` never steps back
+const NEAR_MIDDLE: f32 = 1.5 / (1 << 28) as f32;
 
 /// Where a time lies on the curve.
 enum At {
@@ -85,7 +85,8 @@ impl Exposure {
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
         let on = self.ramp(ramp).at_time(t);
         let part = on.mass();
-        // From the start of the ramp, or back from its end: then a mass below this has lost too much to be told.
+        // From the start of the ramp the mass is a sum. Back from its end it is a difference, and one of this or less
+        // has lost too much to be told.
         let least = LITTLE * part.hi;
         let (mass, least_told) = match (ramp, on.side) {
             (0, 0) => (part, 0.0),
@@ -132,16 +133,16 @@ impl Exposure {
         if nearest <= 0.0 {
             return 0.0;
         }
-        // Twice, for the last step of the search, which is not exact either.
-        let noise = on.map_or(0.0, |on| 2.0 * on.noise()) + 2.0 * FOR_TICK * nearest;
-        if distance > noise {
-            return nearest;
-        }
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
         // The side by the lesser neighbour, so that the question is the same whichever was the nearest.
         let (least, greatest) = if next < nearest { (next, nearest) } else { (nearest, next) };
         let (side, a) =
             if least < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
+        // Twice, for the last step of the search, which is not exact either.
+        let noise = on.map_or(0.0, |on| 2.0 * on.noise(side)) + 2.0 * FOR_TICK * nearest;
+        if distance > noise {
+            return nearest;
+        }
         if t >= self.at_fraction(side, a, FOR_TICK).time() { greatest } else { least }
     }
 }

@@ -11,12 +11,12 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
 /// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
 pub(crate) const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
-/// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the lesser
-/// one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
+/// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the
+/// lesser one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be: by the first where a look-up rounds a join, and by the second as a share of it on a path,
-/// where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+/// How far off a fraction may be: by the first where a look-up rounds a join, and by the second as a share of it on a
+/// path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
 /// How far off a time may be on a path, as a share of it.
@@ -26,8 +26,9 @@ const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
 impl Side<'_> {
-    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be: for a
-    /// tick, relative to the time, in light, and in light beyond the ramp. What [`certain`] asks for is that all are below 1.
+    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be: for
+    /// a tick, relative to the time, in exposure, and in exposure beyond the ramp. What [`certain`] asks for is that
+    /// all are below 1.
     #[inline(never)]
     pub(crate) const fn certificate(
         &self,
@@ -39,7 +40,7 @@ impl Side<'_> {
     ) -> [f32; 4] {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
         let (exposure, side) = (self.exposure, self.side);
-        // What an error may be is 1 in each of these units.
+        // Factors that make an error, in the time of a coefficient's 1, a share of what it may be.
         let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
         let (off, ulp) = (
             OFF[0] + OFF[1] * span.to,
@@ -48,7 +49,7 @@ impl Side<'_> {
         let single = step as f32;
         let per_tick = single / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
         // In `f64`, since the openness of a single curve may have any scale.
-        let per_light = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
+        let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
             single / self.size_of_time(ends[0]) / FORWARD_ERROR,
             single / self.size_of_time(ends[1]) / FORWARD_ERROR,
@@ -57,13 +58,13 @@ impl Side<'_> {
         along.time[0] -= middle;
         scale(&mut along.time, 1.0 / step, 1.0);
         let time = singles(&along.time, 0.0, 1.0);
-        let openness = singles(&along.openness, 0.0, per_light);
-        // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in time, so
-        // it lies below the chord between both ends.
+        let openness = singles(&along.openness, 0.0, per_exposure);
+        // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in
+        // time, so it lies below the chord between both ends, here by powers of `s`.
         let [_, t1, t2, t3] = time;
         let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
         let mean = 0.5 * (per_size[0] + per_size[1]);
-        let size = [mean - slope * t2, slope * t1, slope * t2, slope * t3];
+        let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];
         let (center, per_position) = span.offsets();
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
@@ -73,14 +74,14 @@ impl Side<'_> {
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                (self.greatest_beyond(ramp, single / per_tick) * per_light) as f32
+                (self.greatest_beyond(ramp, single / per_tick) * per_exposure) as f32
             } else {
                 0.0
             },
             time,
             openness,
         };
-        let weights = [[1.0, 0.0, 0.0, 0.0], openness, size];
+        let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded to 1/2, where a tick's fraction may lose 2.
         let noise = limits.rounding + 0.25 * limits.lost;
         let (mut way, mut bounds) = (0, [f32::INFINITY; 4]);
@@ -145,20 +146,21 @@ struct Limits {
     per_tick: f32,
     /// The greater one of both ends'.
     per_size: f32,
-    /// The light in a unit of time beyond the ramp's inner end.
+    /// The exposure in a unit of time beyond the ramp's inner end.
     beyond: f32,
     time: [f32; 4],
     openness: [f32; 4],
 }
 
 impl Limits {
-    /// Errors in time, in light, and relative to the time, with what rounding adds, as shares of what they may be: for a
-    /// tick, relative to the time, in light, and in light beyond the ramp.
+    /// Errors in time, in exposure, and relative to the time, with what rounding adds, as shares of what they may be:
+    /// for a tick, relative to the time, in exposure, and in exposure beyond the ramp.
     #[inline(never)]
-    const fn share(&self, &[time, light, relative]: &[f32; KINDS]) -> [f32; 4] {
+    const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 4] {
         let error = time + self.rounding;
-        // How far along the ramp so much time leads at most. A way `d` takes at least `d` times the least slope and, where
-        // time bends upwards, at least t3 d³ / 4, as around a point where it stands still. One of these has to be as much.
+        // How far along the ramp so much time leads at most. A way `d` takes at least `d` times the least slope and,
+        // where time bends upwards, at least t3 d³ / 4, as around a point where it stands still. One of these has to be
+        // as much.
         let [_, t1, t2, t3] = self.time;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest =
@@ -173,13 +175,13 @@ impl Limits {
         [
             (error + self.lost) * self.per_tick,
             relative + self.rounding * self.per_size,
-            light + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
+            exposed + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
             error * self.beyond,
         ]
     }
 }
 
 /// Is none more than it may be? Written so that a NaN fails.
-pub(crate) const fn certain(&[tick, relative, light, beyond]: &[f32; 4]) -> bool {
-    tick <= CERTAIN && relative <= CERTAIN && light <= CERTAIN && beyond <= CERTAIN
+pub(crate) const fn certain(&[tick, relative, exposed, beyond]: &[f32; 4]) -> bool {
+    tick <= CERTAIN && relative <= CERTAIN && exposed <= CERTAIN && beyond <= CERTAIN
 }

@@ -104,8 +104,8 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side; with an `error` relative
-    /// to it.
+    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side; with an `error`
+    /// relative to it.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
@@ -137,8 +137,8 @@ impl Exposure {
         Section::Plateau(Moment { base, until, back: side == 1, way, unit, evaluations: 0 })
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is computed
-    /// from the lesser of the two parts, which has more bits. So without a plateau both are one number.
+    /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is
+    /// computed from the lesser of the two parts, which has more bits. So without a plateau both are one number.
     pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
@@ -190,7 +190,8 @@ impl Exposure {
 
     /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
     /// rounding of pairs, 2⁻⁴⁴. Without a plateau it is even 2⁻²³, four ulp, too little for octaves of its own: the
-    /// polynomial of the near ramp serves what is beyond the join, too, and has a second certificate along the far ramp.
+    /// polynomial of the near ramp serves what is beyond the join, too, and has a second certificate along the far
+    /// ramp.
     const fn trace(&self) -> u64 {
         if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }

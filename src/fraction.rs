@@ -20,7 +20,8 @@ impl Fractions {
     pub(crate) fn new(n: u32) -> Self {
         let divisor = n as u64 | (n == 0) as u64;
         let share = (1 << 63) / divisor;
-        // The rest is the remainder over n, in 2⁻⁹⁶; and 1/n is 2 share / 2⁶⁴, so it is remainder · share · 2 · 2³² / 2⁶⁴.
+        // The rest is the remainder over n, in 2⁻⁹⁶; and 1/n is 2 share / 2⁶⁴, so it is remainder · share · 2 · 2³² /
+        // 2⁶⁴.
         let remainder = (1 << 63) - share * divisor;
         Self { n, share, rest: ((remainder * share) >> 31) as u32 }
     }
@@ -47,7 +48,8 @@ impl Fractions {
         let low = near * self.rest as u64;
         let middle = near * (self.share as u32 as u64) + (low >> 32);
         let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
-        // Half of the pulse, towards the other side or away from it. It is at most as much, so no difference is negative.
+        // Half of the pulse, towards the other side or away from it. It is at most as much, so no difference is
+        // negative.
         let (words, low) = if edge.is_off == (side == 0) {
             let (low, carry) = (low as u32).overflowing_add(edge.rest);
             (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)

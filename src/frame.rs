@@ -1,7 +1,7 @@
 //! The iterators over a frame: any item in constant time, from either end.
 
-/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the range
-/// of those that are `left`.
+/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the
+/// range of those that are `left`.
 macro_rules! iterate {
     ($name:ident, $item:ty) => {
         impl<const CELLS: usize> Iterator for $name<'_, CELLS> {

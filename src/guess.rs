@@ -35,8 +35,8 @@ const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
 }
 
-/// `x / k` for `k` up to 6, within 4/3 of its last place, where `x` is the difference of two logarithms: without a division, which the
-/// compiler would check.
+/// `x / k` for `k` up to 6, within 4/3 of its last place, where `x` is the difference of two logarithms: without a
+/// division, which the compiler would check.
 // proofs/guess.py: divided
 #[inline(always)]
 pub(crate) const fn divided(x: i32, k: i32) -> i32 {

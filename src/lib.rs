@@ -36,8 +36,9 @@
 // A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
 //            is found. `ramp`: when a mass has been collected. `by_time`: the same ramp, asked by time.
 // A curve    `exposure`: two ramps and a plateau, by fraction. `cdf`: the same by time.
-// Directly   `octave`: a polynomial that needs no search. How it is built: `path`, the exact ramp; `span`, the part that
-//            it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of a side.
+// Directly   `octave`: a polynomial that needs no search. How it is built: `path`, the exact ramp; `span`, the part
+//            that it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of
+//            a side.
 // An answer  `plan`: the steps from one `u` to its time. `batch`: a short cut by doubles, for one `u` and for many.
 // Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
 mod batch;

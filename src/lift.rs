@@ -8,8 +8,8 @@ use crate::cubic::{cubic_range, quadratic_min, widened};
 /// reaches the plateau at 1. Each is rounded to the next `f32` above. A Bezier moves with its control values.
 ///
 /// Where the greater end has less than half of the greatest value, that value stays, so that nothing moves by more than
-/// the raise. An end at 0 has to move even if only the inside dips. To keep it there would mean to raise the slope by up to
-/// 3 · 2⁻¹¹, because a cubic that starts at 0 with the slope `-3 · 2⁻¹¹` dips by no more than 2⁻²².
+/// the raise. An end at 0 has to move even if only the inside dips. To keep it there would mean to raise the slope by
+/// up to 3 · 2⁻¹¹, because a cubic that starts at 0 with the slope `-3 · 2⁻¹¹` dips by no more than 2⁻²².
 pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     let (low, high) = cubic_range(widened(v));
     if low >= 0.0 {
@@ -34,8 +34,8 @@ pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
 ///
 /// A constant added to the slope adds a multiple of `p` to the time, and scaling takes as much away at the end: no time
 /// moves by more than 0.469 of the ramp's length times the 2⁻²² that are accepted (`proofs/lifting.py`). The slope of
-/// the result, computed exactly from its three numbers, is nowhere below 0. That of a ramp that is not lifted may be, by
-/// rounding, but by less than what its coefficients lose as pairs.
+/// the result, computed exactly from its three numbers, is nowhere below 0. That of a ramp that is not lifted may be,
+/// by rounding, but by less than what its coefficients lose as pairs.
 pub(crate) const fn forward(d: [f64; 3], length: f64) -> [f64; 3] {
     let (least, noise) = quadratic_min(d);
     if least >= 0.0 {

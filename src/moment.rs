@@ -6,8 +6,8 @@ use crate::units::power_of_two;
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
 /// [-252, 22].
 ///
-/// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless the
-/// sum lies next to a middle between two `f32`: there the error may be half an ulp and 2⁻²⁴ of the rest.
+/// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless
+/// the sum lies next to a middle between two `f32`: there the error may be half an ulp and 2⁻²⁴ of the rest.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
@@ -18,8 +18,8 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let hi = way.hi * first * second;
     let sum = Pair::sum(base, hi);
     let rest = sum.lo + way.lo * first * second;
-    // Below 2⁻⁷⁸ a number or its second half may be subnormal. And a sum midway between two `f32` has a power of two as its
-    // rest, a number without any bits but sign and exponent; so may others by rounding.
+    // Below 2⁻⁷⁸ a number or its second half may be subnormal. And a sum midway between two `f32` has a power of two as
+    // its rest, a number without any bits but sign and exponent; so may others by rounding.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
         return careful_sum(base, way, first, second);
     }
@@ -93,7 +93,8 @@ impl Moment {
             [self.base, self.until].map(|time| Pair::sum(time, -start).shifted(-unit));
         let way = self.way.shifted(self.unit - unit);
         let time = if self.back { base.minus(way) } else { base.plus(way) };
-        // A search may err by a trace of mass, and next to a dark end a trace of mass is a long time: so not beyond the end.
+        // A search may err by a trace of mass, and next to a dark end a trace of mass is a long time: so not beyond the
+        // end.
         let beyond = time.difference(until);
         let is_beyond = if self.back { beyond < 0.0 } else { beyond > 0.0 };
         if is_beyond { until } else { time }

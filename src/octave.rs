@@ -3,12 +3,15 @@
 //! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower
 //! towards the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in
 //! each. Each ramp has octaves of its own. They are powers of two apart from its *top*, which is the fraction at which
-//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, unless their join counts as 1/2, and the
-//! plateau between them is answered by its line.
+//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, unless their join is so near to 1/2 that it
+//! counts as that, and the plateau between them is answered by its line.
 //!
 //! The difference of the bits of the top's and of `a`'s `f32` tells how many octaves lie between them, since the
-//! exponent is the upper part of the bits. The offset within the octave is exact: the significand of `a` minus that of
-//! the octave's middle.
+//! exponent is the upper part of the bits.
+//!
+//! An octave holds the end of one binade and the start of the next one. A *position* in it is `a` less the power of two
+//! between them. Above, it counts 2⁻³¹ of that power, from 0 to 2³¹, and has to be doubled; below, it counts 2⁻³² of
+//! it, from -2³¹ up to 0. The offset from the middle of what the polynomial serves is exact.
 
 use crate::units::{LEAST_TOP, TOP_STEP};
 
@@ -19,8 +22,8 @@ pub(crate) struct Octave {
     pub(crate) middle: i64,
     /// A power of two, or minus that from the later side; 0 where there is no polynomial.
     pub(crate) factor: i32,
-    /// The position, doubled where it has to be, from which `x` is counted. Its lowest 5 bits are a shift, too: `x` is the
-    /// difference times 2 to that.
+    /// The position, doubled where it has to be, from which `x` is counted. Its lowest 5 bits are a shift, too: `x` is
+    /// the difference times 2 to that.
     pub(crate) center: u32,
     /// `P(x) = c[7] x + c[6] x² + ...`: in the order in which Horner's rule needs them.
     pub(crate) c: [i32; DEGREE],
@@ -56,10 +59,6 @@ impl Octave {
     }
 
     /// The `x` of a position, in 2⁻³².
-    ///
-    /// An octave holds the end of one binade and the start of the next one. A *position* counts from the power of two
-    /// between them. In the upper binade it is how far the significand, in 32 bits, is above 2³¹, and has to be doubled. In
-    /// the lower one it is how far that is below 2³², negative, in units half as great.
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         let ahead = position & !(position >> 31);

@@ -8,9 +8,9 @@ use crate::shape::Shape;
 use crate::span::Span;
 use crate::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
 
-/// By how many steps the tops are moved beyond the end of their ramp, one after the other. A ramp's last octave is often too much for one
-/// polynomial. If the tops are moved, the last part of the ramp has a polynomial of its own. The first number is taken
-/// that leaves no octave without a polynomial, or else the last.
+/// By how many steps the tops are moved beyond the end of their ramp, one after the other. A ramp's last octave is
+/// often too much for one polynomial. If the tops are moved, the last part of the ramp has a polynomial of its own. The
+/// first number is taken that leaves no octave without a polynomial, or else the last.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
@@ -59,7 +59,8 @@ impl Side<'_> {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
             // A ramp without octaves has a top, too. Fractions of the plateau below FINE are not on its line and are
-            // looked up here: the top is at or above all of them, and what they find has no polynomial.
+            // looked up here: the top is at or above all of them, and what they find has no polynomial, as a near ramp
+            // that ends below FINE has none ([`range`]).
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -74,8 +75,8 @@ impl Side<'_> {
             while index < octaves.len() {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
-                // One octave below the least top has a place, too, or a fraction in it would be looked up in the next
-                // ramp's first.
+                // The first octave whose top is below the least one has a place, too, if never a polynomial; or a
+                // fraction in it would be looked up in the next ramp's first.
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                     end = index + 1;
                 }

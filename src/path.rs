@@ -34,7 +34,7 @@ impl Side<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct Path {
     pub(crate) openness: [f64; 4],
-    /// The time since the side's start.
+    /// The time since the outer end.
     pub(crate) time: [f64; 4],
     /// The fraction collected since then.
     pub(crate) fraction: [f64; 7],
@@ -147,8 +147,8 @@ pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f6
     single
 }
 
-/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside a
-/// bracket, which a step that leaves it halves.
+/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside
+/// a bracket, which a step that leaves it halves.
 #[inline(never)]
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
@@ -185,8 +185,8 @@ pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
     }
 }
 
-/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes. Loops that count down
-/// end where it wraps, so that one comparison ends the loop and spares the check of a bound.
+/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes. Loops that count
+/// down end where it wraps, so that one comparison ends the loop and spares the check of a bound.
 #[inline(always)]
 pub(crate) const fn unknown(n: usize) -> usize {
     core::hint::black_box(n)

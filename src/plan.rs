@@ -18,8 +18,8 @@
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
-//! ([`certificate`](crate::certificate)). A search's is below a quarter of that distance if its step was accepted, so the order
-//! holds where a search follows a polynomial or the line.
+//! ([`certificate`](crate::certificate)). A search's is below a quarter of that distance if its step was accepted, so
+//! the order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
@@ -42,7 +42,8 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
     scale: f32,
-    /// The `u` on the plateau's line, by the bits of their `f32`: the last one, and how many there are.
+    /// The last `u` before the closing ramp, by the bits of its `f32` (without a plateau, too: it tells the ramps
+    /// apart), and how many up to it are on the plateau's line.
     last: u32,
     count: u32,
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
@@ -93,8 +94,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
         let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        // Where the line is too coarse, so are octaves. `CELLS > 0` lets the compiler leave the building out where there
-        // are none.
+        // Where the line is too coarse, so are octaves. `CELLS > 0` lets the compiler leave the building out where
+        // there are none.
         while CELLS > 0 && serves && side < 2 {
             tops[side] = octaves::build(&exposure, &shapes, unit, side, &mut octaves[side]);
             side += 1;
@@ -123,8 +124,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let time = self.direct(u);
-        // A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has 26
-        // or more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*.
+        // A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has
+        // 26 or more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*.
         // proofs/words.py
         let high = (time >> 32) as i32;
         if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
@@ -153,7 +154,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     // proofs/octaves.py: both look-ups find the octave that was built
     #[inline(always)]
     pub(crate) fn direct(&self, u: f32) -> i64 {
-        // Less than `count` only on the line. The top bit is set beyond the plateau, where the ramp is 1, the closing one.
+        // Less than `count` only on the line. The top bit is set beyond the plateau, where the ramp is 1, the closing
+        // one.
         let before_last = self.last.wrapping_sub(u.to_bits());
         if before_last < self.count {
             return self.by_line(u.to_bits());
@@ -186,8 +188,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
-        // `top - bits` borrowed from the exponent if bit 23 of the three differs so: then `a` is in the lower of the two
-        // binades. That bit takes the place of the exponent's last one; the shift makes it the sign, and drops the rest.
+        // `top - bits` borrowed from the exponent just where the exclusive or of bit 23 of `top`, `bits` and `below` is
+        // 1: then `a` is in the lower of the two binades. That, in the place of bit 23 of `bits`, becomes the sign; the
+        // shift drops the rest of the exponent.
         let borrowed = bits ^ (top ^ below) & 1 << 23;
         Some((octave, (borrowed << 8) as i32))
     }
@@ -269,8 +272,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
-        // With a plateau both joins are on the line, 1/2 too. Without one, `direct_u64` takes 1/2 for side 1, so a join there
-        // has to be on the closing ramp.
+        // With a plateau both joins are on the line, 1/2 too. Without one, a `u` at the join counts as on the closing
+        // ramp. At 1/2 it has to: `direct_u64` counts 1/2 from side 1.
         let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
         let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
         // By the slope, not by `count`: a plateau too short for an `f32` may hold fractions of 64 bits.
@@ -289,11 +292,12 @@ impl<const CELLS: usize> Plan<CELLS> {
         let side = (u >> 63) as usize;
         let a = if side == 0 { u } else { u.wrapping_neg() };
         let (high, low) = ((a >> 32) as u32, a as u32);
-        // If the upper word is 0, `a` is below all octaves, and the index is that of none, or of one without a polynomial.
+        // If the upper word is 0, `a` is below all octaves, and the index is that of none, or of one without a
+        // polynomial.
         let zeros = high.leading_zeros();
         let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
         let significand = significand & !(1 << 31);
-        // As in `octave`, but that the exponents stand apart: that of `a` is the one of 1/2, less the zeros.
+        // As in `look_up`, but that the exponents stand apart: that of `a` is the one of 1/2, less the zeros.
         const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
         let top = octave::top(self.tops[side & 1][is_beyond as usize]);
         let below = (top << 9 >> 1) as i32 - significand as i32;

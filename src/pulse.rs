@@ -59,8 +59,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short, more places than `u32::MAX`, and those of [`pulse_ticks`](Self::pulse_ticks). The slice
-    /// then holds a part of the schedule, and else what it held.
+    /// A pulse or a gap that is too short, more places than `u32::MAX`, and those of
+    /// [`pulse_ticks`](Self::pulse_ticks). The slice then holds a part of the schedule, and else what it held.
     pub fn pulses_into(
         &self,
         pulses: &mut [(u32, u32)],

@@ -23,8 +23,8 @@ use crate::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
 
-/// The rounding of an anchor's slopes: from the other end the distance is itself rounded, from a flat place twice, and one
-/// coefficient may be a difference of greater ones.
+/// The rounding of an anchor's slopes: from the other end the distance is itself rounded, from a flat place twice, and
+/// one coefficient may be a difference of greater ones.
 // proofs/solve.py
 const FROM_OTHER: f32 = 1.25 * ROUNDING;
 const FROM_FLAT: f32 = 3.0 * ROUNDING;
@@ -188,6 +188,7 @@ impl Ramp {
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
+            // A negative mass counts from the other end, as `from_other` does.
             let mass = seen_from(side, self.flats[i].mass);
             let from_end = if mass.hi < 0.0 { from_other } else { target };
             let from_flat = from_end.difference(mass);
@@ -214,7 +215,8 @@ impl Ramp {
         let (base, sign) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
         let place = Pair::sum(base, flipped(from_end, sign));
         let back = sought.to_bits() & BACK;
-        // Mirrored, both the distance and the mass count the other way, so it is the even powers that change their sign.
+        // Mirrored, both the distance and the mass count the other way, so it is the even powers that change their
+        // sign.
         let sign = sign ^ back;
         let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
         Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }

@@ -30,8 +30,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     }
 
     /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the
-    /// openness is at most 1. A quotient within 2⁻⁵⁰ of the next integer counts as that, since the area is rounded, so the
-    /// gap may be missed by as little; and by 2⁻²² of it on a curve whose control points pass 1 by their rounding.
+    /// openness is at most 1. A quotient within 2⁻⁵⁰ of the next integer counts as that, since the area is rounded, so
+    /// the gap may be missed by as little; and by 2⁻²² of it on a curve whose control points pass 1 by their rounding.
     /// A curve that never fully opens may take more. The gap is in the curve's unit;
     /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required: for a gap of 0,
     /// a negative one, or NaN.
@@ -141,8 +141,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     ///
     /// # Errors
-    /// A gap that is not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). The slice then
-    /// holds a part of the schedule, and else what it held.
+    /// A gap that is not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). The
+    /// slice then holds a part of the schedule, and else what it held.
     pub fn schedule_into(
         &self,
         ticks: &mut [u32],

@@ -20,8 +20,8 @@ use crate::plan::Plan;
 /// `CELLS` is the number of polynomials for each side, counted from the start and from the end; each answers one octave
 /// of `u`. A curve takes 480 bytes, and 96 more for each. With 8 of them at most one `u` in 256 of a typical curve is
 /// found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
-/// and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another number than 8 end
-/// in `with_cells`.
+/// and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another number than 8
+/// end in `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {
     pub(crate) plan: Plan<CELLS>,
@@ -108,10 +108,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     ///
     /// # Errors
-    /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness
-    /// outside [0, 1] anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose
-    /// reciprocal `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², for the rounding of
-    /// control points.
+    /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
+    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose reciprocal
+    /// `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², for the rounding of control points.
     pub const fn with_cells(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -322,8 +321,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`: from 0, where it is too little for an `f32`, to 1 + 2⁻²², by
-    /// the rounding that control points are forgiven.
+    /// The shutter efficiency `A / (close_end - open_start)`: from 0, where it is too little for an `f32`, to 1 + 2⁻²²,
+    /// by the rounding that control points are forgiven.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

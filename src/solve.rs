@@ -8,10 +8,11 @@
 //! 3. one more step for that, and a computed bound of what it leaves ([`left`]), which accepts the answer or not.
 //!
 //! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
-//! if the target is within half of the error of it, and at the cap on evaluations. After `FREE` evaluations each measured
-//! place halves a bracket of certain signs, and between neighbouring `f32` a step is accepted, unless more is asked for
-//! than measuring gives: no search for an `f32` is known to reach the cap, but a few for ticks are. There the answer is the
-//! last place that was measured, without a proof.
+//! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations. After `FREE`
+//! evaluations each measured place halves a bracket, at whose ends the sign of what is missing is certain, and between
+//! neighbouring `f32` a step is accepted, unless more is asked for than measuring gives: no search for an `f32` is
+//! known to reach the cap, but a few for ticks are. There the answer is the last place that was measured, without a
+//! proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
@@ -81,8 +82,8 @@ pub(crate) struct Taylor {
 }
 
 impl Taylor {
-    /// Of `S = c[0] x + c[1] x² + ...`, by synthetic division. With `S = x Q`, the first pass of Horner's rule leaves `Q`,
-    /// the second `Q + x Q' = S'`, and the third, one place up, `S'' / 2`.
+    /// Of `S = c[0] x + c[1] x² + ...`, by synthetic division. With `S = x Q`, the first pass of Horner's rule leaves
+    /// `Q`, the second `Q + x Q' = S'`, and the third, one place up, `S'' / 2`.
     #[inline(always)]
     pub(crate) const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {
         let mut c = *c;
@@ -130,9 +131,9 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// `|missing - s (d_1 + d_2 s)| + |s| (rounding D + 5 |moved| (2 |c_2| + E Y) + 3.4 E s²)`.
 ///
 /// The first term is what the step leaves of the first two Taylor terms as they are known, the second what is not known
-/// of these, the third what `moved` does to them, and the fourth bounds all further ones. (`c_j` is `c[j - 1]`; 5 is the
-/// greatest `j - 1`, and 3.4 a little more than the greatest `C(j,3) / j`.) Below, `cubes` is `E`, `bends` is
-/// `2 |c_2| + E Y`, and `slopes` is `D`.
+/// of these, the third what `moved` does to them, and the fourth bounds all further ones. (`c_j` is `c[j - 1]`; 5 is
+/// the greatest `j - 1`, and 3.4 a little more than the greatest `C(j,3) / j`.) Below, `cubes` is `E`, `bends` is `2
+/// |c_2| + E Y`, and `slopes` is `D`.
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
@@ -174,7 +175,7 @@ pub(crate) const fn solve<const N: usize>(
     if sought <= 0.5 * wanted {
         return (place, 0);
     }
-    // Compared by bits, since an integer comparison does not wait for the FPU, and a NaN counts as much.
+    // Compared by bits, since an integer comparison does not wait for the FPU, and a NaN is then too much.
     let hardly_any = (PAIRS_BELOW * sought + wanted).to_bits() as i32;
     let reach = anchor.reach();
     let mut evaluations = 0;

@@ -4,8 +4,9 @@ use crate::octave::FINER;
 use crate::path::{Path, scale};
 use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
 
-/// While half of the span is at most this share of the width, the width is halved, so that the half fills from 0.24 to 0.48
-/// of it. The 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the most.
+/// While half of the span is at most this share of the width, the width is halved, so that the half fills from 0.24 to
+/// 0.48 of it. The 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the
+/// most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;
@@ -18,9 +19,9 @@ pub(crate) struct Span {
     /// The middle, and how far the polynomial reaches from there: some ulp beyond what it serves.
     pub(crate) middle: f32,
     pub(crate) half: f32,
-    /// The power of two that is in the octave, or at its end: what positions count 2⁻³² of.
+    /// The power of two that is in the octave, or at its end. The unit of positions is 2⁻³² of this.
     pub(crate) power: f32,
-    /// What offsets count 2⁻³² of: 2 to minus `finer` of that.
+    /// `power / 2^finer`. The unit of offsets is 2⁻³² of this.
     pub(crate) width: f32,
     finer: u32,
 }
@@ -38,8 +39,8 @@ impl Span {
         let power = power_of_two(exponent(high));
         let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power;
         let middle = 0.5 * (from as f32 + to);
-        // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it: the
-        // center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift.
+        // A small part of an octave fills the word, too, or the coefficients would have few bits. But not all of it:
+        // the center's lowest bits are a shift, so that an offset is beyond the half by as much, times 2 to the shift.
         let (mut width, mut finer) = (power, 0);
         while finer < MOST_FINER && half <= FILLED * width {
             width *= 0.5;
@@ -48,8 +49,8 @@ impl Span {
         Some(Self { from, to, middle, half, power, width, finer })
     }
 
-    /// The middle, nearly, in 2⁻³² of the power of two, with the shift in its lowest bits: in 33 bits, of which a position
-    /// has the lower 32.
+    /// The middle, nearly, in 2⁻³² of the power of two, with the shift in its lowest bits: in 33 bits, of which a
+    /// position has the lower 32.
     pub(crate) const fn center(&self) -> u64 {
         (self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64
     }

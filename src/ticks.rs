@@ -8,8 +8,8 @@ use crate::pair::Pair;
 use crate::plan::{Plan, PlateauU64};
 use crate::units::fixed;
 
-/// In an interval of more than 2^`DIRECT_TICKS` ticks a polynomial may be off by more than a quarter of a tick: there all
-/// triggers are searched for.
+/// In an interval of more than 2^`DIRECT_TICKS` ticks a polynomial may be off by more than a quarter of a tick: there
+/// all triggers are searched for.
 const DIRECT_TICKS: i32 = 24;
 /// An interval has at most 2^`MOST_TICKS` ticks.
 const MOST_TICKS: i32 = 31;

@@ -1,5 +1,6 @@
 //! Every scale on which the inside counts, and the steps from one to another. All are powers of two, so that no step
-//! rounds.
+//! rounds. A *fraction* is of the whole exposure; a *mass* is what is collected on one ramp, as a fraction too, and only
+//! while a curve is built not yet divided by the whole.
 //!
 //! | what is counted | from | to | in |
 //! |---|---|---|---|
@@ -9,16 +10,16 @@
 //! | a time on a ramp | 0 at its end | 2⁶⁴ to 2⁶⁵, all of the ramp: [`ramp_unit`] | pairs |
 //! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
 //! | a fraction of the exposure on the plateau's line | 0 | 2³² | `u32` |
-//! | a fraction `odd / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
-//! | a position in an octave | its power of two | 2³² to that power, either way | `i32`, wrapping |
+//! | a fraction `(2i + 1) / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
+//! | a position in an octave | the power of two inside it | 2³¹ either way, in 2⁻³² of that power or, above it, 2⁻³¹ | `i32` |
 //! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
 //! | the ticks in a unit of time, moved up | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick ([`ticks`](crate::ticks)) | `u64` |
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
-/// The least `f32` u then still leads to a place that is a normal number, and the last coefficient's second half is
-/// one.
+/// The least `f32` u then still leads to a place that is a normal number, and so is the second number of a pair for the
+/// last coefficient.
 pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 
 /// The whole exposure; a fraction *in WHOLE* is counted so that all of it is this. The least `f32`, and what rounding
@@ -54,7 +55,7 @@ pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
 
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
-    // That of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark.
+    // The exponent of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark.
     const DARK: i32 = WHOLE_EXPONENT - 150;
     let exponent = exponent(share);
     80 - if exponent < DARK { DARK } else { exponent }
