@@ -7,8 +7,9 @@ use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
-/// An error in time, relative to the way from the ramp's end. Neighbouring `f32`, and those that [`on_grid`] leaves,
-/// are 2⁻²⁵·⁹ of that apart or more. This is less than a quarter of it, so they keep their order.
+/// An error in time, relative to the way from the ramp's end. The way is at most as long as the time itself or, on a
+/// ramp across time 0, about as the farther end; and there [`on_grid`] leaves multiples of a quarter of its ulp. So
+/// neighbours are nearly 2⁻²⁶ of the way apart, or more. This is less than a quarter of it, so they keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
 /// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is

@@ -30,7 +30,8 @@ impl Exposure {
     fn at(&self, t: f32) -> At {
         let [start, end] = [self.outer(0), self.outer(1)];
         let [open, close] = [self.inner(0), self.inner(1)];
-        // An instant that is a plateau without length belongs to a ramp that has length.
+        // Without a plateau the instant of both inner ends is on the opening ramp if that has length, else on the
+        // closing one.
         let plateau = open < close;
         if !(t >= start && t <= end) {
             At::Outside

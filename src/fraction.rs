@@ -31,7 +31,7 @@ impl Fractions {
     /// (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
-        // Without the rest it would be too low by `odd`, and that is much of what is left until 1.
+        // Without the rest it would be too low by up to `odd` units: many ulp of an `f32` of what is left until 1.
         let rest = (self.rest as u64 * odd as u64) >> 32;
         let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }

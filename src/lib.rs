@@ -29,7 +29,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// To read in this order; each file needs only those before it, and `error`: what can be wrong with a curve.
+// To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve.
 //
 // Numbers    `units`: every scale and its reason. `pair`: two `f32` as one number. `series`: polynomials of these.
 // Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.

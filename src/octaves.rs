@@ -19,8 +19,8 @@ pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64
     if ramp != side {
         return [far, 0.5];
     }
-    // If the near ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it for
-    // a part of this ramp. So this ramp gets no octaves.
+    // If the opening ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it
+    // for a part of this ramp. So this ramp gets no octaves; nor does such a closing ramp, for the mirror's sake.
     let is_hidden = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if is_hidden { 0.0 } else { to }]
@@ -44,6 +44,8 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = side ^ 1 ^ i;
         let (top, end) = this.of_ramp(ramp, octaves, first);
+        // A raised top is below 2⁴, which fits: the far octaves reach down to where the near ramp ends, or to the least
+        // top.
         tops[ramp & 1] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;

@@ -3,11 +3,12 @@
 //!
 //! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
 //!
-//! 1. If `u` is on the plateau, the line `t = base + A u` gives the time. Go to 10.
+//! 1. If `u` is on the plateau, and from 1/512 on, the line `t = base + A u` gives the time. Go to 10.
 //! 2. The nearer end of the curve is its *side*, 0 or 1, and `a = min(u, 1 - u)` is counted from there.
 //! 3. If `a` falls into an octave with a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else `a` becomes a pair of two `f32` ([`pair`](crate::pair)).
-//! 5. The ramp on which `a` is collected, and how much of it there ([`exposure`](crate::exposure)).
+//! 5. The section in which `a` is collected ([`exposure`](crate::exposure)): on the plateau that is the time. Go to 10.
+//!    Else the ramp, and how much of `a` is collected there.
 //! 6. That ramp, seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The nearest of four places on it from which a search may start, its *anchors*.
 //! 8. A root of the leading term there is the first guess ([`guess`](crate::guess)).
@@ -49,7 +50,8 @@ pub(crate) struct Plan<const CELLS: usize> {
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
-    /// For each side, the tops of its octaves by ramp ([`octaves::build`]).
+    /// For each side, the tops of its octaves by ramp. The near ramp's is raised by one octave for each of the far
+    /// ramp's, so that a difference to a top is an index among both ([`octaves::build`]).
     tops: [[u8; 2]; 2],
     /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
     octaves: [[Octave; CELLS]; 2],
@@ -104,8 +106,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         Ok(Self { exposure, scale, last, count, base, slope, tops, octaves })
     }
 
-    /// Has a line with this slope enough bits? If the curve is so far from time 0 that its area is less than 2⁴⁰ units,
-    /// every `u` is searched for.
+    /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its length,
+    /// that its area is less than 2⁴⁰ units, every `u` is searched for.
     const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
@@ -154,8 +156,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     // proofs/octaves.py: both look-ups find the octave that was built
     #[inline(always)]
     pub(crate) fn direct(&self, u: f32) -> i64 {
-        // Less than `count` only on the line. The top bit is set beyond the plateau, where the ramp is 1, the closing
-        // one.
+        // Less than `count` only on the line: a negative `u` or a NaN is never so near to `last`, as `count` is below 2²⁷.
+        // The top bit is set beyond the plateau, where the ramp is 1, the closing one.
         let before_last = self.last.wrapping_sub(u.to_bits());
         if before_last < self.count {
             return self.by_line(u.to_bits());
@@ -176,7 +178,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     fn nearer(u: f32) -> (usize, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
-        // Signed, so that a negative number remains one.
+        // Signed, so that a negative `u` does not count as late.
         let is_late = bits as i32 > 0.5f32.to_bits() as i32;
         (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
     }

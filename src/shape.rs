@@ -31,10 +31,9 @@ pub(crate) const fn check_ramp(
     most: f64,
 ) -> Result<(), CurveError> {
     let t = widened(curve.times());
-    // Grazing is for the inside: before its start and after its end there is no ramp. But rounding may put the first
-    // control time before the start. If time then leaves as fast as p², with the second control time a third in, it
-    // runs as
-    // -GRAZE p + p², in lengths of the ramp, and dips by GRAZE²/4. More is not forgiven. (t' is three times the differences.)
+    // Time may not leave the ramp, but rounding may put the first inner control time a trace before its start. If the
+    // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much is
+    // forgiven. (t' is three times the differences.)
     let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
     let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
     let leaves = first < -slack || last > t[3] - t[0] + slack;

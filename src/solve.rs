@@ -10,18 +10,17 @@
 //! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
 //! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations. After `FREE`
 //! evaluations each measured place halves a bracket, at whose ends the sign of what is missing is certain, and between
-//! neighbouring `f32` a step is accepted, unless more is asked for than measuring gives: no search for an `f32` is
-//! known to reach the cap, but a few for ticks are. There the answer is the last place that was measured, without a
-//! proof.
+//! neighbouring `f32` a step is accepted, unless more is asked for than measuring gives. No search for an `f32` is
+//! known to reach the cap; a few for ticks do. There the answer is the last place that was measured, without a proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
 use crate::units::LAST_PLACE;
 
-/// After so many evaluations all are measured in pairs, and each halves the bracket.
+/// After so many evaluations every place is measured in pairs, and each halves the bracket.
 const FREE: u32 = 10;
 /// Bisections that bring any bracket between 0 and [`LAST_PLACE`] down to neighbours, taken by their bits; each takes
-/// two evaluations.
+/// two evaluations, of the slopes and in pairs.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
 pub const MAX_EVALUATIONS: u32 = FREE + 2 * BISECTION;
@@ -181,7 +180,7 @@ pub(crate) const fn solve<const N: usize>(
     let mut evaluations = 0;
     // The distance from the anchor. At the end of the ramp the density may be 0.
     let mut x = if guess < 0.75 * reach { guess } else { 0.75 * reach };
-    let reach = reach.to_bits() as i32;
+    let most_reach = reach.to_bits() as i32;
     let mut local;
     loop {
         local = Taylor::new(&c, x);
@@ -196,7 +195,7 @@ pub(crate) const fn solve<const N: usize>(
         let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
         // Not below 0.
         let least = least & !(least >> 31);
-        let most = if most < reach { most } else { reach };
+        let most = if most < most_reach { most } else { most_reach };
         let next = if next < least { least } else { next };
         x = f32::from_bits(if next < most { next } else { most } as u32);
     }
@@ -215,7 +214,7 @@ pub(crate) const fn solve<const N: usize>(
             local = Taylor::new(&c, x);
             evaluations += 1;
         }
-        // In pairs the sign of what is missing is certain.
+        // In pairs the sign of what is missing is certain, but for the noise of measuring.
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;

@@ -4,9 +4,9 @@ use crate::octave::FINER;
 use crate::path::{Path, scale};
 use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
 
-/// While half of the span is at most this share of the width, the width is halved, so that the half fills from 0.24 to
-/// 0.48 of it. The 0.02 · 2³² that this leaves of the word is more than a center's lowest five bits, shifted by the
-/// most.
+/// An offset counts 2⁻³² of a *width*, at first the octave's power of two. While half of the span is at most this share
+/// of it, it is halved, so that the half fills from 0.24 to 0.48 of it. The 0.02 · 2³² that this leaves of the word is
+/// more than a center's lowest five bits, shifted by the most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;

@@ -49,7 +49,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         self.fractions.n
     }
 
-    /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`.
+    /// The tick of trigger `i`, at the fraction `(2i + 1) / 2n`: a pulse without length, so either of its ends.
     #[inline(always)]
     pub(crate) fn at(&self, i: u32) -> u32 {
         self.edge(i, &Edge::TRIGGER)
@@ -153,7 +153,7 @@ pub(crate) struct TickScale {
 impl TickScale {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
     pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
-        // An interval has from 2³⁷ units, an ulp of a time of 2⁶¹, to 2⁶².
+        // An interval has from 2³⁷ units, an ulp of a time just below 2⁶¹, to 2⁶².
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         // 32 for the upper word, and 64 for the unit of the factor.
         let shift = unit + 96 - up as i32;

@@ -1,6 +1,6 @@
 //! Every scale on which the inside counts, and the steps from one to another. All are powers of two, so that no step
-//! rounds. A *fraction* is of the whole exposure; a *mass* is what is collected on one ramp, as a fraction too, and only
-//! while a curve is built not yet divided by the whole.
+//! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
+//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole.
 //!
 //! | what is counted | from | to | in |
 //! |---|---|---|---|
@@ -9,9 +9,9 @@
 //! | a mass on a ramp | 0 | 2⁸⁰ to 2⁸¹, all of the ramp: [`mass_per_fraction`] | pairs |
 //! | a time on a ramp | 0 at its end | 2⁶⁴ to 2⁶⁵, all of the ramp: [`ramp_unit`] | pairs |
 //! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
-//! | a fraction of the exposure on the plateau's line | 0 | 2³² | `u32` |
+//! | a fraction of the exposure on the plateau's line ([`plan`](crate::plan)) | 0 | 2³² | `u32` |
 //! | a fraction `(2i + 1) / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
-//! | a position in an octave | the power of two inside it | 2³¹ either way, in 2⁻³² of that power or, above it, 2⁻³¹ | `i32` |
+//! | a position in an [`octave`](crate::octave) | the power of two inside it | 2³¹ either way, in 2⁻³² of that power or, above it, 2⁻³¹ | `i32` |
 //! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
 //! | the ticks in a unit of time, moved up | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick ([`ticks`](crate::ticks)) | `u64` |
