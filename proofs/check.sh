@@ -12,7 +12,7 @@ cd "$(dirname "$0")"
 say() { echo "proofs: $*" >&2; }
 
 if ! command -v gappa >/dev/null; then
-    say "installing Debian's gappa ..."
+    say "installing Debian's gappa, a few MB, some seconds ..."
     apt-get update >&2
     apt-get install --yes --no-install-recommends gappa >&2
 fi
@@ -20,7 +20,7 @@ python=python3
 if ! "$python" -c 'import z3, numpy' 2>/dev/null; then
     venv=${XDG_CACHE_HOME:-$HOME/.cache}/shutter-curve-proofs
     if [ ! -e "$venv/ready" ]; then
-        say "installing z3-solver and numpy into $venv ..."
+        say "installing z3-solver and numpy into $venv, some 50 MB to fetch, half a minute ..."
         python3 -m venv "$venv"
         "$venv/bin/pip" install --quiet z3-solver numpy >&2
         touch "$venv/ready"
@@ -30,7 +30,7 @@ fi
 export python
 
 # The slowest first.
-scripts=(rounding pairs words octaves ticks lifting certificate shares series solve guess markov vectors)
+scripts=(rounding pairs words octaves ticks lifting certificate shares cdf series solve guess markov vectors)
 [ $# -eq 0 ] || scripts=("$@")
 
 log=$(mktemp)

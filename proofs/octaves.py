@@ -41,8 +41,9 @@ code("octave.c[DEGREE - k] = round(c[k] * per_step);", "")
 code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
-code("let before_last = self.last.wrapping_sub(u.to_bits());", """if before_last < self.count { return self.by_line(u.to_bits()); }
-    let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize; match self.look_up(side, ramp, bits) {""")
+code("fn before_last(&self, u: f32) -> u32 {", "self.last.wrapping_sub(u.to_bits()) }")
+code("fn by_octave(&self, u: f32, before_last: u32) -> i64 {", """let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize;
+    match self.look_up(side, ramp, bits) { Some((octave, position)) if octave.exists() => octave.time(octave.offset(position)), _ => NO_TIME, } }""")
 code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
     return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
     let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
@@ -352,7 +353,23 @@ $ x in (0);
 """
 
 
-code("const fn times_high(a: i32, x: i32) -> i32 {", "((a as i64 * x as i64) >> 32) as i32 }")
+code("pub(crate) const fn times_high(a: i32, x: i32) -> i32 {", "if HALVES { times_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 } }")
+code("pub(crate) const fn times_high_by_halves(a: i32, x: i32) -> i32 {", """let [a_low, x_low] = [a & 0xFFFF, x & 0xFFFF];
+    let [a_high, x_high] = [a >> 16, x >> 16]; let carried = (a_low as u32).wrapping_mul(x_low as u32) >> 16;
+    let middle = a_high * x_low + carried as i32; let other = a_low * x_high + (middle & 0xFFFF);
+    a_high * x_high + (middle >> 16) + (other >> 16) }""")
+# The four products of halves, each within what it may be.
+high, first, second, low = Ints("high first second low")
+most_low, least_high = 2**16 - 1, -(2**15)
+products = And(high <= 2**30, high >= least_high * (2**15 - 1), *(And(p <= (2**15 - 1) * most_low, p >= least_high * most_low) for p in (first, second)), low >= 0, low <= most_low**2)
+middle = first + low / 2**16
+other = second + middle % 2**16
+word = lambda x: And(x >= -(2**31), x < 2**31)
+valid(
+    "times_high_by_halves: the upper word of the product, with no sum beyond a word",
+    Implies(products, And(high + middle / 2**16 + other / 2**16 == (high * 2**32 + (first + second) * 2**16 + low) / 2**32, word(middle), word(other))),
+    Implies(products, other < 2**31 - 2**17),
+)
 HALF_TRUNCATION = Fraction(source(r"const HALF_TRUNCATION: f32 = ([\d.]+);"))
 MEAN_TRUNCATION = Fraction(source(r"const MEAN_TRUNCATION: f64 = (-[\d.]+);"))
 least, most = MEAN_TRUNCATION - HALF_TRUNCATION, MEAN_TRUNCATION + HALF_TRUNCATION

@@ -8,16 +8,17 @@ rounding error exactly (Boldo and Melquiond 2017), and a difference of numbers w
 
 from common import *
 
-code("pub(crate) const fn sum(a: f32, b: f32) -> Self {", "let hi = a + b; let added = hi - a; Self { hi, lo: (a - (hi - added)) + (b - added) } }")
+code("pub(crate) const fn sum(a: f32, b: f32) -> Self {", "let hi = a + b; Self { hi, lo: lost_by_sum(hi, a, b) } }")
+code("pub(crate) const fn sum_by_floats(sum: f32, a: f32, b: f32) -> f32 {", "let added = sum - a; (a - (sum - added)) + (b - added) }")
 code("pub(crate) const fn plus(self, other: Self) -> Self {", "let sum = Self::sum(self.hi, other.hi); Self::sum(sum.hi, sum.lo + (self.lo + other.lo)) }")
 code("pub(crate) const fn minus(self, other: Self) -> Self {", "self.plus(other.negated()) }")
 code("pub(crate) const fn minus_loose(self, other: Self) -> Self {", "let Self { hi, lo } = Self::sum(self.hi, -other.hi); Self { hi, lo: lo + (self.lo - other.lo) } }")
 code("pub(crate) const fn difference(self, other: Self) -> f32 {", "(self.hi - other.hi) + (self.lo - other.lo) }")
 code("pub(crate) const fn thrice(self) -> Self {", "let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi); Self { hi, lo: lo + 3.0 * self.lo } }")
-code("pub(crate) const fn times(self, x: Self) -> Self {", "let hi = self.hi * x.hi; Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) } }")
+code("pub(crate) const fn times(self, x: Self) -> Self {", "let hi = self.hi * x.hi; Self { hi, lo: lost_by_product(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) } }")
 code("pub(crate) const fn over(self, x: Self) -> Self {", """let inverse = 1.0 / x.hi; let hi = self.hi * inverse; let product = hi * x.hi;
-    let lacks = (self.hi - product) - lost(product, hi, x.hi); Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse } }""")
-code("const fn lost(product: f32, a: f32, b: f32) -> f32 {", """let (a_high, b_high) = (upper(a), upper(b)); let (a_low, b_low) = (a - a_high, b - b_high);
+    let lacks = (self.hi - product) - lost_by_product(product, hi, x.hi); Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse } }""")
+code("pub(crate) const fn product_by_floats(product: f32, a: f32, b: f32) -> f32 {", """let (a_high, b_high) = (upper(a), upper(b)); let (a_low, b_low) = (a - a_high, b - b_high);
     ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low }""")
 code("pub(crate) const fn from_f64(x: f64) -> Self {", "let hi = x as f32; Self { hi, lo: (x - hi as f64) as f32 } }")
 

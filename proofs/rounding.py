@@ -20,8 +20,8 @@ code("let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_o
     let up = if is_small { 48 } else { 0 }; let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
     let near = Pair::sum(base, hi);
-    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
-    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    let (rough, least_normal) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least_normal { 0.0 } else { least_normal.copysign(rough) };
     let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up) }""")
 

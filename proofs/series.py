@@ -5,16 +5,22 @@ Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|
 
 from majorant import *
 
-code("pub(crate) const fn at(self, x: f32) -> Pair {", """let x_high = upper(x); let x_low = x - x_high; let Pair { mut hi, mut lo } = self.last;
-    let mut k = core::hint::black_box(self.c.len());
-    loop { let product = hi * x; let high = upper(hi); let low = hi - high;
-    let lost = ((high * x_high - product) + high * x_low + low * x_high) + low * x_low;
-    lo = lo * x + lost; k = k.wrapping_sub(1); if k >= self.c.len() { return Pair { hi: product, lo }; }
+code("pub(crate) const fn at(self, x: f32) -> Pair {", "self.value(x, core::hint::black_box(self.c.len())) }")
+code("const fn value(self, x: f32, mut k: usize) -> Pair {", """let Pair { mut hi, mut lo } = self.last;
+    loop { let product = hi * x; lo = lo * x + lost_by_product(product, hi, x); k = k.wrapping_sub(1); if k >= self.c.len() { return Pair { hi: product, lo }; }
     let sum = Pair::sum(self.c[k].hi, product); hi = sum.hi; lo += self.c[k].lo + sum.lo; } }""")
 code("pub(crate) const fn slope(self, x: f32) -> f32 {", """let mut c = self.c; let mut slope = (c.len() + 1) as f32 * self.last.hi;
     while let [lower @ .., highest] = c { slope = slope * x + c.len() as f32 * highest.hi; c = lower; } slope }""")
-code("pub(crate) const fn at_pair(self, place: Pair) -> Pair {", """let Pair { hi, lo } = self.at(place.hi);
-    Pair { hi, lo: lo + self.slope(place.hi) * place.lo } }""")
+code("pub(crate) const fn at_pair(self, place: Pair) -> Pair {", "self.moved(self.at(place.hi), place) }")
+code("pub(crate) const fn at_pair_unrolled(self, place: Pair) -> Pair {", "self.moved(self.value(place.hi, self.c.len()), place) }")
+code("const fn moved(self, Pair { hi, lo }: Pair, place: Pair) -> Pair {", "Pair { hi, lo: lo + self.slope(place.hi) * place.lo } }")
+# At a place of 12 bits, `x_low` is 0, and the products with it are left out.
+code("const fn value([c1, c2, c3]: [Pair; 3], x: f32) -> Pair {", """let product = c3.hi * x;
+    let lo = c3.lo * x + lost_by_short_product(product, c3.hi, x); let sum = Pair::sum(c2.hi, product); let lo = lo + (c2.lo + sum.lo);
+    let product = sum.hi * x; let lo = lo * x + lost_by_short_product(product, sum.hi, x);
+    let sum = Pair::sum(c1.hi, product); let lo = lo + (c1.lo + sum.lo);
+    let product = sum.hi * x; Pair { hi: product, lo: lo * x + lost_by_short_product(product, sum.hi, x) } }""")
+code("pub(crate) const fn lost_by_short_product(product: f32, a: f32, x: f32) -> f32 {", "if EMULATED { return product_by_integers(product, a, x); } let high = upper(a); (high * x - product) + (a - high) * x }")
 code("pub(crate) fn noise(&self, side: usize) -> f32 {", """let terms = |side: usize| {
     let x = if side == self.side { self.place.hi } else { LAST_PLACE - self.place.hi };
     let c = self.ramp.mass_in_single(side); c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };

@@ -3,13 +3,13 @@
 from solver import *
 from transcribed import Fractions, cases
 
-code("pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let share = (1 << 63) / divisor;
-    let remainder = (1 << 63) - share * divisor; Self { n, share, rest: ((remainder * share) >> 31) as u32 } }""")
-code("let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
+code("pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0) as u64; let half_share = (1 << 63) / divisor;
+    let remainder = (1 << 63) - half_share * divisor; Self { n, half_share, rest: ((remainder * half_share) >> 31) as u32 } }""")
+code("let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.half_share.wrapping_mul(odd as u64).wrapping_add(rest);
     if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }""")
 code("let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
-    let low = near * self.rest as u64; let middle = near * (self.share as u32 as u64) + (low >> 32);
-    let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
+    let low = near * self.rest as u64; let middle = near * (self.half_share as u32 as u64) + (low >> 32);
+    let words = (near * (self.half_share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
     let (words, low) = if edge.is_off == (side == 0) {
     let (low, carry) = (low as u32).overflowing_add(edge.rest);
     (words.wrapping_add(edge.half).wrapping_add(carry as u64), low) } else {
@@ -20,8 +20,8 @@ code("let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) 
     let [hi, lo] = [bits >> 40, bits >> 16 & 0xFF_FFFF].map(|half| half as u32 as f32);
     let unit = power_of_two(WHOLE_EXPONENT - 24 - down - zeros as i32);""")
 code("let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));", """
-    let share = (self.share as u128) << 32 | self.rest as u128;
-    let half = (share * significand as u128).checked_shr(down).unwrap_or(0);""")
+    let half_share = (self.half_share as u128) << 32 | self.rest as u128;
+    let half = (half_share * significand as u128).checked_shr(down).unwrap_or(0);""")
 
 # `new`. n share = 2^63 - r with 0 <= r < n. The rest is r share / 2^31, cut; exactly it would be r 2^32 / n.
 n, r = Reals("n r")

@@ -27,7 +27,7 @@ code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c
     let (back, sought) = (sought.to_bits() & BACK, sought.abs());
     let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
     anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
-code("solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2])", "")
+code("solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2]).0", "")
 code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
     if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {""")
 
@@ -176,6 +176,33 @@ require(solver.check() == z3.unsat, "T <= 4 D")
 require(part < Fraction(1, 200), "a part of the error")
 require(time.holds(slow + 3 * 4 * PAIRS * U, Fraction(1)), "a part of D")
 proven(f"where the slope cancels there, that costs at most {float(part):.4f} of the error that is asked for, or {float(12 * PAIRS * U):.5f} roundings")
+
+# A quick place, quick.rs: the same two Taylor coefficients, at an exact distance from an end. Whatever the guess, the step and the
+# reciprocals are, an accepted step leaves 0.75 of the error. A quarter is left for measuring.
+code("pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Option<Pair> {", """
+    let single = [c[0].hi, c[1].hi, c[2].hi]; let [c1, c2, _] = single; let sought = target.hi;
+    let x = sought * c1 / (c1 * c1 + c2 * sought); let local = Taylor::new(&single, x);
+    let inverse = 1.0 / local.d1; let newton = (sought - local.value) * inverse; let bend = local.d2 * newton * inverse;
+    let x = upper(x + newton * (1.0 - bend * (1.0 - bend))); let local = Taylor::new(&single, x);
+    let missing = target.difference(value(c, x));
+    let inverse = inverse * (2.0 - local.d1 * inverse); let newton = missing * inverse;
+    let step = newton * (1.0 - local.d2 * newton * inverse); let place = Pair::sum(x, step);
+    let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
+    let left = left(&single, [x, 0.0], &local, missing, step, ROUNDING);
+    if is_inside & (left <= 0.75 * error) { Some(place) } else { None } }""")
+code("quick_place([c[0], c[1], last], target, FOR_TIME * target.hi)", "}")
+# Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most
+# 14 times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
+TERMS = 14
+half_gap = lambda terms: (terms + 1) ** 2 - 4 * (terms - 1) * Fraction(terms - 1, 3)
+require(half_gap(TERMS) < 0 < half_gap(TERMS - Fraction(1, 8)), "the terms of a time")
+# What is missing is at most this share of the target, or `size * rounding * slopes` alone would refuse: |s| D is at least what the
+# first two terms come to. So target and value are within a factor of two, and `difference` rounds once more than their rests.
+missing = Fraction(3, 4) * FOR_TIME * (1 / ROUNDING + 1) / time.deep
+measured = U * missing + TERMS * (Fraction(31) + 1 + 6) * U * U * 2 + 2 * U * U
+require(missing < Fraction(1, 2) and measured < FOR_TIME / 4 and TERMS * 2**9 * U * U * 2 < FOR_TIME / 4, "measuring")
+require(time.holds(time.near, Fraction(1)), "a quick place")
+proven(f"a quick place: the terms of a time are at most {TERMS} times the time; at most 2^{log2(missing):.1f} of the target is missing, and measured to 2^{log2(measured):.1f}; what is left is at most 2^-28")
 
 # The end of the search: neighbours are 2^-23 of a place p apart, and p D <= 6 * 1083 times what is collected up to p. From the other
 # end D is at most that of all of the ramp, which has at most twice the target; from inside the factor is 2 by cases.

@@ -131,7 +131,7 @@ def series():
         place, along = Fraction(float(x)), Fraction(float(x)) + Fraction(float(rest))
         terms = sum(abs(exactly(p)) * place**k for k, p in enumerate(c, 1))
         within("Series::at", exactly((hi, lo)) - sum(exactly(p) * place**k for k, p in enumerate(c, 1)), 118 * terms)
-        within("Offset::value", exactly((hi, lo + slope(c, x) * rest)) - sum(exactly(p) * along**k for k, p in enumerate(c, 1)), 229 * terms)
+        within("value along a rest", exactly((hi, lo + slope(c, x) * rest)) - sum(exactly(p) * along**k for k, p in enumerate(c, 1)), 229 * terms)
         yield [bits(v) for v in (*(n for p in c for n in p), x, rest, hi, lo, slope(c, x), lo + slope(c, x) * rest)]
 
 

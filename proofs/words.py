@@ -32,14 +32,14 @@ valid("by_line: a u from FINE to 1 is a whole number of 2^-32", line(FINE), line
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
-code("let high = (time >> 32) as i32;", """if high.wrapping_add(1 << 25) as u32 >> 26 == 0 { return if time == NO_TIME { self.searched(u) } else { self.rounded_with_care(time) }; }
-    (high | (time as u32 != 0) as i32) as f32 * self.scale""")
+code("fn upper_word(time: i64) -> Option<i32> {", """let high = (time >> 32) as i32;
+    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26; has_enough.then_some(high | (time as u32 != 0) as i32) }""")
 code("let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == sign; let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
     let (high, low) = ((time >> 32) as i32, time as u32);
     let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
     let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
     filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale""")
-LEAST_BITS = int(source(r"high\.wrapping_add\(1 << (\d+)\) as u32 >> 26 == 0"))
+LEAST_BITS = int(source(r"high\.wrapping_add\(1 << (\d+)\) as u32 >= 1 << 26"))
 
 time, even = BitVec("time", 64), BitVec("even", 72)
 
@@ -92,7 +92,7 @@ proven("rounded_with_care: the word is full, and rounds as the exact time rounds
 
 # src/pair.rs: bits of f32.
 x = BitVec("x", 32)
-code("pub(crate) const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
+code("const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
 significand = (x & 0x7FFFFF) | (1 << 23)
 high = significand & 0xFFFFF000
 is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
@@ -100,6 +100,52 @@ valid(
     "upper: both halves of a normal number have at most 12 bits, so products of halves are exact",
     Implies(is_normal, And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(significand - high, 1 << 12), ULT(LShR(high, 12), 1 << 12))),
     Implies(is_normal, ULT(significand - high, (1 << 12) - 1)),
+)
+# src/exact.rs: what is lost, in words that wrap. A nearest number is as near as any other: the greater one for a sum; and for a
+# product, half of the unit of its last place, which is 2^23 or 2^24 of those of the exact product.
+code("pub(crate) const fn sum_by_integers(sum: f32, a: f32, b: f32) -> f32 {", """let (a_bits, b_bits) = (a.to_bits(), b.to_bits());
+    let (greater, lesser) = if a_bits << 1 > b_bits << 1 { (a_bits, b_bits) } else { (b_bits, a_bits) };
+    if lesser << 1 == 0 { return 0.0; } let (exponent, less) = parts(lesser); let (exponent_of_sum, rounded) = parts(sum.to_bits());
+    if exponent < LEAST || exponent_of_sum == 0xFF { return sum_by_floats(sum, a, b); }
+    let (greatest, great) = parts(greater); let up = greatest - exponent; if up > 25 { return f32::from_bits(lesser); }
+    if exponent_of_sum < exponent { return 0.0; } let up_of_sum = exponent_of_sum - exponent;
+    let less = if (greater ^ lesser) >> 31 == 0 { less } else { less.wrapping_neg() };
+    let lost = (great << up).wrapping_add(less).wrapping_sub(rounded << (up_of_sum & 31));
+    counted(lost as i32, exponent as i32, greater) }""")
+code("pub(crate) const fn product_by_integers(product: f32, a: f32, b: f32) -> f32 {", """let (a_bits, b_bits) = (a.to_bits(), b.to_bits());
+    let [(a_exponent, a_significand), (b_exponent, b_significand)] = [parts(a_bits), parts(b_bits)];
+    let (exponent, rounded) = parts(product.to_bits()); if a_bits << 1 == 0 || b_bits << 1 == 0 { return 0.0; }
+    if exponent < LEAST + 24 || exponent == 0xFF || a_exponent == 0 || b_exponent == 0 { return product_by_floats(product, a, b); }
+    let unit = (a_exponent + b_exponent) as i32 - 150; let up = (exponent as i32 - unit) as u32;
+    let exact = a_significand.wrapping_mul(b_significand);
+    counted(exact.wrapping_sub(rounded << (up & 31)) as i32, unit, a_bits ^ b_bits) }""")
+code("const fn counted(count: i32, exponent: i32, sign: u32) -> f32 {", """if count == 0 { return 0.0; }
+    let bits = (count as f32).to_bits().wrapping_add_signed((exponent - 150) << 23); f32::from_bits(bits ^ sign & 1 << 31) }""")
+great, less, rounded, up, up_of_sum = BitVecs("great less rounded up up_of_sum", 64)
+is_significand = lambda x: And(x >= 1 << 23, x < 1 << 24)
+words = And(is_significand(great), is_significand(rounded), ULE(up_of_sum, 26))
+for sign in (1, -1):
+    lost = (great << up) + sign * less - (rounded << up_of_sum)
+    known = And(words, is_significand(less), ULE(up, 25), lost <= less, -lost <= less)
+    low = lambda bits: SignExt(64 - bits, Extract(bits - 1, 0, lost))
+    valid(
+        f"sum_by_integers: the low word has all that is lost, {'one sign' if sign == 1 else 'two signs'}",
+        Implies(known, low(32) == lost),
+        Implies(known, low(24) == lost),
+    )
+exact = BitVec("exact", 64)
+lost = exact - (rounded << up)
+known = And(words, ULT(exact, 1 << 48), ULE(up, 24), lost <= 1 << 23, -lost <= 1 << 23)
+valid(
+    "product_by_integers: the low word has all that is lost",
+    Implies(known, SignExt(32, Extract(31, 0, lost)) == lost),
+    Implies(known, SignExt(41, Extract(22, 0, lost)) == lost),
+)
+# 26 places apart the lesser number is below half of the last place of a number just below a power of two.
+valid(
+    "sum_by_integers: from 26 places on the sum is the greater number",
+    Implies(And(is_significand(less), up == 26), 2 * less < 1 << (up - 1)),
+    Implies(And(is_significand(less), up == 25), 2 * less < 1 << (up - 1)),
 )
 code("pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {", "f32::from_bits(x.to_bits() ^ sign) }")
 valid(

@@ -28,8 +28,8 @@ const POINTS: [(usize, f64); 3] =
 /// The number of ways to a bound.
 pub(crate) const WAYS: usize = POINTS.len();
 
-/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried, which
-/// `Q(x₀ + x₁ s) f` does not exceed.
+/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f` has
+/// degree 11, so it may be taken away first.
 const ELLIPSES: [[f32; 3]; 6] =
     [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 

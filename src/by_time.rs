@@ -2,6 +2,7 @@
 
 use crate::guess::guess;
 use crate::pair::{Pair, flipped};
+use crate::quick::quick_place;
 use crate::ramp::{BACK, Ramp};
 use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
@@ -9,7 +10,7 @@ use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two
 
 /// An error in time, relative to the way from the ramp's end. The way is at most as long as the time itself or, on a
 /// ramp across time 0, about as the farther end; and there [`on_grid`] leaves multiples of a quarter of its ulp. So
-/// neighbours are nearly 2⁻²⁶ of the way apart, or more. This is less than a quarter of it, so they keep their order.
+/// neighbours are about 2⁻²⁶ of the way apart, or more. This is about a quarter of it, so two of them keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
 /// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
@@ -24,19 +25,44 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl Ramp {
-    /// Where the ramp is at `t`, which lies on it: from the nearer end, by the exact time since.
+    /// Where the ramp is at `t`, which lies on it.
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
-        let [start, end] = [self.time(0), self.time(1)];
-        let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
-        let (before, after) = (Pair::sum(t, -start), Pair::sum(end, -t));
-        let (side, way) = if before.difference(after) > 0.0 { (1, after) } else { (0, before) };
-        RampPoint { ramp: self, side, place: self.place(side, way.shifted(-self.unit())) }
+        let (side, way) = self.since(t);
+        let place = match self.quick_place(side, way) {
+            Some(place) => place,
+            None => self.searched_place(side, way),
+        };
+        RampPoint { ramp: self, side, place }
     }
 
-    /// The place at which a time has passed since the end that faces a side, in the ramp's unit.
+    /// The side of the nearer end, and the exact time between it and `t`, in the ramp's unit.
     #[inline(always)]
-    const fn place(&self, side: usize, target: Pair) -> Pair {
+    const fn since(&self, t: f32) -> (usize, Pair) {
+        let [start, end] = [self.time(0), self.time(1)];
+        let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
+        let side = (t - start > end - t) as usize;
+        let way = if side == 0 { Pair::sum(t, -start) } else { Pair::sum(end, -t) };
+        (side, way.shifted(-self.unit()))
+    }
+
+    /// The place at which a time has passed since the end that faces a side, if a few steps lead there.
+    #[inline(always)]
+    const fn quick_place(&self, side: usize, target: Pair) -> Option<Pair> {
+        let Series { c, last } = self.time_since(side);
+        quick_place([c[0], c[1], last], target, FOR_TIME * target.hi)
+    }
+
+    #[cfg(test)]
+    pub(crate) fn is_quick(&self, t: f32) -> bool {
+        let (side, target) = self.since(t);
+        self.quick_place(side, target).is_some()
+    }
+
+    /// The same by a search.
+    #[cold]
+    #[inline(never)]
+    const fn searched_place(&self, side: usize, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor =
@@ -69,11 +95,9 @@ impl Ramp {
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
         let bend = d[1].minus_loose(d[0]);
-        let one = 1.0 / LAST_PLACE;
-        let (two, three) = (one / LAST_PLACE, one / LAST_PLACE / LAST_PLACE);
-        let c = [d[0].thrice().scaled(one), bend.thrice().scaled(two)];
-        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend).scaled(three) };
-        let value = Pair::new(f[0]).plus(series.at_pair(place));
+        let c = [d[0].thrice(), bend.thrice()];
+        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend) };
+        let value = Pair::new(f[0]).plus(series.at_pair_unrolled(place.scaled(1.0 / LAST_PLACE)));
         (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
     }
 }
@@ -82,7 +106,7 @@ impl RampPoint<'_> {
     /// The fraction collected between the end that faces the side and here, in [`WHOLE`](crate::units::WHOLE).
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
-        let mass = self.ramp.mass_since(self.side).at_pair(self.place);
+        let mass = self.ramp.mass_since(self.side).at_pair_unrolled(self.place);
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 

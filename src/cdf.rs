@@ -3,17 +3,19 @@
 
 use crate::by_time::RampPoint;
 use crate::exposure::{Exposure, FOR_TICK};
-use crate::moment::rounded_sum;
+use crate::moment::rounded;
 use crate::pair::{Pair, significand};
-use crate::units::{WHOLE, WHOLE_EXPONENT};
+use crate::plan::Plan;
+use crate::units::{WHOLE, WHOLE_EXPONENT, fixed};
 
 /// A mass may be what a measured part leaves of a ramp's share, or of the whole. While it is more than this fraction of
 /// the part, the part's noise, relative to the mass, is at most four times what it is relative to the part.
 const LITTLE: f32 = 0.25;
 
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
-/// part is measured to 2⁻⁴⁰·² of its terms, which may be 1083 times as great as the part: so to 2⁻³⁰·¹ of the part, and
-/// to four times that of the mass ([`LITTLE`]). The inverse of the middle adds 2⁻²⁹·⁶.
+/// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
+/// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
+/// middle adds 2⁻²⁹·⁶ if it is searched for from an end of the ramp; from inside, that it adds no more is measured.
 // docs/proofs.md: `cdf` never steps back
 const NEAR_MIDDLE: f32 = 1.5 / (1 << 28) as f32;
 
@@ -58,14 +60,16 @@ impl Exposure {
     #[inline]
     pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
         let (area, exponent) = significand(self.area);
-        rounded_sum(0.0, f.over(area), unit - exponent, false)
+        rounded((f.over(area), unit - exponent))
     }
+}
 
+impl<const CELLS: usize> Plan<CELLS> {
     /// The fraction collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        match self.at(t) {
-            At::Outside if t > self.outer(1) => 1.0,
+        match self.exposure.at(t) {
+            At::Outside if t > self.exposure.outer(1) => 1.0,
             At::Outside => 0.0,
             At::Plateau => self.cdf_on_plateau(t),
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
@@ -75,30 +79,39 @@ impl Exposure {
     /// The same on the plateau. Out of line, so that a ramp's way saves no registers for it.
     #[inline(never)]
     fn cdf_on_plateau(&self, t: f32) -> f32 {
-        let (area, exponent) = significand(self.area);
+        let (area, exponent) = significand(self.exposure.area);
         // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
-        let way = Pair::sum(t, -self.inner(0)).shifted(WHOLE_EXPONENT - exponent);
-        self.nearest(t, self.ramps[0].share.plus(way.over(area)), 0.0, None)
+        let way = Pair::sum(t, -self.exposure.inner(0)).shifted(WHOLE_EXPONENT - exponent);
+        self.nearest(t, self.exposure.ramps[0].share.plus(way.over(area)), 0.0, None)
     }
 
     /// The same on a ramp.
     #[inline(never)]
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
-        let on = self.ramp(ramp).at_time(t);
+        match self.cdf_by_octave(ramp, t) {
+            Some(cdf) => cdf,
+            None => self.cdf_by_place(ramp, t),
+        }
+    }
+
+    /// The same by the mass that is collected until the place at which `t` is reached.
+    #[inline(never)]
+    fn cdf_by_place(&self, ramp: usize, t: f32) -> f32 {
+        let on = self.exposure.ramp(ramp).at_time(t);
         let part = on.mass();
         // From the start of the ramp the mass is a sum. Back from its end it is a difference, and one of this or less
         // has lost too much to be told.
         let least = LITTLE * part.hi;
         let (mass, least_told) = match (ramp, on.side) {
             (0, 0) => (part, 0.0),
-            (0, _) => (self.ramps[0].share.minus(part), least),
-            (_, 0) => (self.ramps[0].share.plus(self.plateau).plus(part), 0.0),
+            (0, _) => (self.exposure.ramps[0].share.minus(part), least),
+            (_, 0) => (self.exposure.ramps[0].share.plus(self.exposure.plateau).plus(part), 0.0),
             _ => (Pair::new(WHOLE).minus(part), least),
         };
         self.nearest(t, mass, least_told, Some(on))
     }
 
-    /// The `f32` nearest to the mass that `t` has, as a fraction; settled where pairs cannot tell which that is, and
+    /// The `f32` nearest to the fraction that is collected by `t`, here called its `mass`, in WHOLE; settled where pairs cannot tell which that is, and
     /// where the mass is `least_told` or less.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
@@ -134,16 +147,21 @@ impl Exposure {
         if nearest <= 0.0 {
             return 0.0;
         }
-        let middle = Pair::sum(nearest, 0.5 * (next - nearest));
         // The side by the lesser neighbour, so that the question is the same whichever was the nearest.
-        let (least, greatest) = if next < nearest { (next, nearest) } else { (nearest, next) };
+        let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
+        if CELLS > 0
+            && let Some(time) = self.time_between((lesser / WHOLE).to_bits())
+        {
+            return if fixed(t, self.unit()) >= time { greater } else { lesser };
+        }
+        let middle = Pair::sum(nearest, 0.5 * (next - nearest));
         let (side, a) =
-            if least < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
+            if lesser < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
         // Twice, for the last step of the search, which is not exact either.
         let noise = on.map_or(0.0, |on| 2.0 * on.noise(side)) + 2.0 * FOR_TICK * nearest;
         if distance > noise {
             return nearest;
         }
-        if t >= self.at_fraction(side, a, FOR_TICK).time() { greatest } else { least }
+        if t >= self.exposure.at_fraction(side, a, FOR_TICK).time() { greater } else { lesser }
     }
 }

@@ -160,7 +160,8 @@ impl Exposure {
         ]
     }
 
-    /// The same from side 0 in units of 2⁻⁶⁴, each within 2⁻⁵⁵ and 2⁻⁴⁵ of its lesser part; 1 is all ones.
+    /// The same from side 0 in units of 2⁻⁶⁴, each within 2⁻⁵⁵ plus 2⁻⁴⁵ times its lesser part; 1 is all
+    /// ones.
     pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {

@@ -8,7 +8,7 @@ use crate::units::{WHOLE_EXPONENT, power_of_two};
 pub(crate) struct Fractions {
     pub(crate) n: u32,
     /// `1 / 2n` in units of 2⁻⁶⁴, rounded down, ...
-    share: u64,
+    half_share: u64,
     /// ... and what is missing of it, in units of 2⁻⁹⁶.
     rest: u32,
 }
@@ -19,11 +19,11 @@ impl Fractions {
     // proofs/shares.py: Fractions::new
     pub(crate) fn new(n: u32) -> Self {
         let divisor = n as u64 | (n == 0) as u64;
-        let share = (1 << 63) / divisor;
-        // The rest is the remainder over n, in 2⁻⁹⁶; and 1/n is 2 share / 2⁶⁴, so it is remainder · share · 2 · 2³² /
-        // 2⁶⁴.
-        let remainder = (1 << 63) - share * divisor;
-        Self { n, share, rest: ((remainder * share) >> 31) as u32 }
+        let half_share = (1 << 63) / divisor;
+        // The rest is the remainder over n, in 2⁻⁹⁶; and 1/n is twice half a share, so it is remainder · half_share ·
+        // 2 · 2³² / 2⁶⁴.
+        let remainder = (1 << 63) - half_share * divisor;
+        Self { n, half_share, rest: ((remainder * half_share) >> 31) as u32 }
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most two of these,
@@ -33,7 +33,7 @@ impl Fractions {
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         // Without the rest it would be too low by up to `odd` units: many ulp of an `f32` of what is left until 1.
         let rest = (self.rest as u64 * odd as u64) >> 32;
-        let middle = self.share.wrapping_mul(odd as u64).wrapping_add(rest);
+        let middle = self.half_share.wrapping_mul(odd as u64).wrapping_add(rest);
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
     }
 
@@ -46,8 +46,8 @@ impl Fractions {
             if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
         // Word by word: `near` times a number of 96 bits, at most 2⁹⁵.
         let low = near * self.rest as u64;
-        let middle = near * (self.share as u32 as u64) + (low >> 32);
-        let words = (near * (self.share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
+        let middle = near * (self.half_share as u32 as u64) + (low >> 32);
+        let words = (near * (self.half_share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
         // Half of the pulse, towards the other side or away from it. It is at most as much, so no difference is
         // negative.
         let (words, low) = if edge.is_off == (side == 0) {
@@ -73,8 +73,8 @@ impl Fractions {
         let bits = duty.to_bits();
         let (significand, down) = (bits & 0x7F_FFFF | 1 << 23, 150 - (bits >> 23));
         // Below 2¹²⁰.
-        let share = (self.share as u128) << 32 | self.rest as u128;
-        let half = (share * significand as u128).checked_shr(down).unwrap_or(0);
+        let half_share = (self.half_share as u128) << 32 | self.rest as u128;
+        let half = (half_share * significand as u128).checked_shr(down).unwrap_or(0);
         let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
         [edge(false), edge(true)]
     }

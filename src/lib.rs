@@ -31,25 +31,30 @@
 
 // To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve.
 //
-// Numbers    `units`: every scale and its reason. `pair`: two `f32` as one number. `series`: polynomials of these.
+// Numbers    `units`: every scale and its reason. `exact`: what a sum and a product lose. `pair`: two `f32` as one number.
+//            `series`: polynomials of these.
 // Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
 // A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
-//            is found. `ramp`: when a mass has been collected. `by_time`: the same ramp, asked by time.
-// A curve    `exposure`: two ramps and a plateau, by fraction. `cdf`: the same by time.
+//            is found. `ramp`: when a mass has been collected. `quick`: a place for a time without a search. `by_time`:
+//            the same ramp, asked by time.
+// A curve    `exposure`: two ramps and a plateau, by fraction.
 // Directly   `octave`: a polynomial that needs no search. How it is built: `path`, the exact ramp; `span`, the part
 //            that it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of
 //            a side.
-// An answer  `plan`: the steps from one `u` to its time. `batch`: a short cut by doubles, for one `u` and for many.
+// An answer  `plan`: the steps from one `u` to its time. `by_octave`: from a time to its `u` by a polynomial; `cdf`: by
+//            any way. `batch`: a short cut by doubles, for one `u` and for many.
 // Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
 mod batch;
 mod bezier;
 mod bound;
+mod by_octave;
 mod by_time;
 mod candidate;
 mod cdf;
 mod certificate;
 mod cubic;
 mod error;
+mod exact;
 mod exposure;
 mod fraction;
 mod frame;
@@ -63,6 +68,7 @@ mod path;
 mod pdf;
 mod plan;
 mod pulse;
+mod quick;
 mod ramp;
 mod schedule;
 mod series;

@@ -9,7 +9,7 @@ use crate::cubic::{cubic_range, quadratic_min, widened};
 ///
 /// Where the greater end has less than half of the greatest value, that value stays, so that nothing moves by more than
 /// the raise. An end at 0 has to move even if only the inside dips. To keep it there would mean to raise the slope by
-/// up to 3 · 2⁻¹¹, because a cubic that starts at 0 with the slope `-3 · 2⁻¹¹` dips by no more than 2⁻²².
+/// several 2⁻¹¹, because a steep cubic may start with a slope of minus that, and dip by only 2⁻²².
 pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     let (low, high) = cubic_range(widened(v));
     if low >= 0.0 {

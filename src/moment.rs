@@ -7,7 +7,8 @@ use crate::units::power_of_two;
 /// [-252, 22].
 ///
 /// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless
-/// the sum lies next to a middle between two `f32`: there the error may be half an ulp and 2⁻²⁴ of the rest.
+/// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of `rest`: no promise is
+/// as fine as that.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
@@ -26,6 +27,14 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     sum.hi + rest
 }
 
+/// `x 2^unit`, rounded once: a sum of two numbers is, unless it may be subnormal.
+#[inline(always)]
+pub(crate) const fn rounded((x, unit): (Pair, i32)) -> f32 {
+    let value = x.shifted(unit);
+    let is_small = value.hi.abs() < power_of_two(-78);
+    if is_small { rounded_sum(0.0, x, unit, false) } else { value.rounded() }
+}
+
 /// `base + way first second`, where rounding takes more care.
 // proofs/rounding.py: careful_sum
 #[cold]
@@ -36,11 +45,11 @@ const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     let up = if is_small { 48 } else { 0 };
     let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    // A sum that will be subnormal is rounded to the last place of the least `f32` by adding a number with that last
+    // A sum that will be subnormal is rounded to the last place of a subnormal `f32` by adding a number with that last
     // place. It has the sum's sign, which the second number decides where the first cancels the base.
     let near = Pair::sum(base, hi);
-    let (rough, least) = (near.hi + (near.lo + lo), power_of_two(up - 126));
-    let places = if rough.abs() >= least { 0.0 } else { least.copysign(rough) };
+    let (rough, least_normal) = (near.hi + (near.lo + lo), power_of_two(up - 126));
+    let places = if rough.abs() >= least_normal { 0.0 } else { least_normal.copysign(rough) };
     let sum = Pair::sum(places, near.hi);
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up)
 }

@@ -2,9 +2,9 @@
 //!
 //! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower
 //! towards the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in
-//! each. Each ramp has octaves of its own. They are powers of two apart from its *top*, which is the fraction at which
-//! the ramp ends, or somewhat more. So no octave holds parts of two ramps, unless their join is so near to 1/2 that it
-//! counts as that, and the plateau between them is answered by its line.
+//! each. Each ramp has octaves of its own. The first one ends at the ramp's *top*, which is the fraction at which the
+//! ramp ends, or somewhat more; each further one ends at half of the one before. So no octave holds parts of two ramps,
+//! unless their join is so near to 1/2 that it counts as that. The plateau between the ramps is answered by its line.
 //!
 //! The difference of the bits of the top's and of `a`'s `f32` tells how many octaves lie between them, since the
 //! exponent is the upper part of the bits.
@@ -96,8 +96,27 @@ impl Octave {
     }
 }
 
+/// Has the processor no instruction for the upper word of a product? Of the cores that are known here the one without
+/// lacks another kind of instruction as well, of which a stable compiler tells. Where this is wrong, the bits are the
+/// same, only later.
+const HALVES: bool =
+    cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
+
 /// `a x`, in 32 bits, where `x` counts 2⁻³².
+// proofs/octaves.py
 #[inline(always)]
-const fn times_high(a: i32, x: i32) -> i32 {
-    ((a as i64 * x as i64) >> 32) as i32
+pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
+    if HALVES { times_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 }
+}
+
+/// The same by products of halves, of 16 bits each: a third of what a product of 64 bits costs where that is a call.
+// proofs/octaves.py
+#[inline(always)]
+pub(crate) const fn times_high_by_halves(a: i32, x: i32) -> i32 {
+    let [a_low, x_low] = [a & 0xFFFF, x & 0xFFFF];
+    let [a_high, x_high] = [a >> 16, x >> 16];
+    let carried = (a_low as u32).wrapping_mul(x_low as u32) >> 16;
+    let middle = a_high * x_low + carried as i32;
+    let other = a_low * x_high + (middle & 0xFFFF);
+    a_high * x_high + (middle >> 16) + (other >> 16)
 }

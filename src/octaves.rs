@@ -44,8 +44,8 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = side ^ 1 ^ i;
         let (top, end) = this.of_ramp(ramp, octaves, first);
-        // A raised top is below 2⁴, which fits: the far octaves reach down to where the near ramp ends, or to the least
-        // top.
+        // A raised top is below 2³, which fits: the far ramp's top is below 1; its octaves but the last begin above the
+        // near ramp's end, or above half of LEAST_TOP; and the near ramp's top is less than an octave above that.
         tops[ramp & 1] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
@@ -60,9 +60,9 @@ impl Side<'_> {
     const fn of_ramp(&self, ramp: usize, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // A ramp without octaves has a top, too. Fractions of the plateau below FINE are not on its line and are
-            // looked up here: the top is at or above all of them, and what they find has no polynomial, as a near ramp
-            // that ends below FINE has none ([`range`]).
+            // A ramp without octaves has a top, too, for fractions of the plateau that are below FINE, and so not on its
+            // line: they are looked up as if they were on this ramp. The top is at or above all of them, and what they
+            // find has no polynomial, as a near ramp that ends below FINE has none ([`range`]).
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -77,8 +77,8 @@ impl Side<'_> {
             while index < octaves.len() {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
-                // The first octave whose top is below the least one has a place, too, if never a polynomial; or a
-                // fraction in it would be looked up in the next ramp's first.
+                // The first octave whose top is below LEAST_TOP has a place, too, if never a polynomial: without it, a
+                // fraction of the far ramp there would be looked up in the near ramp's first octave.
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                     end = index + 1;
                 }

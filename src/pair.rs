@@ -1,11 +1,12 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
 //! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
-//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). The
-//! classic algorithms (Knuth 1969, Dekker 1971) in plain sums and products, without fused operations, so that the bits
-//! are the same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes
-//! subnormal; who calls them scales by powers of two to see to that.
+//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). Plain
+//! sums and products without fused operations, and what these lose ([`exact`](crate::exact)), so that the bits are the
+//! same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes subnormal;
+//! who calls them scales by powers of two to see to that.
 
+use crate::exact::{lost_by_product, lost_by_sum};
 use crate::units::power_of_two;
 
 /// `hi + lo`
@@ -39,12 +40,11 @@ impl Pair {
         self.hi as f64 + self.lo as f64
     }
 
-    /// `a + b`, exactly (Knuth's two-sum).
+    /// `a + b`, exactly.
     #[inline(always)]
     pub(crate) const fn sum(a: f32, b: f32) -> Self {
         let hi = a + b;
-        let added = hi - a;
-        Self { hi, lo: (a - (hi - added)) + (b - added) }
+        Self { hi, lo: lost_by_sum(hi, a, b) }
     }
 
     /// `self + other`, to 2⁻⁴⁶ of the greater one.
@@ -110,7 +110,7 @@ impl Pair {
     #[inline(always)]
     pub(crate) const fn times(self, x: Self) -> Self {
         let hi = self.hi * x.hi;
-        Self { hi, lo: lost(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
+        Self { hi, lo: lost_by_product(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
     /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp. The second number is what the first leaves,
@@ -121,7 +121,7 @@ impl Pair {
         let inverse = 1.0 / x.hi;
         let hi = self.hi * inverse;
         let product = hi * x.hi;
-        let lacks = (self.hi - product) - lost(product, hi, x.hi);
+        let lacks = (self.hi - product) - lost_by_product(product, hi, x.hi);
         Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse }
     }
 
@@ -137,21 +137,6 @@ impl Pair {
 #[inline(always)]
 pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {
     f32::from_bits(x.to_bits() ^ sign)
-}
-
-/// `a b - product`, exactly, for the rounded `product` of `a` and `b` (Dekker).
-#[inline(always)]
-const fn lost(product: f32, a: f32, b: f32) -> f32 {
-    let (a_high, b_high) = (upper(a), upper(b));
-    let (a_low, b_low) = (a - a_high, b - b_high);
-    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-}
-
-/// The upper 12 of 24 bits. The product of two such halves is exact.
-// proofs/words.py: upper
-#[inline(always)]
-pub(crate) const fn upper(x: f32) -> f32 {
-    f32::from_bits(x.to_bits() & 0xFFFF_F000)
 }
 
 /// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.

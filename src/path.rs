@@ -1,8 +1,9 @@
 //! A ramp as the octaves of one side see it: openness, time and fraction of the exposure as polynomials of the Bezier's
 //! parameter, in `f64`.
 //!
-//! Seen so, nothing has to be inverted: each place on the path has its time and its fraction, and what a polynomial of
-//! the fraction is off by is itself a polynomial of the place ([`certificate`](crate::certificate)).
+//! Seen so, an error is judged without inverting anything: each place on the path has its time and its fraction, and
+//! what a polynomial of the fraction is off by is itself a polynomial of the place
+//! ([`certificate`](crate::certificate)). Only ends and nodes are inverted, and those need not be exact.
 
 use crate::cubic::Cubic;
 use crate::exposure::Exposure;

@@ -93,7 +93,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     pub fn cdf(&self, t: f32) -> f32 {
-        self.plan.exposure.cdf(t)
+        self.plan.cdf(t)
     }
 
     /// The time `t` with `cdf(t) = u`, in the curve's unit; `u` is clamped to [0, 1], and NaN counts as 0.

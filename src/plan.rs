@@ -3,7 +3,7 @@
 //!
 //! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
 //!
-//! 1. If `u` is on the plateau, and from 1/512 on, the line `t = base + A u` gives the time. Go to 10.
+//! 1. If `u` is on the plateau, and above 1/512, the line `t = base + A u` gives the time. Go to 10.
 //! 2. The nearer end of the curve is its *side*, 0 or 1, and `a = min(u, 1 - u)` is counted from there.
 //! 3. If `a` falls into an octave with a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else `a` becomes a pair of two `f32` ([`pair`](crate::pair)).
@@ -42,19 +42,19 @@ pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
-    scale: f32,
+    pub(crate) scale: f32,
     /// The last `u` before the closing ramp, by the bits of its `f32` (without a plateau, too: it tells the ramps
     /// apart), and how many up to it are on the plateau's line.
-    last: u32,
-    count: u32,
+    pub(crate) last: u32,
+    pub(crate) count: u32,
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     slope: i64,
     /// For each side, the tops of its octaves by ramp. The near ramp's is raised by one octave for each of the far
     /// ramp's, so that a difference to a top is an index among both ([`octaves::build`]).
-    tops: [[u8; 2]; 2],
+    pub(crate) tops: [[u8; 2]; 2],
     /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
-    octaves: [[Octave; CELLS]; 2],
+    pub(crate) octaves: [[Octave; CELLS]; 2],
 }
 
 impl<const CELLS: usize> Plan<CELLS> {
@@ -123,17 +123,26 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
+    ///
+    /// The plateau's way returns by itself, and the ramp's has one end. So the compiler saves registers on the ramp's way
+    /// alone, and only those that a polynomial needs.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let time = self.direct(u);
-        // A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has
-        // 26 or more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*.
-        // proofs/words.py
-        let high = (time >> 32) as i32;
-        if high.wrapping_add(1 << 25) as u32 >> 26 == 0 {
-            return if time == NO_TIME { self.searched(u) } else { self.rounded_with_care(time) };
+        let before_last = self.before_last(u);
+        if before_last < self.count {
+            let time = self.by_line(u.to_bits());
+            return match upper_word(time) {
+                Some(time) => time as f32 * self.scale,
+                None => self.rounded_apart(time),
+            };
         }
-        (high | (time as u32 != 0) as i32) as f32 * self.scale
+        let time = self.by_octave(u, before_last);
+        let (time, scale) = match upper_word(time) {
+            Some(time) => (time as f32, self.scale),
+            None if time == NO_TIME => (f32::from_bits(self.searched(u)), 1.0),
+            None => (self.rounded_with_care(time), 1.0),
+        };
+        time * scale
     }
 
     /// A time near 0, rounded once.
@@ -152,21 +161,42 @@ impl<const CELLS: usize> Plan<CELLS> {
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
+    /// The same, for the plateau, which seldom needs it.
+    #[cold]
+    #[inline(never)]
+    fn rounded_apart(&self, time: i64) -> f32 {
+        self.rounded_with_care(time)
+    }
+
     /// The time, in units, by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
+    pub(crate) fn direct(&self, u: f32) -> i64 {
+        let before_last = self.before_last(u);
+        if before_last < self.count {
+            self.by_line(u.to_bits())
+        } else {
+            self.by_octave(u, before_last)
+        }
+    }
+
+    /// How many bits' steps `u` is before the last one on the plateau: less than `count` only on the line, since the bits
+    /// of a negative `u` or a NaN are at least 2²⁹ away from `last`, and `count` is below 2²⁷. The top bit is set beyond
+    /// the plateau.
+    #[inline(always)]
+    fn before_last(&self, u: f32) -> u32 {
+        self.last.wrapping_sub(u.to_bits())
+    }
+
+    /// The time, in units, by a polynomial; [`NO_TIME`] where there is none.
     // proofs/octaves.py: both look-ups find the octave that was built
     #[inline(always)]
-    pub(crate) fn direct(&self, u: f32) -> i64 {
-        // Less than `count` only on the line: a negative `u` or a NaN is never so near to `last`, as `count` is below 2²⁷.
-        // The top bit is set beyond the plateau, where the ramp is 1, the closing one.
-        let before_last = self.last.wrapping_sub(u.to_bits());
-        if before_last < self.count {
-            return self.by_line(u.to_bits());
-        }
+    fn by_octave(&self, u: f32, before_last: u32) -> i64 {
         let (side, bits) = Self::nearer(u);
+        // Beyond the plateau it is the closing one.
         let ramp = (before_last >> 31) as usize;
         match self.look_up(side, ramp, bits) {
-            Some((octave, position)) => octave.time(octave.offset(position)),
-            None => NO_TIME,
+            // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
+            Some((octave, position)) if octave.exists() => octave.time(octave.offset(position)),
+            _ => NO_TIME,
         }
     }
 
@@ -176,7 +206,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
     /// unpredictable.
     #[inline(always)]
-    fn nearer(u: f32) -> (usize, u32) {
+    pub(crate) fn nearer(u: f32) -> (usize, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
         // Signed, so that a negative `u` does not count as late.
         let is_late = bits as i32 > 0.5f32.to_bits() as i32;
@@ -186,7 +216,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
     /// outside [0, 1] and for NaN.
     #[inline(always)]
-    fn look_up(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
+    pub(crate) fn look_up(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let below = top.wrapping_sub(bits);
         let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
@@ -216,17 +246,19 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// Out of line, so that the direct way saves no registers for it.
+    /// Out of line, so that the direct way saves no registers for it; and the bits, since a call that returned the very
+    /// answer would be a second end of the ramp's way.
     #[cold]
     #[inline(never)]
-    fn searched(&self, u: f32) -> f32 {
+    fn searched(&self, u: f32) -> u32 {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
-        if a > 0.0 {
+        let time = if a > 0.0 {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).time()
         } else {
             self.exposure.outer((u >= 1.0) as usize)
-        }
+        };
+        time.to_bits()
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -324,4 +356,16 @@ impl<const CELLS: usize> Plan<CELLS> {
 pub(crate) struct PlateauU64 {
     last: u64,
     count: u64,
+}
+
+/// The upper word of a time, to be converted instead of both.
+///
+/// A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has 26 or
+/// more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*. None where it has fewer.
+// proofs/words.py
+#[inline(always)]
+fn upper_word(time: i64) -> Option<i32> {
+    let high = (time >> 32) as i32;
+    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26;
+    has_enough.then_some(high | (time as u32 != 0) as i32)
 }

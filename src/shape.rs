@@ -23,7 +23,7 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
 
 /// Does time run forward, and does the openness stay in [0, `most`]?
 ///
-/// A double root is rarely representable in `f32` (-1/3 rounds), so both may graze their bound by [`GRAZE`] of the
+/// A curve that touches its bound rarely has control values that are `f32` (a value of -1/3 is rounded), so both may graze their bound by [`GRAZE`] of the
 /// ramp's length or of the greatest |f|.
 pub(crate) const fn check_ramp(
     curve: &CubicBezier,

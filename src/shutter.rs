@@ -5,7 +5,7 @@ use core::fmt;
 use crate::batch;
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
-use crate::moment::rounded_sum;
+use crate::moment::rounded;
 use crate::octave::NO_TIME;
 use crate::pair::Pair;
 use crate::plan::Plan;
@@ -17,9 +17,9 @@ use crate::plan::Plan;
 /// is per that unit, and the rate of a timer counts ticks in one of it (Hz, if it is the second). Either ramp may have
 /// no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
 ///
-/// `CELLS` is the number of polynomials for each side, counted from the start and from the end; each answers one octave
-/// of `u`. A curve takes 480 bytes, and 96 more for each. With 8 of them at most one `u` in 256 of a typical curve is
-/// found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
+/// `CELLS` is the number of octaves of `u` on either side, from the start and from the end; each has a polynomial that
+/// answers it. A curve takes 480 bytes, and 96 more for each two of these. With 8 a side at most one `u` in 256 of a
+/// typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
 /// and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another number than 8
 /// end in `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
@@ -213,8 +213,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
-        let (f, unit) = self.openness(t);
-        rounded_sum(0.0, f, unit, false)
+        let f = rounded(self.plan.exposure.openness(t));
+        // Where rounding makes the curve graze it.
+        if f > 1.0 { 1.0 } else { f }
     }
 
     /// The openness, no more than 1 where rounding makes the curve graze it.
@@ -249,7 +250,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     pub fn cdf(&self, t: f32) -> f32 {
-        self.plan.exposure.cdf(t)
+        self.plan.cdf(t)
     }
 
     /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
@@ -258,12 +259,12 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// the ends exactly, and never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + u/K - cdf₀(1)`, where `cdf₀(1)` is the opening
-    /// ramp's area. (The document this crate implements writes `t = u/K`, which holds only
-    /// where that area equals `open_end`.)
+    /// ramp's area. (The formula is sometimes written as `t = u/K`, which holds only where that area
+    /// equals `open_end`.)
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;
-    /// // A ramp of 0.2 has the area 0.1 and the whole 0.8 + 0.1: half of 0.75 is at 0.475, not 0.375.
+    /// // A ramp of 0.2 has the area 0.1, and the whole is 0.1 + 0.5 + 0.15 = 0.75: half of that is collected at 0.475, not 0.375.
     /// let curve = ShutterCurve::linear(0.0, 0.2, 0.7, 1.0)?;
     /// assert_eq!(curve.exposure(), 0.75);
     /// assert_eq!(curve.inverse_cdf(0.5), 0.475);

@@ -74,7 +74,7 @@ impl<const N: usize> Anchor<N> {
 
 /// The first Taylor coefficients around a place.
 pub(crate) struct Taylor {
-    value: f32,
+    pub(crate) value: f32,
     /// The slope, and half of the second derivative.
     pub(crate) d1: f32,
     pub(crate) d2: f32,
@@ -97,7 +97,7 @@ impl Taylor {
     /// the quotient's series up to `b²`; but not beyond `b = 1/2`, from where the series grows again and a search may
     /// swing.
     #[inline(always)]
-    const fn step(&self, missing: f32) -> f32 {
+    pub(crate) const fn step(&self, missing: f32) -> f32 {
         // If rounding makes the slope negative, the step still leads towards the target.
         let inverse = 1.0 / self.d1.abs();
         let newton = missing * inverse;
@@ -107,7 +107,7 @@ impl Taylor {
 
     /// The same for a step that is tiny.
     #[inline(always)]
-    const fn short_step(&self, missing: f32) -> f32 {
+    pub(crate) const fn short_step(&self, missing: f32) -> f32 {
         let inverse = 1.0 / self.d1;
         let newton = missing * inverse;
         newton * (1.0 - self.d2 * newton * inverse)

@@ -5,7 +5,8 @@ use crate::path::{Path, scale};
 use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
 
 /// An offset counts 2⁻³² of a *width*, at first the octave's power of two. While half of the span is at most this share
-/// of it, it is halved, so that the half fills from 0.24 to 0.48 of it. The 0.02 · 2³² that this leaves of the word is
+/// of it, it is halved, so that the half fills from 0.24 to 0.48 of it. (Without that it fills less than 0.47, as a top
+/// is at most 15/8 of the power.) The 0.02 · 2³² that this leaves of the word is
 /// more than a center's lowest five bits, shifted by the most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;

@@ -14,7 +14,7 @@
 //! | a position in an [`octave`](crate::octave) | the power of two inside it | 2³¹ either way, in 2⁻³² of that power or, above it, 2⁻³¹ | `i32` |
 //! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
-//! | the ticks in a unit of time, moved up | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick ([`ticks`](crate::ticks)) | `u64` |
+//! | the ticks in a unit of time, which [`ticks`](crate::ticks) makes as great as it can | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick | `u64` |
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -31,7 +31,8 @@ pub(crate) const WHOLE_EXPONENT: i32 = 104;
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
-/// A fraction from here on has no bit below 2⁻³², which is the unit of the plateau's line; the same in 2⁻⁶⁴.
+/// An `f32` from here on has no bit below 2⁻³², which is the unit of the plateau's line; the same in 2⁻⁶⁴. (A fraction
+/// of 64 bits is cut to that unit, which an `f32` u-error of 2⁻²⁴ does not feel from here on.)
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 pub(crate) const FINE_DOUBLE_WORD: u64 = 1 << 55;
 

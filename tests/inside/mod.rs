@@ -1,5 +1,8 @@
 //! Tests of what is not public, compiled into the crate's own test.
 
 mod bound;
+mod cdf;
 mod certificate;
+mod exact;
+mod octave;
 mod transcribed;

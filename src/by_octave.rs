@@ -1,0 +1,173 @@
+//! The cdf by an octave: its polynomial gives a time by `u`, and here it is inverted.
+//!
+//! A guess is rounded to an `f32`, `u`. It is the answer if the time lies between those of the middles between `u` and
+//! either neighbour, by the polynomial as [`inverse_cdf`](Plan::inverse_cdf) evaluates it. So nothing has to be known
+//! of the guess. What is not answered so and lies next to a middle is settled by the same times
+//! ([`Plan::time_between`]): so the order holds whichever way answers.
+// docs/proofs.md: `cdf` never steps back
+
+use crate::octave::{self, FINER, Octave, times_high};
+use crate::plan::Plan;
+use crate::units::{TOP_STEP, WORD};
+
+const HALF: u32 = 0.5f32.to_bits();
+const ONE: u32 = 1.0f32.to_bits();
+/// The bits of an `f32` for its exponent.
+const BINADE: u32 = 1 << 23;
+/// Octaves are looked through from the first one, or from this one.
+const SKIP: usize = 4;
+
+impl<const CELLS: usize> Plan<CELLS> {
+    /// The cdf at a time on a ramp, if an octave's polynomial gives it.
+    #[inline(always)]
+    pub(crate) fn cdf_by_octave(&self, ramp: usize, t: f32) -> Option<f32> {
+        if CELLS == 0 || self.runs_across_0() {
+            return None;
+        }
+        let time = self.in_units(t)?;
+        let (side, index) = self.octave_about(ramp, time)?;
+        let octave = self.octaves[side & 1].get(index)?;
+        // The time from the middle, in the unit of the coefficients. A factor's power of two is below 2³².
+        let way = time.wrapping_sub(octave.middle) >> (octave.factor.trailing_zeros() & 31);
+        if way != way as i32 as i64 || !octave.exists() {
+            return None;
+        }
+        // From the later side, where the factor is negative, `P(x) <= y` just where the time is before that of `x`.
+        let y = way as i32 ^ -(side as i32);
+        let doubled = octave.inverted(y);
+        // The octave is (top / 2, top], and `a` is counted in 2⁻³¹ of its power of two: so it fits a word.
+        let top = octave::top(self.tops[side & 1][ramp & 1]).wrapping_sub((index as u32) << 23);
+        let power = top & !(BINADE - 1);
+        let eighths = (top / TOP_STEP) & 7;
+        let end = (8 + eighths) << 28;
+        let ahead = doubled.wrapping_add((8 - eighths) << 28);
+        let a = (end >> 1) + (ahead >> 1);
+        // `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
+        let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power / BINADE };
+        if apart > 24 {
+            return None;
+        }
+        let half = 1 << apart;
+        let n = (a + (half >> 1)) >> apart;
+        let bits = if side == 0 {
+            (power - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE)
+        } else {
+            ONE - n
+        };
+        // Both neighbours have to be served by this polynomial, too: on this ramp, in this octave, and on this side. And
+        // where the power of two is between them they are not equally far.
+        let position = n << apart << 1;
+        if if ramp == 0 {
+            bits >= self.last.wrapping_sub(self.count)
+        } else {
+            bits <= self.last + 1
+        } || (n + 1) << apart > end
+            || (n - 1) << apart <= end >> 1
+            || if side == 0 { bits >= HALF } else { bits <= HALF + 1 }
+            || position == 0
+        {
+            return None;
+        }
+        // Loaded anew, or the compiler would spill the coefficients, and once for both.
+        let octave = core::hint::black_box(octave);
+        let low = octave.polynomial(octave.ahead_of_center(position.wrapping_sub(half) as i32));
+        let high = octave.polynomial(octave.ahead_of_center(position.wrapping_add(half) as i32));
+        ((low <= y) & (y < high)).then_some(f32::from_bits(bits))
+    }
+
+    /// A time in units, as [`fixed`](crate::units::fixed) has it, if they are less than 2⁶³ and no fewer than 2³¹.
+    // proofs/cdf.py
+    #[inline(always)]
+    fn in_units(&self, t: f32) -> Option<i64> {
+        let (bits, sign) = (t.to_bits(), (t.to_bits() as i32 >> 31) as i64);
+        let up = (bits >> 23 & 0xFF).wrapping_add(1).wrapping_sub(self.scale.to_bits() >> 23);
+        if up > 31 {
+            return None;
+        }
+        let word = bits << 8 | 1 << 31;
+        let units = ((word >> 1 >> (31 - up)) as i64) << 32 | (word << up) as i64;
+        Some((units ^ sign).wrapping_sub(sign))
+    }
+
+    /// Polynomials are then less exact than `f32` next to 0 are dense.
+    #[inline(always)]
+    fn runs_across_0(&self) -> bool {
+        self.exposure.outer(0) < 0.0 && self.exposure.outer(1) > 0.0
+    }
+
+    /// The time, in units, of the middle between the `f32` with these bits and the next one, if one polynomial serves
+    /// both.
+    pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {
+        let both = [bits, bits.wrapping_add(1)];
+        let [first, last] = both.map(|bits| self.last.wrapping_sub(bits));
+        let [(side, a), (other, b)] = both.map(|bits| Self::nearer(f32::from_bits(bits)));
+        let is_one = side == other && first >> 31 == last >> 31;
+        if self.runs_across_0() || !is_one || first < self.count || last < self.count {
+            return None;
+        }
+        let (octave, a) = self.look_up(side, (first >> 31) as usize, a)?;
+        let (same, b) = self.look_up(side, (first >> 31) as usize, b)?;
+        let [a, b] = [a, b].map(|position| position.wrapping_add(position & !(position >> 31)));
+        let middle = a.wrapping_add(b.wrapping_sub(a) >> 1);
+        let is_one = core::ptr::eq(octave, same) && octave.exists();
+        is_one.then(|| octave.time(octave.ahead_of_center(middle)))
+    }
+
+    /// The side and the index of the octave in which a time on a ramp probably is.
+    #[inline(always)]
+    fn octave_about(&self, ramp: usize, time: i64) -> Option<(usize, usize)> {
+        let high = |time: i64| (time >> 32) as i32;
+        // Only where 1/2 is on the ramp, both sides may have octaves there.
+        let is_split =
+            if ramp == 0 { self.last.wrapping_sub(self.count) > HALF } else { self.last < HALF };
+        let side = if is_split {
+            let [first, second] = [self.octaves[0].first()?, self.octaves[1].first()?];
+            (high(time) > (high(first.middle) >> 1) + (high(second.middle) >> 1)) as usize
+        } else {
+            ramp & 1
+        };
+        // By upper words. From the later side times are mirrored, so that they fall from octave to octave.
+        let back = -(side as i32);
+        let octaves = &self.octaves[side & 1];
+        let middle = |index: usize| octaves.get(index).map(|octave| high(octave.middle) ^ back);
+        let t = high(time) ^ back;
+        let mut index = if middle(SKIP).is_some_and(|middle| t < middle) { SKIP } else { 0 };
+        let (mut before, mut here) = (i32::MAX, middle(index)?);
+        while let Some(next) = middle(index + 1) {
+            // An octave ends a third of the way, in fractions, to the next one's middle: in time somewhat more.
+            let way = here.wrapping_sub(next);
+            if t >= next.wrapping_add(way >> 2).wrapping_add(way >> 3) {
+                return Some((side, index));
+            }
+            (index, before, here) = (index + 1, here, next);
+        }
+        // The last one ends less than half as far from its middle as the one before has its own.
+        let is_near = before == i32::MAX || t >= here.wrapping_sub(before.wrapping_sub(here) >> 1);
+        is_near.then_some((side, index))
+    }
+}
+
+impl Octave {
+    /// Nearly the position, doubled where it has to be, at which the polynomial is `y`.
+    #[inline(always)]
+    fn inverted(&self, y: i32) -> u32 {
+        let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
+        // The inverse's own series from the middle ...
+        let inverse = 1.0 / c1 as f32;
+        let [n, r2, r3, r4] = [y, c2, c3, c4].map(|c| c as f32 * inverse);
+        let bend = r2 * r2 - r3;
+        let x = n - n * n * (r2 - n * (r2 * r2 + bend - n * (r4 + 5.0 * r2 * bend)));
+        let x = (x * WORD) as i32;
+        // ... and one step of Newton's, with value and slope by synthetic division.
+        let mul = |a: i32| times_high(a, x);
+        let (mut value, mut slope) = (c8, c8);
+        for c in [c7, c6, c5, c4, c3, c2, c1] {
+            value = mul(value).wrapping_add(c);
+            slope = mul(slope).wrapping_add(value);
+        }
+        // A slope may fill 32 bits.
+        let step = y.wrapping_sub(mul(value)) as f32 / slope as u32 as f32;
+        let x = x.wrapping_add((step * WORD) as i32);
+        (x >> (self.center & FINER)).wrapping_add(self.center as i32) as u32
+    }
+}
