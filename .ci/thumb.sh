@@ -4,6 +4,7 @@
 #
 #   .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
+#   TOOLS=gcc .ci/thumb.sh boards/c/run.sh     with a compiler for C as well
 #
 # What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm,
 # llvm-objdump and defmt-print). What is missing is unpacked from Debian's packages, or built, into a
@@ -33,14 +34,17 @@ refresh() {
     refreshed=yes
 }
 
-# unpack NAME HINT PACKAGE...: the Debian packages, unpacked into the cache folder NAME.
+# What of the packages is not unpacked, as arguments of tar.
+without=()
+
+# unpack NAME HINT COST PACKAGE...: the Debian packages, unpacked into the cache folder NAME; COST is said before.
 # With dependencies where NAME ends in '+': those that are not installed.
 unpack() {
-    local name=$1 hint=$2; shift 2
+    local name=$1 hint=$2 cost=$3; shift 3
     local folder=$cache/${name%+}
     [ -e "$folder" ] && return
     has_apt || fail "missing $hint"
-    say "unpacking Debian's $* ..."
+    say "fetching and unpacking Debian's $* into $cache: $cost ..."
     local work
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir -p "$work/debs/partial" "$work/root"
@@ -55,7 +59,8 @@ unpack() {
     for deb in "$work"/debs/*.deb; do
         # Of the compiler's source only the library is needed, a tenth of the files.
         dpkg --fsys-tarfile "$deb" |
-            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' ||
+            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' \
+                "${without[@]}" ||
             fail "cannot unpack $deb; missing $hint"
     done
     mv "$work/root" "$folder"
@@ -91,7 +96,7 @@ set_up_rustc() {
         std=$(depends libstd-rust-web-dev 'libstd-rust-web-[0-9.]*' "$hint")
         llvm=$(depends "$std" 'libllvm[0-9]*' "$hint")
         rm -rf "$compiler"
-        unpack compiler "$hint" rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
+        unpack compiler "$hint" "150 MB to fetch, 1.1 GB unpacked, a minute or two" rustc-web rust-web-clippy libstd-rust-web-dev "$std" "$llvm" rust-web-src
         wrap "$compiler/bin/rustc" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/rustc"
         wrap "$compiler/bin/cargo-clippy" "$root/lib/$(uname -m)-linux-gnu" "$root/bin/cargo-clippy"
     fi
@@ -110,7 +115,7 @@ set_up_rustc() {
         [ -d "$root/lib/rustlib/$target/lib" ] || missing+=("$target")
     done
     [ ${#missing[@]} -gt 0 ] || return 0
-    say "compiling core for ${missing[*]} ..."
+    say "compiling core for ${missing[*]}: half a minute each ..."
     work=$(mktemp -d "$cache/tmp.XXXXXX")
     mkdir "$work/src"
     echo '#![no_std]' >"$work/src/lib.rs"
@@ -146,7 +151,7 @@ for target in "${targets[@]}"; do
 done
 
 if ! command -v qemu-system-arm >/dev/null && [ ! -x "$bin/qemu-system-arm" ]; then
-    unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" qemu-system-arm
+    unpack qemu+ "qemu-system-arm: Debian's package qemu-system-arm" "some 20 MB to fetch, 80 MB unpacked, some seconds" qemu-system-arm
     wrap "$bin/qemu-system-arm" "$cache/qemu/usr/lib/$(uname -m)-linux-gnu:$cache/qemu/lib/$(uname -m)-linux-gnu" \
         "$cache/qemu/usr/bin/qemu-system-arm" -L "$cache/qemu/usr/share/qemu"
 fi
@@ -157,7 +162,7 @@ for target in "${targets[@]}"; do
     thumb* | wasm*) continue ;;
     esac
     if ! command -v qemu-riscv32 >/dev/null && [ ! -x "$bin/qemu-riscv32" ]; then
-        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" qemu-user
+        unpack qemu-user+ "QEMU's user mode: Debian's package qemu-user" "13 MB to fetch, 100 MB unpacked, some seconds" qemu-user
         for emulator in i386 ppc riscv32 riscv64 s390x; do
             wrap "$bin/qemu-$emulator" "$cache/qemu-user/usr/lib/$(uname -m)-linux-gnu:$cache/qemu-user/lib/$(uname -m)-linux-gnu" \
                 "$cache/qemu-user/usr/bin/qemu-$emulator"
@@ -166,12 +171,25 @@ for target in "${targets[@]}"; do
     break
 done
 
+if [[ " ${TOOLS:-} " = *" gcc "* ]] && ! command -v arm-none-eabi-gcc >/dev/null && [ ! -x "$bin/arm-none-eabi-gcc" ]; then
+    # Neither other languages nor other processors' libraries, three quarters of it.
+    gcc='./usr/lib/gcc/arm-none-eabi/*'
+    without=(--exclude "$gcc/cc1plus" --exclude "$gcc/lto1" --exclude './usr/bin/*-lto-dump' --exclude "$gcc/arm")
+    for processor in 'v7' 'v7-*' 'v7+*' 'v7ve*' 'v8*'; do without+=(--exclude "$gcc/thumb/$processor"); done
+    unpack gcc+ "arm-none-eabi-gcc: Debian's package gcc-arm-none-eabi" "51 MB to fetch, 140 MB unpacked, half a minute" gcc-arm-none-eabi
+    without=()
+    for tool in gcc size nm; do
+        wrap "$bin/arm-none-eabi-$tool" "$cache/gcc/usr/lib/$(uname -m)-linux-gnu" "$cache/gcc/usr/bin/arm-none-eabi-$tool"
+    done
+fi
+
 if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     tools=$(rustc --print sysroot)/lib/rustlib/$host/bin/llvm-objdump
     if [ -x "$tools" ]; then
         mkdir -p "$bin" && ln -sf "$tools" "$bin/llvm-objdump"
     else
-        unpack llvm+ "llvm-objdump: rustup component add llvm-tools, or Debian's package llvm" llvm
+        unpack llvm+ "llvm-objdump: rustup component add llvm-tools, or Debian's package llvm" \
+            "34 MB to fetch, 150 MB unpacked, some seconds" llvm
         # The unversioned package's command is a link to the versioned one's.
         objdump=("$cache"/llvm/usr/lib/llvm-*/bin/llvm-objdump)
         wrap "$bin/llvm-objdump" "$cache/llvm/usr/lib/$(uname -m)-linux-gnu" "${objdump[0]}"
@@ -179,7 +197,7 @@ if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
 fi
 
 if ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
-    say "building defmt-print ..."
+    say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
     CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" defmt-print --version '^1' >&2 ||
         fail "missing defmt-print: cargo install --locked defmt-print"

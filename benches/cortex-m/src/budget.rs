@@ -1,5 +1,6 @@
 //! The budgets that CI asserts; counts repeat exactly with the same compiler. Where a target is not reached yet, what is
-//! reached may at least not get worse.
+//! reached may at least not get worse. Those in cycles were scaled once, when the model was changed, by what it then made of the
+//! same code: see docs/tried.md.
 
 use measured::{DEFAULT, Function, ON_HARD, ON_ROWS, ON_TYPICAL, ROWS, TRIGGERS};
 
@@ -10,18 +11,19 @@ use crate::trace::selection;
 
 /// For the default cells unless it says otherwise.
 pub fn run() -> Result {
-    use Function::{Cdf, Construct, InverseCdf, Newton, Opening, Schedule, TickStep};
+    use Function::{Cdf, Construct, InverseCdf, Newton, Opening, Schedule, Static, TickStep};
     println!("{}", made_with()?);
     let default = [DEFAULT];
     let m4f = [
         selection(&default, &[InverseCdf, TickStep, Schedule], ON_TYPICAL | ON_HARD),
+        selection(&default, &[Static], ON_TYPICAL | ON_HARD),
         selection(&default, &[Cdf, Opening, Construct], ON_ROWS),
-        selection(&[0], &[InverseCdf, TickStep], ON_ROWS),
+        selection(&[0], &[InverseCdf, Cdf, TickStep], ON_ROWS),
     ];
     let m4f = Measured::new(M4F, OPT_LEVEL, &m4f)?;
     let m0 = [
-        selection(&default, &[InverseCdf, Newton], ON_ROWS),
-        selection(&[0], &[InverseCdf], ON_ROWS),
+        selection(&default, &[InverseCdf, Cdf, Newton, Schedule], ON_ROWS),
+        selection(&[0], &[InverseCdf, Cdf], ON_ROWS),
     ];
     let m0 = Measured::new(M0, OPT_LEVEL, &m0)?;
 
@@ -34,44 +36,60 @@ pub fn run() -> Result {
     let [soft, all_ramp, box_] = [0, 1, 2];
     let typical = m4f.typical_mean(InverseCdf, DEFAULT);
 
-    check("cycles of inverse_cdf on soft, mean", mean(InverseCdf, soft, DEFAULT), 86.0);
-    check("cycles of inverse_cdf on all ramp, mean", mean(InverseCdf, all_ramp, DEFAULT), 116.0);
-    check("cycles of inverse_cdf, mean over all typical curves", typical, 116.0);
+    check("cycles of inverse_cdf on soft, mean", mean(InverseCdf, soft, DEFAULT), 81.82);
+    check("cycles of inverse_cdf on all ramp, mean", mean(InverseCdf, all_ramp, DEFAULT), 116.66);
+    check("cycles of inverse_cdf, mean over all typical curves", typical, 89.59);
+    // As firmware has it: the compiler sees the curve. As shares of what it was when it was first measured.
+    let typical = m4f.typical_mean(Static, DEFAULT);
+    check(
+        "cycles of a static's inverse_cdf on soft, mean",
+        mean(Static, soft, DEFAULT),
+        0.82 * 84.13,
+    );
+    check("cycles of the same on all ramp, mean", mean(Static, all_ramp, DEFAULT), 113.67);
+    check("cycles of the same, mean over all typical curves", typical, 0.93 * 87.07);
     for (what, function, target) in
-        [("inverse_cdf", InverseCdf, 1600.0), ("a tick", TickStep, 2500.0)]
+        [("inverse_cdf", InverseCdf, 1626.0), ("a tick", TickStep, 2556.0)]
     {
         let (worst, curve) = m4f.worst_of_all(function, DEFAULT).unzip();
         let curve = curve.unwrap_or_default();
         check(&format!("cycles of {what}, worst ({curve})"), worst.map(f64::from), target);
     }
     // What a deadline stands on.
-    for (what, function, target) in [("inverse_cdf", InverseCdf, 140.0), ("tick", TickStep, 160.0)]
-    {
+    for (what, function, target) in [
+        ("inverse_cdf", InverseCdf, 144.0),
+        ("inverse_cdf of a static", Static, 144.0),
+        ("tick", TickStep, 166.0),
+    ] {
         let (worst, place) = m4f.worst_direct(function, DEFAULT).unzip();
         let place = place.unwrap_or_default();
         check(&format!("cycles of a direct {what}, worst ({place})"), worst.map(f64::from), target);
     }
-    check("cycles of a tick on all ramp, CELLS = 0, mean", mean(TickStep, all_ramp, 0), 1870.0);
-    check("cycles of cdf on all ramp, mean", mean(Cdf, all_ramp, DEFAULT), 1150.0);
-    check("cycles of opening on all ramp, mean", mean(Opening, all_ramp, DEFAULT), 1150.0);
-    check("cycles of cdf on the plateau, mean", mean(Cdf, box_, DEFAULT), 220.0);
+    check("cycles of a tick on all ramp, CELLS = 0, mean", mean(TickStep, all_ramp, 0), 1963.0);
+    check("cycles of cdf on all ramp, CELLS = 0, mean", mean(Cdf, all_ramp, 0), 845.0);
+    check("cycles of opening on all ramp, mean", mean(Opening, all_ramp, DEFAULT), 772.0);
+    check("cycles of cdf on the plateau, mean", mean(Cdf, box_, DEFAULT), 228.0);
 
     let bytes = |cells| m4f.trace.curve_bytes.get(&cells).map(|bytes| f64::from(*bytes));
     check("bytes of a curve", bytes(DEFAULT), 1376.0);
     check("bytes of a curve, CELLS = 0", bytes(0), 480.0);
     let code = |function| m4f.code_bytes(function, DEFAULT).map(f64::from);
-    check("bytes of inverse_cdf's code", code(InverseCdf), 3584.0);
+    check("bytes of inverse_cdf's code", code(InverseCdf), 3720.0);
     let painted = m4f.stack_painted(InverseCdf, DEFAULT).map(f64::from);
-    check("bytes of stack of inverse_cdf, painted", painted, 160.0);
+    check("bytes of stack of inverse_cdf, painted", painted, 184.0);
     let said = m4f.stack_said(InverseCdf, DEFAULT).map(f64::from);
-    check("bytes of stack of inverse_cdf, by the compiler", said, 160.0);
+    check("bytes of stack of inverse_cdf, by the compiler", said, 184.0);
     check("bytes of .data and .bss", Some(m4f.code.statics as f64), 0.0);
 
-    // What version 0.1.0 takes.
-    for (cells, target) in [(DEFAULT, 962.16), (0, 38538.95)] {
+    for (cells, target) in [(DEFAULT, 900.0), (0, 27500.0)] {
         let what = format!("Cortex-M0+ instructions on all ramp, CELLS = {cells}, mean");
         check(&what, soft_float(InverseCdf, all_ramp, cells), target);
     }
+    let planned = soft_float(Schedule, all_ramp, DEFAULT);
+    let what = format!("Cortex-M0+ instructions of planning {TRIGGERS} triggers on all ramp");
+    check(&what, planned, 42000.0);
+    let instructions = soft_float(Cdf, all_ramp, 0);
+    check("Cortex-M0+ instructions of cdf on all ramp, CELLS = 0, mean", instructions, 20000.0);
     // On box all of Newton's answers are on the plateau, without a step: there is nothing to be a quarter of.
     for (row, name) in ROWS.iter().enumerate().take(2) {
         let [ours, newton] = [InverseCdf, Newton].map(|f| soft_float(f, row, DEFAULT));
@@ -87,6 +105,10 @@ pub fn run() -> Result {
         let what = format!("cycles of planning {TRIGGERS} triggers on {name}");
         budgets.push((what, planned, target, 1.14 * target));
     }
+    let cdf = "cycles of cdf on all ramp, mean".to_owned();
+    budgets.push((cdf, mean(Cdf, all_ramp, DEFAULT), 543.0, 556.0));
+    let cdf = "Cortex-M0+ instructions of cdf on all ramp, mean".to_owned();
+    budgets.push((cdf, soft_float(Cdf, all_ramp, DEFAULT), 6000.0, 6600.0));
     let building = "bytes of the code that builds a curve".to_owned();
     budgets.push((building, code(Construct), 20480.0, 28500.0));
 

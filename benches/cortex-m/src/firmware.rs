@@ -74,11 +74,16 @@ pub fn build(core: Core, program: &str, level: Option<&str>) -> Result<PathBuf> 
         let help = format!("`rustup target add {target}`, or run this by .ci/matrix.sh");
         return Err(format!("cannot build {program} for {target}; {help}").into());
     }
+    Ok(self::program(core, program, level))
+}
+
+/// Where a program is that has been built.
+pub fn program(core: Core, program: &str, level: Option<&str>) -> PathBuf {
     let suffix = if core.runs_in == Node { ".wasm" } else { "" };
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
     let profile = if level.is_some() { "release" } else { "debug" };
-    Ok(target.join(core.target).join(profile).join(format!("{program}{suffix}")))
+    target.join(core.target).join(profile).join(format!("{program}{suffix}"))
 }
 
 /// The command that builds a program.

@@ -5,7 +5,8 @@
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
-//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: one function
+//! cargo run --release -- --silicon # the model against cycles that others have measured on boards
+//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: the inverse, or one function
 //! ```
 //!
 //! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
@@ -20,6 +21,7 @@ mod measure;
 mod model;
 mod quick;
 mod report;
+mod silicon;
 mod trace;
 
 use std::process::ExitCode;
@@ -34,7 +36,8 @@ fn main() -> ExitCode {
         ["--short"] => budget::run(),
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
-        ["--quick"] => quick::run("8", "InverseCdf"),
+        ["--silicon"] => silicon::run(),
+        ["--quick"] => quick::both(),
         ["--quick", cells] => quick::run(cells, "InverseCdf"),
         ["--quick", cells, function] => quick::run(cells, function),
         _ => Err("usage: see src/main.rs".into()),

@@ -98,10 +98,19 @@ impl Measured {
         all.collect()
     }
 
-    /// The mean over all typical curves.
+    /// The mean of the cycles over all typical curves.
     pub fn typical_mean(&self, function: Function, cells: usize) -> Option<f64> {
+        self.over_typical(function, cells, |call| call.cycles)
+    }
+
+    /// The mean of the instructions.
+    pub fn typical_instructions(&self, function: Function, cells: usize) -> Option<f64> {
+        self.over_typical(function, cells, |call| call.instructions)
+    }
+
+    fn over_typical(&self, function: Function, cells: usize, of: fn(&Call) -> u32) -> Option<f64> {
         let means = self.series(function, Inputs::Uniform, cells);
-        let means: Vec<f64> = means.filter_map(|(s, _)| Some(self.cycles(*s)?.mean)).collect();
+        let means: Vec<f64> = means.filter_map(|(s, _)| Some(self.spread(*s, of)?.mean)).collect();
         (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
     }
 
@@ -173,7 +182,9 @@ fn with<const CELLS: usize>(series: Series) -> Vec<(f64, bool)> {
     let (opening, closing) = CURVES[series.curve].ramps(SCALES[series.scale()]);
     let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
     match series.function {
-        Function::InverseCdf => series.us().map(|u| (u.into(), !curve.is_direct(u))).collect(),
+        Function::InverseCdf | Function::Static => {
+            series.us().map(|u| (u.into(), !curve.is_direct(u))).collect()
+        }
         Function::TickStep => {
             let steps = series.frames().flat_map(|(n, steps)| {
                 let frame = curve.trigger_ticks(n, TICK_HZ).expect("a good rate");

@@ -13,7 +13,7 @@ use measured::{CELLS, Function, Series, series};
 use crate::Result;
 use crate::disassembly::Disassembly;
 use crate::firmware::{Core, start};
-use crate::model::{Cost, refill};
+use crate::model::{Cost, Fetch, KINDS};
 
 /// What one call took, within the called function and what it calls: from its first instruction to its
 /// return, that included.
@@ -21,7 +21,12 @@ use crate::model::{Cost, refill};
 pub struct Call {
     pub instructions: u32,
     pub cycles: u32,
+    /// Those cycles by [`KINDS`] of instructions.
+    pub by_kind: [u32; KINDS.len()],
 }
+
+/// A call, by how many series have begun before its own, with the address of what was called.
+pub type InSeries = (usize, u32, Call);
 
 #[derive(Default)]
 pub struct Trace {
@@ -52,55 +57,15 @@ impl Trace {
     ) -> Result {
         let input = elf.with_extension("input");
         std::fs::write(&input, [&selection.to_le_bytes(), built].concat())?;
-        let options = ["-d", "in_asm,exec,nochain"];
-        let mut child = start(core, elf, Some(File::open(&input)?), &options)?;
-        let mut replay = Replay::new(code, self, selection);
-        // The instructions of each block, by QEMU's number for it; and of the one just translated.
-        let mut blocks: HashMap<u64, Vec<u32>> = HashMap::new();
-        let mut translated = Vec::new();
-        // The block that is about to run, unless the next line says that it was stopped.
-        let mut block: Option<u64> = None;
-        let mut other = String::new();
-        let mut reader = BufReader::with_capacity(1 << 16, child.stderr.take().ok_or("no stderr")?);
-        let mut line = Vec::new();
-        loop {
-            line.clear();
-            let is_over = reader.read_until(b'\n', &mut line)? == 0;
-            let text = std::str::from_utf8(&line).unwrap_or("");
-            if text.starts_with("Stopped execution") {
-                block = None;
-                continue;
-            }
-            let next = block_number(text);
-            if is_over || next.is_some() {
-                for address in block.iter().flat_map(|block| &blocks[block]) {
-                    replay.execute(*address)?;
-                }
-                block = next;
-            }
-            if is_over {
-                break;
-            }
-            if let Some(number) = next {
-                if !translated.is_empty() {
-                    blocks.insert(number, std::mem::take(&mut translated));
-                }
-                if !blocks.contains_key(&number) {
-                    return Err(format!("QEMU does not tell a block's instructions: {text}").into());
-                }
-            } else if let Some(address) = instruction_address(text) {
-                translated.push(address);
-            } else if text.starts_with("IN:") {
-                translated.clear();
-            } else if !text.starts_with("---") {
-                other.push_str(text);
-            }
+        let keys: Vec<Series> = series(selection).collect();
+        let (calls, printed) = replay(core, elf, code, Some(File::open(&input)?))?;
+        if calls.last().is_none_or(|(place, ..)| place + 1 != keys.len()) {
+            return Err(format!("the firmware ran other series than planned\n{printed}").into());
         }
-        let is_complete = replay.keys.next().is_none();
-        let mut printed = String::new();
-        child.stdout.take().map(|mut out| out.read_to_string(&mut printed));
-        if !child.wait()?.success() || !is_complete {
-            return Err(format!("the firmware stopped early\n{}{printed}", other.trim()).into());
+        for (place, address, call) in calls {
+            let key = *keys.get(place).ok_or("more series than planned")?;
+            self.calls.entry(key).or_default().push(call);
+            self.instances.insert(key, address);
         }
         self.note(&printed)
     }
@@ -121,6 +86,65 @@ impl Trace {
     }
 }
 
+/// Runs a program and tells of each call of its `the_call`, in order, and what it printed.
+pub fn replay(
+    core: Core,
+    elf: &Path,
+    code: &Disassembly,
+    input: Option<File>,
+) -> Result<(Vec<InSeries>, String)> {
+    let options = ["-d", "in_asm,exec,nochain"];
+    let mut child = start(core, elf, input, &options)?;
+    let mut replay = Replay::new(code);
+    // The instructions of each block, by QEMU's number for it; and of the one just translated.
+    let mut blocks: HashMap<u64, Vec<u32>> = HashMap::new();
+    let mut translated = Vec::new();
+    // The block that is about to run, unless the next line says that it was stopped.
+    let mut block: Option<u64> = None;
+    let mut other = String::new();
+    let mut reader = BufReader::with_capacity(1 << 16, child.stderr.take().ok_or("no stderr")?);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let is_over = reader.read_until(b'\n', &mut line)? == 0;
+        let text = std::str::from_utf8(&line).unwrap_or("");
+        if text.starts_with("Stopped execution") {
+            block = None;
+            continue;
+        }
+        let next = block_number(text);
+        if is_over || next.is_some() {
+            for address in block.iter().flat_map(|block| &blocks[block]) {
+                replay.execute(*address)?;
+            }
+            block = next;
+        }
+        if is_over {
+            break;
+        }
+        if let Some(number) = next {
+            if !translated.is_empty() {
+                blocks.insert(number, std::mem::take(&mut translated));
+            }
+            if !blocks.contains_key(&number) {
+                return Err(format!("QEMU does not tell a block's instructions: {text}").into());
+            }
+        } else if let Some(address) = instruction_address(text) {
+            translated.push(address);
+        } else if text.starts_with("IN:") {
+            translated.clear();
+        } else if !text.starts_with("---") {
+            other.push_str(text);
+        }
+    }
+    let mut printed = String::new();
+    child.stdout.take().map(|mut out| out.read_to_string(&mut printed));
+    if !child.wait()?.success() {
+        return Err(format!("the firmware stopped early\n{}{printed}", other.trim()).into());
+    }
+    Ok((replay.calls, printed))
+}
+
 /// An instruction as the replay needs it.
 struct Step {
     cost: Cost,
@@ -134,17 +158,17 @@ struct Replay<'a> {
     code: &'a Disassembly,
     /// By the instructions' places.
     steps: Vec<Option<Step>>,
-    keys: std::vec::IntoIter<Series>,
-    key: Option<Series>,
-    /// The call that runs, and where it returns to.
-    call: Option<(Call, u32)>,
+    begun: usize,
+    calls: Vec<InSeries>,
+    /// The call that runs, what was called, and where it returns to.
+    call: Option<(Call, u32, u32)>,
     last: Option<u32>,
     before: Option<u32>,
-    trace: &'a mut Trace,
+    fetch: Fetch,
 }
 
 impl<'a> Replay<'a> {
-    fn new(code: &'a Disassembly, trace: &'a mut Trace, selection: u32) -> Self {
+    fn new(code: &'a Disassembly) -> Self {
         let mut steps: Vec<Option<Step>> = Vec::new();
         steps.resize_with(code.places(), || None);
         for i in &code.instructions {
@@ -159,9 +183,17 @@ impl<'a> Replay<'a> {
         };
         mark("series_begins", |step| step.begins = true);
         mark("the_call", |step| step.measured = true);
-        let keys = series(selection).collect::<Vec<_>>().into_iter();
-        let (key, call, last, before) = (None, None, None, None);
-        Self { code, steps, keys, key, call, last, before, trace }
+        let (call, last, before) = (None, None, None);
+        Self {
+            code,
+            steps,
+            begun: 0,
+            calls: Vec::new(),
+            call,
+            last,
+            before,
+            fetch: Fetch::default(),
+        }
     }
 
     fn step(&self, address: u32) -> Result<&Step> {
@@ -172,36 +204,41 @@ impl<'a> Replay<'a> {
 
     /// The instruction at `address` follows: charges the last one, then sees where a call starts or ends.
     fn execute(&mut self, address: u32) -> Result {
-        if let (Some((call, back)), Some(last)) = (self.call, self.last) {
+        if let (Some((mut call, called, back)), Some(last)) = (self.call, self.last) {
             let step = self.step(last)?;
             let mut cycles = match self.before {
                 Some(before) => step.cost.behind(&self.step(before)?.cost),
                 None => step.cost.behind(&Cost::default()),
             };
-            if address != last + step.length {
-                cycles += refill(address, self.step(address)?.length);
+            let (kind, length) = (step.cost.kind, step.length);
+            if address != last + length {
+                // Where the caller's next instruction lies is not the call's fault.
+                let target = if address == back { 0 } else { self.step(address)?.length };
+                cycles += step.cost.refill(address, target);
             }
+            cycles += self.fetch.stalls(last, length, address);
             self.before = Some(last);
-            let (instructions, cycles_so_far) = (call.instructions + 1, call.cycles + cycles);
-            self.call = Some((Call { instructions, cycles: cycles_so_far }, back));
+            call.instructions += 1;
+            call.cycles += cycles;
+            call.by_kind[kind] += cycles;
+            self.call = Some((call, called, back));
         }
         match self.call {
-            Some((done, back)) if address == back => {
-                let key = self.key.ok_or("a call before its series")?;
-                self.trace.calls.entry(key).or_default().push(done);
+            Some((done, called, back)) if address == back => {
+                let place = self.begun.checked_sub(1).ok_or("a call before its series")?;
+                self.calls.push((place, called, done));
                 self.call = None;
             }
             Some(_) => {}
             None => {
                 let step = self.step(address)?;
                 if step.measured {
-                    let key = self.key.ok_or("a call before its series")?;
                     let last = self.last.ok_or("a call from nowhere")?;
-                    self.call = Some((Call::default(), last + self.step(last)?.length));
+                    self.call = Some((Call::default(), address, last + self.step(last)?.length));
                     self.before = None;
-                    self.trace.instances.insert(key, address);
+                    self.fetch = Fetch::default();
                 } else if step.begins {
-                    self.key = Some(self.keys.next().ok_or("more series than planned")?);
+                    self.begun += 1;
                 }
             }
         }

@@ -21,6 +21,20 @@ pub struct Curve {
 
 include!(concat!(env!("OUT_DIR"), "/curves.rs"));
 
+/// The places of the typical ones in [`CURVES`].
+pub const TYPICAL: [usize; 15] = {
+    let (mut places, mut found, mut i) = ([0; 15], 0, 0);
+    while i < CURVES.len() {
+        if CURVES[i].is_typical {
+            places[found] = i;
+            found += 1;
+        }
+        i += 1;
+    }
+    assert!(found == places.len());
+    places
+};
+
 impl Curve {
     /// The ramps, on a scale of time.
     pub fn ramps(&self, scale: Option<u32>) -> (CubicBezier, CubicBezier) {
@@ -48,6 +62,8 @@ pub fn uniform(i: u32) -> f32 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
     InverseCdf,
+    /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a reference.
+    Static,
     Cdf,
     Opening,
     TickStep,
@@ -59,9 +75,9 @@ pub enum Function {
 }
 
 impl Function {
-    pub const ALL: [Self; 9] = {
+    pub const ALL: [Self; 10] = {
         use Function::*;
-        [InverseCdf, Cdf, Opening, TickStep, Schedule, Construct, Newton, Table, Root]
+        [InverseCdf, Static, Cdf, Opening, TickStep, Schedule, Construct, Newton, Table, Root]
     };
 
     /// Its bit in a selection.
@@ -93,11 +109,12 @@ pub struct Series {
 
 impl Series {
     fn is_selected(self, selection: u32) -> bool {
-        use Function::{Construct, Newton, Root, Schedule, Table, TickStep};
+        use Function::{Construct, Newton, Root, Schedule, Static, Table, TickStep};
         let Self { function, cells, inputs, curve } = self;
         let exists = match function {
             Root => inputs == Inputs::Uniform && cells == DEFAULT && curve < roots::ROOTS.len(),
             Construct => inputs == Inputs::Uniform && curve == 0,
+            Static => inputs != Inputs::Solved && cells == DEFAULT && CURVES[curve].is_typical,
             TickStep | Schedule => true,
             Newton | Table => inputs != Inputs::Solved && cells == DEFAULT,
             _ => inputs != Inputs::Solved,

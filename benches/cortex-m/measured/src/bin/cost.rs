@@ -14,8 +14,10 @@ use core::mem::MaybeUninit;
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{CELLS, CURVES, DEFAULT, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS};
-use shutter_curve::{ShutterCurve, TriggerTicks};
+use measured::{
+    CELLS, CURVES, DEFAULT, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL,
+};
+use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
 
 #[path = "../machine.rs"]
 mod machine;
@@ -36,6 +38,24 @@ macro_rules! each {
     ($($i:literal)*) => { [$(root::<$i>),*] };
 }
 const EACH_ROOT: [fn(f32) -> f32; ROOTS.len()] = each!(0 1 2 3 4 5 6 7 8 9 10 11);
+
+/// The inverse of each typical curve, in a `static` of its own.
+macro_rules! each_static {
+    ($($i:literal)*) => { [$({
+        static CURVE: ShutterCurve = {
+            let measured::Curve { opening, closing, .. } = CURVES[TYPICAL[$i]];
+            valid(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
+        };
+        // Named so that the host finds it.
+        #[inline(never)]
+        fn the_call(u: f32) -> f32 {
+            CURVE.inverse_cdf(u)
+        }
+        the_call as fn(f32) -> f32
+    }),*] };
+}
+const EACH_STATIC: [fn(f32) -> f32; TYPICAL.len()] =
+    each_static!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
 
 /// Tells the host that the next series begins.
 #[inline(never)]
@@ -113,6 +133,10 @@ fn run_series<const C: usize>(series: Series, curve: &ShutterCurve<C>) -> u32 {
     let ts = series.us().map(|u| start + length * u);
     match series.function {
         Function::InverseCdf => depth(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
+        Function::Static => {
+            let place = TYPICAL.iter().position(|place| *place == series.curve);
+            depth(us, EACH_STATIC[place.expect("a typical curve")])
+        }
         Function::Cdf => depth(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
         Function::Opening => depth(ts, |t| the_call(ShutterCurve::opening, curve, t)),
         Function::TickStep => depth(series.frames(), |(n, steps)| {
