@@ -4,6 +4,7 @@
 
 mod design;
 mod fit;
+mod fit_many;
 mod output;
 mod plan;
 
@@ -53,6 +54,7 @@ pub fn run(
     let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
         Command::Plan(args) => plan::run(&args, out),
         Command::Design(args) => design::run(&args, out),
+        Command::Fit(args) if args.is_many() => fit_many::run(&args, out, err),
         Command::Fit(args) => fit::run(&args, out, err),
     };
     match ended {

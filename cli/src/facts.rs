@@ -116,18 +116,8 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
     }
     lines.push(("timer", format!("{} Hz", plan.timer_hz)));
-    let mut gap = format!("at least {}", unit.show(plan.min_gap));
-    if plan.lamp != Lamp::Triggered {
-        gap += " of darkness between pulses";
-        let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
-        let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
-        if let Some(ticks) = dark.min() {
-            gap += &format!("; the least is {}", count(ticks, "tick"));
-        }
-    } else if let Some(ticks) = plan.gaps().min() {
-        gap += &format!("; the closest two come {} apart", count(ticks, "tick"));
-    }
-    lines.push(("gap", gap));
+    lines.push(("delay", delay(plan)));
+    lines.push(("gap", gap(plan)));
     lines.extend(lamp(plan));
     let keep = if plan.most == 1 {
         "1 keeps the gap".into()
@@ -143,6 +133,34 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         },
     ));
     lines
+}
+
+/// What the gap is to be, and what it is.
+fn gap(plan: &Plan) -> String {
+    let mut gap = format!("at least {}", plan.unit().show(plan.min_gap));
+    if plan.lamp != Lamp::Triggered {
+        gap += " of darkness between pulses";
+        let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
+        let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
+        if let Some(ticks) = dark.min() {
+            gap += &format!("; the least is {}", count(ticks, "tick"));
+        }
+    } else if let Some(ticks) = plan.gaps().min() {
+        gap += &format!("; the closest two come {} apart", count(ticks, "tick"));
+    }
+    gap
+}
+
+/// From where the ticks count.
+fn delay(plan: &Plan) -> String {
+    let Some(delay) = plan.delay else {
+        return "none known: ticks count from the start of opening, not from a sync".into();
+    };
+    format!(
+        "{} from the sync's edge to the start of opening: {}",
+        plan.unit().show(delay.seconds),
+        count(delay.ticks, "tick")
+    )
 }
 
 /// What the lamp does, and for which set-up that is.

@@ -7,6 +7,7 @@
 
 #[cfg(feature = "terminal")]
 pub mod command;
+pub mod delay;
 pub mod emit;
 pub mod facts;
 pub mod fit;
@@ -20,5 +21,7 @@ mod rows;
 pub mod scene;
 pub mod set_up;
 pub mod shape;
+#[cfg(feature = "terminal")]
+pub mod speeds;
 pub mod trace;
 pub mod unit;

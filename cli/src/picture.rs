@@ -12,10 +12,10 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
-use crate::unit::short;
+use crate::unit::{Unit, short};
 use drawing::{
-    Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, lit, pen, picture,
-    time_range,
+    Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, is_near, lit, pen,
+    picture, sync, time_range,
 };
 pub use set_ups::set_ups;
 use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
@@ -127,6 +127,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
         }
     }))?;
     draw_curve(&mut graph, plan, unit, |t| curve.opening(t))?;
+    draw_sync(&mut graph, plan, unit)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
     draw_marks(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
     for ramp in ramps.iter().flatten() {
@@ -135,6 +136,31 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
             graph.draw_series([PathElement::new([end, inner], pen(GREY, 2.0))])?;
             graph.draw_series([end, inner].map(knob))?;
         }
+    }
+    Ok(())
+}
+
+/// The edge of the camera's sync, and the delay from there to the start of opening.
+fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
+    let (Some(edge), Some(delay)) = (sync(plan, unit), plan.delay) else { return Ok(()) };
+    let start = unit.of(plan.curve.open_start());
+    let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
+    let is_near = is_near(plan, unit, edge);
+    let from = if is_near { edge } else { time_range(plan, unit).start };
+    if is_near {
+        graph.draw_series([PathElement::new([(edge, 0.0), (edge, 1.0)], pen(INK, 2.0))])?;
+    }
+    // An arrow whose tip is the start of opening.
+    let (y, tip) = (0.62, 0.012 * unit.of(plan.length()));
+    let head = [(start - tip, y + 0.025), (start, y), (start - tip, y - 0.025)];
+    graph.draw_series([PathElement::new([(from, y), (start, y)], pen(INK, 1.2))])?;
+    graph.draw_series([PathElement::new(head, pen(INK, 1.2))])?;
+    let sync =
+        if is_near { "sync".into() } else { format!("sync {} before", unit.show(delay.seconds)) };
+    let words = [(sync, 0.9), (format!("delay {}", unit.show(delay.seconds)), y)];
+    for (words, y) in words.into_iter().take(if is_near { 2 } else { 1 }) {
+        let place = EmptyElement::at((from, y));
+        graph.draw_series([place + Text::new(words, (6 * SCALE, -4 * SCALE), label.clone())])?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use shutter_curve::{ScheduleError, ShutterCurve};
 
+use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene};
 use crate::shape::Shape;
@@ -31,6 +32,8 @@ pub struct Plan {
     pub curve: ShutterCurve,
     /// The timer's ticks in a second.
     pub timer_hz: u32,
+    /// From the edge of the camera's sync to the start of opening, if the scene tells.
+    pub delay: Option<Delay>,
     /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
     /// asks.
     pub min_gap: f64,
@@ -80,7 +83,9 @@ impl Plan {
             .map_err(|error| Fault::at(&scene.timer_hz, rate(error)))?;
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        let frames = Frames { curve, timer_hz, end: (end * f64::from(timer_hz)).round() as i64 };
+        let end = (end * f64::from(timer_hz)).round();
+        let delay = Delay::new(scene, timer_hz, end)?;
+        let frames = Frames { curve, timer_hz, end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
@@ -96,6 +101,7 @@ impl Plan {
             shape,
             curve,
             timer_hz,
+            delay,
             min_gap: asked.min_gap,
             lamp: asked.lamp,
             nominal: asked.nominal,
@@ -118,6 +124,12 @@ impl Plan {
     /// How long so many ticks last.
     pub fn seconds(&self, ticks: u32) -> f64 {
         f64::from(ticks) / f64::from(self.timer_hz)
+    }
+
+    /// So many ticks after the start of opening, counted from the edge of the camera's sync, if the scene has a delay.
+    pub fn from_edge(&self, ticks: u32) -> Option<u32> {
+        // Checked when the delay was read: the sum is at most 2³¹.
+        self.delay.map(|delay| delay.ticks + ticks)
     }
 
     /// From each trigger to the next, in ticks.

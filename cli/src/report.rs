@@ -77,10 +77,20 @@ fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
         false => String::new(),
     };
     let time = format!("time ({})", unit.name());
+    // By the timer's count at the sync's edge, where that is known.
+    let edge = |ticks: &dyn Display| match plan.delay {
+        Some(_) => format!("  {ticks:>10}"),
+        None => String::new(),
+    };
     // Between pulses, the gap is darkness.
     let gap = if has_pulses { "apart" } else { "gap" };
     let gap = format!("{gap} ({})", unit.name());
-    writeln!(out, "    #        u  {time:>13}       ticks{}  {gap:>13}", pulse(&"on", &"off"))?;
+    writeln!(
+        out,
+        "    #        u  {time:>13}       ticks{}{}  {gap:>13}",
+        edge(&"from edge"),
+        pulse(&"on", &"off")
+    )?;
     let hidden = hidden_rows(plan.triggers.len());
     let mut last: Option<f64> = None;
     for (i, trigger) in plan.triggers.iter().enumerate() {
@@ -97,7 +107,8 @@ fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
         let Trigger { u, ticks, pulse: times, .. } = trigger;
         let (on, off) = times.unwrap_or_default();
         let pulse = pulse(&on, &off);
-        writeln!(out, "{i:5}  {u:.5}  {time:13.places$}  {ticks:10}{pulse}  {gap:>13}")?;
+        let edge = edge(&plan.from_edge(*ticks).unwrap_or_default());
+        writeln!(out, "{i:5}  {u:.5}  {time:13.places$}  {ticks:10}{edge}{pulse}  {gap:>13}")?;
     }
     Ok(())
 }

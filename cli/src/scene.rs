@@ -25,6 +25,7 @@ pub struct Scene {
     pub(crate) pulse: Option<Spanned<Number>>,
     pub(crate) duty: Option<Spanned<Number>>,
     pub(crate) min_pulse: Option<Spanned<Number>>,
+    pub(crate) delay: Option<Spanned<Number>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -76,10 +77,12 @@ pub struct Values {
     pub duty: Option<f64>,
     /// The least length of a pulse where `duty` is given.
     pub min_pulse: Option<f64>,
+    /// From the edge of the camera's sync to `open_start`.
+    pub delay: Option<f64>,
 }
 
 /// The keys of [`Values`], as they are numbered in a fault's place.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "open_start",
     "open_end",
     "close_start",
@@ -92,6 +95,7 @@ const KEYS: [&str; 12] = [
     "pulse",
     "duty",
     "min_pulse",
+    "delay",
 ];
 
 impl TryFrom<Values> for Scene {
@@ -127,6 +131,7 @@ impl TryFrom<Values> for Scene {
             pulse: values.pulse.map(|x| number("pulse", x)),
             duty: values.duty.map(|x| number("duty", x)),
             min_pulse: values.min_pulse.map(|x| number("min_pulse", x)),
+            delay: values.delay.map(|x| number("delay", x)),
         })
     }
 }

@@ -4,10 +4,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
-use shutter::emit::{Form, emit};
+use shutter::emit::{Form, several};
 use shutter::plan::{Plan, Trigger};
+
+/// The plan in a form that takes any.
+fn emit(form: Form, name: &str, plan: &Plan) -> String {
+    shutter::emit::emit(form, name, plan).unwrap()
+}
 
 const CLI: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -49,18 +55,28 @@ fn line(trigger: &Trigger) -> String {
     }
 }
 
+/// Runs the compiler in a folder, without a warning.
+fn rustc(folder: &Path, args: &[&str]) {
+    let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
+    rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(folder);
+    output(&mut rustc);
+}
+
+/// The crate by itself, which has no dependencies, built once; as an argument of the compiler.
+fn the_crate() -> &'static str {
+    static BUILT: OnceLock<String> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let (folder, source) = (folder("crate"), format!("{CLI}/../src/lib.rs"));
+        rustc(&folder, &["--crate-type", "rlib", "--crate-name", "shutter_curve", "-O", &source]);
+        format!("shutter_curve={}", folder.join("libshutter_curve.rlib").display())
+    })
+}
+
 #[test]
 fn rust_compiles_with_the_crate_and_holds_its_ticks() {
     let folder = folder("rust");
-    let rustc = |args: &[&str]| {
-        let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
-        rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(&folder);
-        output(&mut rustc);
-    };
-    let linked = ["-D", "warnings", "--extern", "shutter_curve=libshutter_curve.rlib"];
-    // The crate by itself: it has no dependencies.
-    let source = format!("{CLI}/../src/lib.rs");
-    rustc(&["--crate-type", "rlib", "--crate-name", "shutter_curve", "-O", &source]);
+    let rustc = |args: &[&str]| rustc(&folder, args);
+    let linked = ["-D", "warnings", "--extern", the_crate()];
     // A library that asks for documentation takes the module as well.
     fs::write(folder.join("lib.rs"), "//! .\n#![no_std]\n/// .\npub mod scene;\n").unwrap();
     for (name, plan) in plans() {
@@ -93,43 +109,253 @@ fn rust_compiles_with_the_crate_and_holds_its_ticks() {
 }
 
 #[test]
-fn c_compiles_as_c99_and_holds_the_same_ticks() {
+fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
+    let folder = folder("rust_speeds");
+    let (late, lit) = (speeds("delay = 4.247\n"), speeds("duty = 0.3\n"));
+    let write = |file: &str, text: String| fs::write(folder.join(file), text).unwrap();
+    write("late.rs", several(Form::Rust, "late", &late).unwrap());
+    write("lit.rs", several(Form::Rust, "lit", &lit).unwrap());
+    let one = emit(Form::Rust, "one", &late[0].1);
+    assert!(one.starts_with(concat!(
+        "// Made by `shutter plan` ",
+        env!("CARGO_PKG_VERSION"),
+        ".\n"
+    )));
+    write("one.rs", one);
+    // Private modules of which next to nothing is used.
+    let main = r#"mod late; mod lit; mod one;
+        fn main() {
+            println!("{} {}", late::box_::DELAY_TICKS, late::shutter_1_500::TICKS.len());
+            for speed in &late::SPEEDS {
+                let ticks = speed.shutter.trigger_ticks(speed.ticks.len() as u32, late::TIMER_HZ).unwrap();
+                assert!(ticks.eq(speed.ticks.iter().copied()));
+                println!("{} {}", speed.name, speed.delay_ticks);
+            }
+            for speed in &lit::SPEEDS {
+                let n = speed.ticks.len() as u32;
+                assert!(speed.shutter.pulse_ticks(n, 0.3, lit::TIMER_HZ).unwrap().eq(speed.pulses.iter().copied()));
+            }
+        }"#;
+    write("main.rs", main.into());
+    rustc(&folder, &["-D", "warnings", "--extern", the_crate(), "main.rs"]);
+    let expected = "4247 4\n1-500 4247\nbox 4247\nslow speed 4247\n";
+    assert_eq!(output(&mut Command::new(folder.join("main"))), expected);
+}
+
+/// A program by both compilers, without a warning; what it prints, by either.
+fn compiled(folder: &Path, source: &str) -> String {
+    let mut printed = Vec::new();
+    for (compiler, standard, file) in
+        [("cc", "-std=c99", "main.c"), ("c++", "-std=c++11", "main.cpp")]
+    {
+        fs::write(folder.join(file), source).unwrap();
+        let program = folder.join("main");
+        let mut compile = Command::new(compiler);
+        compile.args([standard, "-pedantic", "-Wall", "-Wextra", "-Werror", "-o"]);
+        output(compile.arg(&program).arg(folder.join(file)));
+        printed.push(output(&mut Command::new(&program)));
+    }
+    assert_eq!(printed[0], printed[1]);
+    printed.remove(0)
+}
+
+/// C's statements that print the ticks of such a name, as [`line`] does.
+fn print_c(lower: &str, upper: &str, has_pulses: bool) -> String {
+    let pulse = match has_pulses {
+        true => format!(
+            "printf(\" %lu %lu\", (unsigned long){lower}_on[i], (unsigned long){lower}_off[i]);"
+        ),
+        false => String::new(),
+    };
+    format!(
+        "printf(\"%lu\\n\", (unsigned long){upper}_TIMER_HZ);
+        for (unsigned i = 0; i < {upper}_TRIGGERS; i++) {{
+            printf(\"%lu\", (unsigned long){lower}_ticks[i]);
+            {pulse}
+            printf(\"\\n\");
+        }}\n"
+    )
+}
+
+/// All scenes that ship in one file, each header twice, as headers come.
+#[test]
+fn c_compiles_in_one_file_and_holds_the_same_ticks() {
     let folder = folder("c");
-    for (name, plan) in plans() {
-        let text = emit(Form::C, &name, &plan);
-        fs::write(folder.join("scene.h"), &text).unwrap();
-        let pulse = match text.contains("shutter_on") {
+    let (mut includes, mut body, mut expected) = (String::new(), String::new(), String::new());
+    let mut plans = plans();
+    plans.sort_by(|a, b| a.0.cmp(&b.0));
+    for (name, plan) in &plans {
+        fs::write(folder.join(format!("{name}.h")), emit(Form::C, name, plan)).unwrap();
+        includes += &format!("#include \"{name}.h\"\n").repeat(2);
+        let lower = name.replace('-', "_");
+        let upper = lower.to_ascii_uppercase();
+        body += &print_c(&lower, &upper, plan.triggers[0].pulse.is_some());
+        let lines: String = plan.triggers.iter().map(line).collect();
+        expected += &format!("{}\n{lines}", plan.timer_hz);
+        if let Some(delay) = plan.delay {
+            body += &format!("printf(\"%lu\\n\", (unsigned long){upper}_DELAY_TICKS);\n");
+            expected += &format!("{}\n", delay.ticks);
+        }
+    }
+    assert!(plans.iter().any(|(_, plan)| plan.delay.is_some()));
+    let main = format!("{includes}#include <stdio.h>\nint main(void) {{\n{body}return 0;\n}}\n");
+    assert_eq!(compiled(&folder, &main), expected);
+}
+
+/// A header of the same name with other ticks would be left out in silence.
+#[test]
+fn two_different_headers_of_one_name_do_not_compile() {
+    let folder = folder("twice");
+    let text = include_str!("../scenes/box.toml");
+    let other = text.replace("triggers = 10", "triggers = 11");
+    assert_ne!(text, other);
+    for (file, text) in [("a.h", text), ("b.h", &other)] {
+        fs::write(folder.join(file), emit(Form::C, "box", &Plan::parse(text).unwrap())).unwrap();
+    }
+    fs::write(folder.join("main.c"), "#include \"a.h\"\n#include \"b.h\"\n").unwrap();
+    let compile =
+        Command::new("cc").arg("-fsyntax-only").arg(folder.join("main.c")).output().unwrap();
+    let err = String::from_utf8_lossy(&compile.stderr);
+    assert!(
+        !compile.status.success() && err.contains("two different schedules are called box"),
+        "{err}"
+    );
+}
+
+/// The speeds of a shutter: three exposures of the same leaves, on one timer.
+fn speeds(lines: &str) -> Vec<(String, Plan)> {
+    [("1-500", 2.0), ("box", 4.0), ("slow speed", 16.0)]
+        .map(|(name, length)| {
+            let text = format!(
+                "unit = 'ms'\nopen_start = 0\nopen_end = 0.5\nclose_start = {}\nclose_end = {}\n\
+                 triggers = {}\ntimer_hz = 1_000_000\nmin_gap = 0\n{lines}",
+                length - 0.5,
+                length,
+                2.0 * length
+            );
+            (name.to_string(), Plan::parse(&text).unwrap())
+        })
+        .into()
+}
+
+#[test]
+fn speeds_are_an_array_of_c() {
+    for (folder_name, keys, pulses) in
+        [("speeds", "delay = 4.247\n", false), ("lit", "duty = 0.3\n", true)]
+    {
+        let folder = folder(folder_name);
+        let plans = speeds(keys);
+        fs::write(folder.join("camera.h"), several(Form::C, "camera", &plans).unwrap()).unwrap();
+        // The same scene by itself is the same text.
+        let (name, plan) = &plans[2];
+        fs::write(folder.join("slow.h"), emit(Form::C, name, plan)).unwrap();
+        let delay = if pulses { "0" } else { "camera_speeds[s].delay_ticks" };
+        let pulse = match pulses {
             true => {
-                r#"printf(" %lu %lu", (unsigned long)shutter_on[i], (unsigned long)shutter_off[i]);"#
+                "printf(\" %lu %lu\", (unsigned long)camera_speeds[s].on[i], (unsigned long)camera_speeds[s].off[i]);"
             }
             false => "",
         };
-        // Twice, as headers come.
         let main = format!(
-            "#include \"scene.h\"
-            #include \"scene.h\"
-            #include <stdio.h>
+            "#include \"camera.h\"\n#include \"slow.h\"\n#include \"camera.h\"\n#include <stdio.h>
             int main(void) {{
-                printf(\"%lu\\n\", (unsigned long)SHUTTER_TIMER_HZ);
-                for (unsigned i = 0; i < sizeof shutter_ticks / sizeof *shutter_ticks; i++) {{
-                    printf(\"%lu\", (unsigned long)shutter_ticks[i]);
-                    {pulse}
-                    printf(\"\\n\");
+                for (unsigned s = 0; s < CAMERA_SPEEDS; s++) {{
+                    printf(\"%s %lu %lu\\n\", camera_speeds[s].name, (unsigned long)CAMERA_TIMER_HZ, (unsigned long){delay});
+                    for (unsigned i = 0; i < camera_speeds[s].triggers; i++) {{
+                        printf(\"%lu\", (unsigned long)camera_speeds[s].ticks[i]);
+                        {pulse}
+                        printf(\"\\n\");
+                    }}
                 }}
                 return 0;
             }}"
         );
-        fs::write(folder.join("main.c"), main).unwrap();
-        output(
-            Command::new("cc")
-                .args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-o"])
-                .arg(folder.join("main"))
-                .arg(folder.join("main.c")),
-        );
-        let lines: String = plan.triggers.iter().map(line).collect();
-        let expected = format!("{}\n{lines}", plan.timer_hz);
-        assert_eq!(output(&mut Command::new(folder.join("main"))), expected, "{name}");
+        let names = ["shutter_1_500", "box", "slow_speed"];
+        let expected = plans.iter().zip(names).map(|((_, plan), name)| {
+            let lines: String = plan.triggers.iter().map(line).collect();
+            format!("{name} 1000000 {}\n{lines}", plan.delay.map_or(0, |delay| delay.ticks))
+        });
+        assert_eq!(compiled(&folder, &main), expected.collect::<String>());
     }
+}
+
+#[test]
+fn speeds_that_do_not_go_together_are_refused() {
+    let both = |other: &str| {
+        let mut plans = speeds("delay = 1\n");
+        plans[1].1 = Plan::parse(other).unwrap();
+        [Form::Rust, Form::C].map(|form| several(form, "camera", &plans).unwrap_err())
+    };
+    let one =
+        "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\n";
+    for (lines, reason) in [
+        ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; an array is for one timer"),
+        (
+            "timer_hz = 1_000_000",
+            "delay: 1-500 has one and box has none; an array needs all or none",
+        ),
+        (
+            "timer_hz = 1_000_000\ndelay = 1\npulse = 0.1",
+            "pulses: one of 1-500 and box has them; an array needs all or none",
+        ),
+    ] {
+        assert_eq!(both(&format!("{one}{lines}")), [reason, reason]);
+    }
+    let mut plans = speeds("");
+    plans[1].0 = "Slow-Speed".into();
+    let reason = several(Form::C, "camera", &plans).unwrap_err();
+    assert_eq!(reason, "Slow-Speed and slow speed would both be called slow_speed");
+    assert!(several(Form::Pico, "camera", &plans).unwrap_err().contains("one scene"));
+}
+
+#[test]
+fn speeds_are_rows_and_objects() {
+    let plans = speeds("delay = 4.247\n");
+    let csv = several(Form::Csv, "camera", &plans).unwrap();
+    assert!(
+        csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks\n1-500,0,0.125,"),
+        "{csv}"
+    );
+    assert_eq!(csv.lines().count(), 1 + 4 + 8 + 32);
+    let json: serde_json::Value =
+        serde_json::from_str(&several(Form::Json, "camera", &plans).unwrap()).unwrap();
+    let scenes: Vec<_> = json.as_array().unwrap().iter().map(|scene| &scene["scene"]).collect();
+    assert_eq!(scenes, ["1-500", "box", "slow speed"]);
+    assert_eq!((&json[0]["delay_s"], &json[0]["delay_ticks"]), (&0.004247.into(), &4247.into()));
+}
+
+/// The board's own plan, of these lines, is judged in boards/pico.
+#[test]
+fn the_lines_for_the_pico_are_those_of_the_scene() {
+    let plan = |keys: &str| {
+        let text = include_str!("../scenes/measured.toml").replace("delay = 4.2470169", keys);
+        shutter::emit::emit(Form::Pico, "measured", &Plan::parse(&text).unwrap())
+    };
+    let curve = "curve 0.0042470167 0.006873907 0.010958795 0.0129576195 0.1227014 0.0005208 0.1941086 0.9329666 \
+                 0.8523011 0.9329666 0.9066354 0.0005208";
+    let first = format!("n 1\nframes 1\npulse 16ns\ngap 0ns\ndelay 0ns\n{curve}\n");
+    for (keys, last) in [
+        ("delay = 4.2470169", "delay 4247016ns\nn 16\npulse 2us\ngap 100000ns\n"),
+        ("delay = 0", "delay 0ns\nn 16\npulse 2us\ngap 100000ns\n"),
+        ("delay = 1\npulse = 0.2", "delay 900000ns\nn 16\npulse 200000ns\ngap 300000ns\n"),
+        ("delay = 1\nduty = 0.3", "delay 1000000ns\nn 16\nduty 0.3\ngap 100000ns\n"),
+    ] {
+        assert_eq!(plan(keys).unwrap(), first.clone() + last);
+    }
+    let none = include_str!("../scenes/measured.toml").replace("min_gap = 0.1", "min_gap = 0");
+    let none = shutter::emit::emit(Form::Pico, "x", &Plan::parse(&none).unwrap()).unwrap();
+    assert!(none.ends_with("\ngap 0ns\n"), "{none}");
+    assert!(
+        plan("delay = 0.09\npulse = 0.2")
+            .unwrap_err()
+            .contains("half a pulse is longer than the delay")
+    );
+    assert!(plan("").unwrap_err().contains("no delay from there to open_start"));
+    let far = plan("delay = 17_200").unwrap_err();
+    assert!(far.contains("17 s"), "{far}");
+    let many = include_str!("../scenes/strobe.toml").to_string() + "delay = 0\n";
+    let many = shutter::emit::emit(Form::Pico, "strobe", &Plan::parse(&many).unwrap()).unwrap_err();
+    assert!(many.contains("up to 64 pulses a frame, and the scene has 100"), "{many}");
 }
 
 /// A row of CSV, or a trigger of JSON.
@@ -137,19 +363,20 @@ fn c_compiles_as_c99_and_holds_the_same_ticks() {
 struct Row {
     index: usize,
     u: f32,
-    #[serde(alias = "time_s")]
-    time: f32,
+    time_s: f32,
     ticks: u32,
     gap_ticks: Option<u32>,
-    on: Option<u32>,
-    off: Option<u32>,
+    from_edge_ticks: Option<u32>,
+    on_ticks: Option<u32>,
+    off_ticks: Option<u32>,
 }
 
 fn assert_same(name: &str, plan: &Plan, rows: &[Row]) {
     assert_eq!(rows.len(), plan.triggers.len(), "{name}");
     for (i, (row, trigger)) in rows.iter().zip(&plan.triggers).enumerate() {
-        let read =
-            Trigger { u: row.u, time: row.time, ticks: row.ticks, pulse: row.on.zip(row.off) };
+        let pulse = row.on_ticks.zip(row.off_ticks);
+        let read = Trigger { u: row.u, time: row.time_s, ticks: row.ticks, pulse };
+        assert_eq!(row.from_edge_ticks, plan.from_edge(row.ticks), "{name}");
         assert_eq!((row.index, read), (i, *trigger), "{name}");
     }
 }
@@ -161,8 +388,10 @@ fn csv_parses_and_holds_the_same_numbers() {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let header: Vec<_> = reader.headers().unwrap().iter().map(String::from).collect();
         let pulses = plan.triggers[0].pulse.is_some();
-        let names = ["index", "u", "time_s", "ticks", "gap_ticks", "on", "off"];
-        assert_eq!(header, names[..if pulses { 7 } else { 5 }], "{name}");
+        let mut names = vec!["index", "u", "time_s", "ticks", "gap_ticks"];
+        names.extend(plan.delay.map(|_| "from_edge_ticks"));
+        names.extend(if pulses { vec!["on_ticks", "off_ticks"] } else { vec![] });
+        assert_eq!(header, names, "{name}");
         let rows: Vec<Row> = reader.into_deserialize().map(Result::unwrap).collect();
         assert_same(&name, &plan, &rows);
         let gaps = rows.iter().map(|row| row.gap_ticks);
@@ -174,9 +403,11 @@ fn csv_parses_and_holds_the_same_numbers() {
 struct Document {
     scene: String,
     timer_hz: u32,
-    opening: f32,
-    half_open: f32,
-    exposure: f32,
+    delay_s: Option<f64>,
+    delay_ticks: Option<u32>,
+    opening_s: f32,
+    half_open_s: f32,
+    exposure_s: f32,
     efficiency: f32,
     direct_triggers: u32,
     delta_ev: Option<f32>,
@@ -188,10 +419,12 @@ fn json_parses_and_holds_the_same_numbers() {
     for (name, plan) in plans() {
         let document: Document = serde_json::from_str(&emit(Form::Json, &name, &plan)).unwrap();
         assert_eq!((document.scene, document.timer_hz), (name.clone(), plan.timer_hz));
-        assert_eq!(document.exposure, plan.curve.exposure());
+        assert_eq!(document.exposure_s, plan.curve.exposure());
         assert_eq!(document.efficiency, plan.curve.efficiency());
-        assert!(document.opening >= 0.0 && document.half_open > 0.0);
+        assert!(document.opening_s >= 0.0 && document.half_open_s > 0.0);
         assert_eq!(document.direct_triggers, plan.curve.direct_triggers());
+        let delay = document.delay_s.zip(document.delay_ticks);
+        assert_eq!(delay, plan.delay.map(|delay| (delay.seconds, delay.ticks)));
         assert_eq!(document.delta_ev.is_some(), plan.nominal.is_some());
         assert_same(&name, &plan, &document.triggers);
     }
@@ -205,7 +438,11 @@ fn no_name_breaks_a_form() {
     let [rust, c] = [Form::Rust, Form::C].map(|form| emit(form, name, &plan));
     assert!(rust.contains("\n// scene        *_ _#error _\"\\\n"), "{rust}");
     assert!(c.contains("\n * scene        *_ _#error _\"\\\n"), "{c}");
-    assert!(c.contains("\n#define SHUTTER______ERROR_____H\n"), "{c}");
+    assert!(
+        c.contains("\n#ifndef ERROR_SCHEDULE_H\n")
+            && c.contains(" error_ticks[ERROR_TRIGGERS] = {"),
+        "{c}"
+    );
     let json: serde_json::Value = serde_json::from_str(&emit(Form::Json, name, &plan)).unwrap();
     assert_eq!(json["scene"], name);
 }

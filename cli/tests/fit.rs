@@ -172,7 +172,8 @@ fn broken_rows_are_told_with_their_line_and_left_out() {
     let text = String::from("time_s,v\n") + &rows(&trace, row);
     let (fit, warnings) = through(&text, &trace::Options::default());
     let reason = "the value is NaN".into();
-    assert_eq!(warnings, [Warning::BrokenRows { count: 5, line: 302, reason }]);
+    let overload = Warning::Overload { count: 1, line: 308 };
+    assert_eq!(warnings, [Warning::BrokenRows { count: 4, line: 302, reason }, overload]);
     is_the_trapezoid(&fit);
 }
 
@@ -257,7 +258,7 @@ fn what_is_doubtful_is_told() {
 
     let bounces = sampled(|t| trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2)), 1500, 0.003);
     let bounces = fitted(&bounces, &options).unwrap();
-    assert!(told(&bounces, |w| matches!(w, Warning::PoorFit { .. } | Warning::Hum { .. })));
+    assert!(told(&bounces, |w| matches!(w, Warning::Misfit { .. })));
 }
 
 #[test]
@@ -344,6 +345,28 @@ fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
     // Where the shots are lost in noise, the simplest serves as well as any.
     let noisy = fitted(&frames(0.08), &Options::default()).unwrap();
     assert!(noisy.chosen <= Kind::Symmetric, "{:?}", noisy.chosen);
+}
+
+/// The gaps between shots are no part of their sampling, however long they are.
+#[test]
+fn shots_an_hour_apart_are_as_good_as_shots_side_by_side() {
+    let one = sampled(trapezoid, 900, 0.005);
+    let at = |apart: f64| {
+        let mut trace = Trace::default();
+        for k in 0..3 {
+            trace.times.extend(one.times.iter().map(|t| t + apart * f64::from(k)));
+            trace.values.extend(&one.values);
+        }
+        fitted(&trace, &Options::default()).unwrap()
+    };
+    let near = at(0.012);
+    for apart in [0.1, 10.0, 3600.0] {
+        let far = at(apart);
+        assert_eq!((far.frames.count, far.chosen), (3, near.chosen), "{apart} s");
+        let [a, b] = [near.exposure, far.exposure];
+        assert!((a.value / b.value - 1.0).abs() < 2e-4, "{apart} s: {b:?}");
+        assert!(b.error < 1.3 * a.error, "{apart} s: {b:?}, {a:?}");
+    }
 }
 
 #[test]
@@ -675,6 +698,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
     let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
+    // Its oscilloscope was triggered by the sync.
     let scene = fit.scene("leaf.csv", Zero::Trace).unwrap().text;
     let fitted = Plan::parse(&scene).unwrap();
     // The same with the timer of the board and what the lamp needs, which a user fills in.
@@ -684,7 +708,15 @@ fn from_a_trace_to_the_firmwares_module() {
     for (fitted, kept) in fitted.triggers.iter().zip(&kept.triggers) {
         assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value as f32);
     }
-    let module = shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept);
+    // Its oscilloscope was triggered by the camera's sync.
+    let (trace, _) = trace::read(&read("traces/leaf.csv"), &trace::Options::default()).unwrap();
+    let options = Options { sync: Some(0.0), ..Options::default() };
+    let synced = shutter::fit::fit(&trace, &options, &mut |_| ()).unwrap();
+    let synced = Plan::parse(&synced.scene("leaf.csv", Zero::Trace).unwrap().text).unwrap();
+    let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
+    assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
+    assert_eq!(text, read("../boards/c/speeds/leaf.toml"));
+    let module = shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept).unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 
     let report = shutter::fit::text("leaf.csv", &fit);
@@ -692,6 +724,114 @@ fn from_a_trace_to_the_firmwares_module() {
     let (_, shown) = readme.split_once("```text\n").expect("the README shows the report");
     for line in shown.lines().take_while(|line| *line != "```") {
         assert!(report.lines().any(|printed| printed == line), "{line}\n{report}");
+    }
+}
+
+/// The edge of the sync is where the trace's time is told to be, whatever the scene's time 0.
+#[test]
+fn the_delay_from_the_sync_is_measured() {
+    let dir = empty_dir("sync");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
+    let csv = written(&dir, "leaf.csv", &text);
+    let toml = dir.join("leaf.toml").to_str().unwrap().to_string();
+    let (read, _) = through(&text, &trace::Options::default());
+    let start = read.best().signal.curve.start;
+    assert!(start > 0.0005 && read.delay.is_none());
+    for (sync, at, zero) in
+        [("0", 0.0, "trace"), ("0.4ms", 4e-4, "open"), ("-1e-3s", -1e-3, "open")]
+    {
+        let run = run(&[&csv, "--out", &toml, "--sync", sync, "--zero", zero]);
+        assert_eq!((run.code, run.err.as_str()), (0, ""));
+        assert!(
+            run.out
+                .lines()
+                .any(|line| line.starts_with("delay        ")
+                    && line.contains(" ms to the opening, ± ")),
+            "{}",
+            run.out
+        );
+        assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
+        let plan = Plan::parse(&fs::read_to_string(&toml).unwrap()).unwrap();
+        assert!((plan.delay.unwrap().seconds - (start - at)).abs() < 1e-9, "{sync}");
+    }
+    // What is not known is not made up.
+    assert!(run(&[&csv]).out.contains("\n# delay = ? # "));
+    for (args, reason) in [
+        (["--sync", "5"], "write a time as in 0, 1.5ms"),
+        (["--sync", "infs"], "write a time as in 0, 1.5ms"),
+        (["--sync", "1s"], "--sync: the shutter opens "),
+    ] {
+        let run = run(&[&[csv.as_str()], args.as_slice()].concat());
+        assert!(run.code == 2 && run.out.is_empty() && run.err.contains(reason), "{}", run.err);
+    }
+}
+
+/// The pulse that an edge belongs to is the one that follows it.
+#[test]
+fn a_delay_to_a_later_pulse_is_refused() {
+    let dir = empty_dir("later");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let length = trace.times[trace.times.len() - 1] - trace.times[0];
+    let mut text = String::from("time_s,v\n");
+    for i in 0..2 {
+        text += &rows(&trace, |t, v| format!("{:.6},{v:.5}", t + f64::from(i) * 1.01 * length));
+    }
+    let csv = written(&dir, "two.csv", &text);
+    let two = run(&[&csv, "--frame", "2", "--sync", "0"]);
+    assert!(
+        two.code == 2
+            && two
+                .err
+                .contains("--sync: the edge of the sync is followed by pulse 1 first: --frame 1"),
+        "{}",
+        two.err
+    );
+    assert_eq!(run(&[&csv, "--frame", "1", "--sync", "0"]).code, 0);
+    let after = format!("{:.6}s", length);
+    assert_eq!(run(&[&csv, "--frame", "2", "--sync", &after]).code, 0);
+}
+
+/// The speeds of a shutter: what each is called, what it is, by how much it is off, and the scenes of all.
+#[test]
+fn several_traces_are_a_table() {
+    let dir = empty_dir("speeds");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = |slower: f64| {
+        String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{:.7},{v:.5}", slower * t))
+    };
+    let [slow, fast] = [("slow", 2.0), ("fast", 1.0)]
+        .map(|(name, slower)| written(&dir, &format!("{name}.csv"), &text(slower)));
+    let folder = dir.to_str().unwrap();
+    let both = run(&[&slow, &fast, "--nominal", "10ms,1/250", "--out", folder, "--sync", "0"]);
+    assert_eq!((both.code, both.err.as_str()), (0, ""));
+    let row =
+        |name: &str| both.out.lines().find(|line| line.starts_with(name)).unwrap().to_string();
+    assert!(
+        row("slow.csv").contains(" 10 ms ") && row("slow.csv").contains("0.000"),
+        "{}",
+        both.out
+    );
+    // 5 ms where 4 ms are said: log2(5/4).
+    assert!(
+        row("fast.csv").contains(" 4 ms ") && row("fast.csv").contains("+0.32"),
+        "{}",
+        both.out
+    );
+    assert!(row("fast.csv").contains(" ± ") && row("fast.csv").contains("straight ramps"));
+    let plans = ["slow.toml", "fast.toml"]
+        .map(|name| Plan::parse(&fs::read_to_string(dir.join(name)).unwrap()).unwrap());
+    assert_eq!(plans[0].nominal.zip(plans[1].nominal), Some((0.010, 0.004)));
+    assert!(plans.iter().all(|plan| plan.delay.is_some()));
+    for (args, reason) in [
+        (vec![&*slow, &fast, "--nominal", "10ms"], "--nominal: 1 speeds for 2 traces"),
+        (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
+        (vec![&slow, &fast, "--picture", "no.svg"], "a picture is of one trace"),
+        (vec![&slow, &slow, "--out", folder], "two traces would both be written to "),
+        (vec![&slow, "missing.csv"], "missing.csv: "),
+    ] {
+        let run = run(&args);
+        assert!(run.code == 2 && run.out.is_empty() && run.err.contains(reason), "{}", run.err);
     }
 }
 
@@ -716,5 +856,41 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
         let time = f64::from(trigger.ticks) / f64::from(plan.timer_hz);
         let share = light(f64::from(plan.curve.open_start()) + time) / light(1.0);
         assert!((share - f64::from(trigger.u)).abs() < 5e-4, "{trigger:?}: {share}");
+    }
+}
+
+/// One object whose names and codes stay as they are, with what the report says.
+#[test]
+fn a_program_reads_json() {
+    let dir = empty_dir("json");
+    let bounces = |t: f64| trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2));
+    for (name, trace, from) in [
+        ("model", sampled(trapezoid, 1200, 0.005), "model"),
+        ("trace", sampled(bounces, 1500, 0.003), "trace"),
+    ] {
+        let text = String::from("time,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
+        let csv = written(&dir, &format!("{name}.csv"), &text);
+        let run = run(&[&csv, "--report", "json", "--triggers", "5"]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+        assert_eq!(json["triggers_from"], from);
+        assert_eq!(json["fit"]["explained"], from == "model");
+        assert_eq!(json["columns"]["signal"], 2);
+        assert_eq!(json["triggers"].as_array().unwrap().len(), 5);
+        assert!(json["triggers"][4]["time_s"].as_f64().unwrap() < 0.009);
+        for key in ["exposure_error_s", "efficiency", "efficiency_error", "opens_s"] {
+            assert!(json[key].as_f64().is_some(), "{key}: {json}");
+        }
+        if from == "model" {
+            assert!((json["exposure_s"].as_f64().unwrap() - 0.005).abs() < 5e-6);
+        }
+        let codes: Vec<&str> = json["warnings"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|w| w["code"].as_str().unwrap())
+            .collect();
+        assert!(codes.contains(&"unit_assumed"), "{codes:?}");
+        assert_eq!(codes.contains(&"misfit"), from == "trace", "{codes:?}");
     }
 }

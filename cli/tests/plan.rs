@@ -105,12 +105,12 @@ fn a_form_is_all_that_is_printed() {
         {
             let run = run([&scene, Path::new("--emit"), Path::new(name)]);
             assert_eq!((run.code, run.err.as_str()), (0, ""), "{scene_name}");
-            assert_eq!(run.out, emit(form, scene_name, &plan));
+            assert_eq!(run.out, emit(form, scene_name, &plan).unwrap());
         }
     }
     let run = run([Path::new("--emit"), Path::new("pascal")]);
     assert_eq!((run.code, run.out.as_str()), (2, ""));
-    assert!(run.err.contains("[possible values: rust, c, csv, json]"), "{}", run.err);
+    assert!(run.err.contains("[possible values: rust, c, csv, json, pico]"), "{}", run.err);
 }
 
 /// And so they show the crate as it is. `cargo run -- plan --out docs/curve.svg --set-ups docs/set-ups.svg` draws them.
@@ -500,6 +500,132 @@ fn a_unit_scales_all_times() {
     assert!(err.contains(&format!("bad.toml:9: {reason}")), "{err}");
 }
 
+/// Everything that is asked of a delay: it is printed, counted from, drawn, and checked.
+#[test]
+fn a_delay_is_counted_from_the_edge_of_the_sync() {
+    let dir = empty_dir("delay");
+    let (file, picture) = (dir.join("late.toml"), dir.join("late.svg"));
+    for (unit, factor) in [("s", 1.0), ("ms", 1e3)] {
+        let times = [0.25, 0.75, 1.0].map(|time| time * factor);
+        let text = format!(
+            "unit = \"{unit}\"\nopen_start = 0\nopen_end = {}\nclose_start = {}\nclose_end = {}\n\
+             triggers = 3\ntimer_hz = 1000\nmin_gap = 0\ndelay = {}\n",
+            times[0],
+            times[1],
+            times[2],
+            0.125 * factor
+        );
+        fs::write(&file, text).unwrap();
+        let run = run([&file, Path::new("--out"), &picture]);
+        assert_eq!(run.err, "");
+        let fact = format!(
+            "delay        {} {unit} from the sync's edge to the start of opening: 125 ticks\n",
+            0.125 * factor
+        );
+        assert!(run.out.contains(&fact), "{}", run.out);
+        assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
+        // The third column counts from the opening, the fourth from the edge.
+        let rows = table(&run.out);
+        let columns = |i: usize| rows.iter().map(move |row| row[i].parse::<u32>().unwrap());
+        assert!(columns(3).eq([250, 500, 750]), "{}", run.out);
+        assert!(columns(4).eq([375, 625, 875]), "{}", run.out);
+        let svg = fs::read_to_string(&picture).unwrap();
+        assert!(svg.contains("\nsync\n") || svg.contains(">sync<"), "the edge is drawn");
+        assert!(svg.contains(&format!("delay {} {unit}", 0.125 * factor)), "and the delay");
+    }
+    // An edge far before the curve would squeeze it: it is told, not drawn to scale.
+    fs::write(&file, with("min_gap", "0\ndelay = 100")).unwrap();
+    assert_eq!(run([&file, Path::new("--out"), &picture]).err, "");
+    assert!(fs::read_to_string(&picture).unwrap().contains("sync 100 s before"));
+    // Without one, that is said.
+    fs::write(&file, GOOD).unwrap();
+    let out = run([&file]).out;
+    assert!(
+        out.contains("delay        none known: ticks count from the start of opening"),
+        "{out}"
+    );
+    assert!(!out.contains("from edge"));
+}
+
+#[test]
+fn a_delay_that_cannot_be_is_an_error() {
+    let dir = empty_dir("wrong_delay");
+    let late = |delay: &str| format!("{GOOD}delay = {delay}\n");
+    let at = Some(GOOD.lines().count() + 1);
+    let negative = "delay: 0 or more is required; an edge cannot trigger what comes before it";
+    fails(&dir, &late("-1e-9"), at, negative);
+    for number in ["nan", "inf", "-inf"] {
+        fails(&dir, &late(number), at, "delay: a finite number is required");
+    }
+    fails(&dir, &late("\"soon\""), at, "a number is required");
+    // The frame takes 1000 ticks of 1 kHz; 2^31 - 1000 are left for the delay.
+    let far = "delay: the frame ends more than 2^31 ticks after the edge; with up to 2147482648 ticks of delay it does not";
+    fails(&dir, &late("2147482.6486"), at, far);
+    fails(&dir, &late("1e300"), at, far);
+    let plan = Plan::parse(&late("2147482.648")).unwrap();
+    assert_eq!(plan.from_edge(1000), Some(1 << 31));
+    // As good as none, and no sign of its zero is kept.
+    let none = Plan::parse(&late("-0.0")).unwrap().delay.unwrap();
+    assert!(none.ticks == 0 && none.seconds.is_sign_positive());
+}
+
+/// The speeds of a shutter: what a tester's list has, or one text of them all.
+#[test]
+fn several_scenes_are_a_table_or_one_text() {
+    let dir = empty_dir("speeds");
+    let [slow, fast] = ["slow", "fast"].map(|name| dir.join(name).with_extension("toml"));
+    fs::write(&slow, format!("{GOOD}nominal = 0.75\ndelay = 0.5\n")).unwrap();
+    fs::write(&fast, format!("{GOOD}nominal = 0.375\ndelay = 0.5\n")).unwrap();
+    let both = run([&slow, &fast]);
+    assert_eq!((both.code, both.err.as_str()), (0, ""));
+    let expected = "\
+scene  nominal  exposure TV    ΔEV  efficiency  delay  triggers
+slow    750 ms       750 ms  +0.00        75 %  500 ms    7 of 7
+fast    375 ms       750 ms  +1.00        75 %  500 ms    7 of 7
+";
+    let words = |text: &str| text.split_whitespace().map(String::from).collect::<Vec<_>>();
+    assert_eq!(
+        words(
+            &both
+                .out
+                .replace("0.75 s", "750 ms")
+                .replace("0.375 s", "375 ms")
+                .replace("0.5 s", "500 ms")
+        ),
+        words(expected),
+        "{}",
+        both.out
+    );
+    let header = run([
+        &slow,
+        &fast,
+        Path::new("--emit"),
+        Path::new("c"),
+        Path::new("--name"),
+        Path::new("my camera"),
+    ]);
+    assert!(
+        header.out.contains("static const my_camera_speed my_camera_speeds[MY_CAMERA_SPEEDS] = {"),
+        "{}",
+        header.err
+    );
+    let named =
+        run([&slow, Path::new("--emit"), Path::new("c"), Path::new("--name"), Path::new("leaf")]);
+    assert!(named.out.contains("leaf_ticks[LEAF_TRIGGERS]"));
+    let picture = dir.join("no.svg");
+    let drawn = run([&slow, &fast, Path::new("--out"), &picture]);
+    assert_eq!((drawn.code, drawn.err.as_str()), (2, "error: a picture is of one scene\n"));
+    assert!(!picture.exists());
+    // One that is wrong is named, and nothing is printed.
+    fs::write(&fast, without("min_gap")).unwrap();
+    let wrong = run([&slow, &fast]);
+    assert!(
+        wrong.out.is_empty() && wrong.err.contains("fast.toml: missing field"),
+        "{}",
+        wrong.err
+    );
+}
+
 #[test]
 fn facts_of_a_trapezoid_are_those_of_its_geometry() {
     let file = empty_dir("facts").join("good.toml");
@@ -756,7 +882,9 @@ fn a_picture_is_named_svg() {
 fn help_is_no_error() {
     let run = run([Path::new("--help")]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    assert!(run.out.contains("Usage: shutter plan [OPTIONS] [SCENE]") && run.out.ends_with("')\n"));
+    assert!(
+        run.out.contains("Usage: shutter plan [OPTIONS] [SCENES]...") && run.out.ends_with("')\n")
+    );
 }
 
 /// Takes nothing.

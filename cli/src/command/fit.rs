@@ -13,7 +13,7 @@ use super::output::{print, svg_path, write_whole};
 use crate::fit::{self, Fit, Kind, Options, Tolerance, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
-use crate::trace::{self, Column, Light, Refusal, Trace, Warning};
+use crate::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
 use crate::unit::Unit;
 
 /// Without progress for so long, nobody waits for any.
@@ -26,16 +26,22 @@ const LONGEST: u64 = 1 << 28;
 /// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
 /// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
 /// written.
-#[derive(clap::Args)]
+#[derive(clap::Args, Clone)]
 pub struct Args {
     /// The trace
-    trace: PathBuf,
-    /// Write the scene to this file, for `shutter plan`
+    pub(super) trace: PathBuf,
+    /// Other traces, of other speeds: a table of them all instead of the report
+    #[arg(value_name = "TRACE")]
+    pub(super) others: Vec<PathBuf>,
+    /// What each trace's speed is called, in their order: 1/250, 4ms
+    #[arg(long, value_name = "TIME,...", value_delimiter = ',', value_parser = speed)]
+    pub(super) nominal: Vec<f64>,
+    /// Write the scene to this file, for `shutter plan`; of several traces, a folder of them
     #[arg(long, value_name = "SCENE.toml")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Write the picture to this file: trace, curve, residual, triggers
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
-    picture: Option<PathBuf>,
+    pub(super) picture: Option<PathBuf>,
     /// The unit of the times, where the header does not tell
     #[arg(long)]
     unit: Option<Unit>,
@@ -63,9 +69,24 @@ pub struct Args {
     /// How many triggers
     #[arg(long, value_name = "N", default_value_t = Options::TRIGGERS, value_parser = trigger_count())]
     triggers: u32,
+    /// When the edge of the camera's sync comes, in the trace: 0, 1.5ms; the scene has the delay from there to the opening
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    sync: Option<f64>,
+    /// The report's form; `json` is one object, whose names stay as they are
+    #[arg(long, default_value = "text")]
+    report: Report,
     /// Where the scene's time 0 is
     #[arg(long, default_value = "trace")]
-    zero: Zero,
+    pub(super) zero: Zero,
+}
+
+/// The form of what goes to standard output.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Report {
+    /// For a reader
+    Text,
+    /// For a program
+    Json,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -96,10 +117,46 @@ fn tolerance(text: &str) -> Result<Tolerance, String> {
     Ok(Tolerance::Seconds(unit.seconds(number)))
 }
 
+/// A time in seconds, written with its unit; 0 needs none.
+fn time(text: &str) -> Result<f64, String> {
+    let wrong = || "write a time as in 0, 1.5ms, -20us, 2e-5s".to_string();
+    let text = text.trim();
+    let is_unit = |c: char| c.is_alphabetic() && c != 'e';
+    let (number, unit) = text.split_at(text.find(is_unit).unwrap_or(text.len()));
+    let number: f64 = number.trim().parse().map_err(|_| wrong())?;
+    match Unit::from_str(unit, false) {
+        _ if unit.is_empty() && number == 0.0 => Ok(0.0),
+        Ok(unit) if number.is_finite() => Ok(unit.seconds(number)),
+        _ => Err(wrong()),
+    }
+}
+
+/// What a speed is called: a part of a second, or a time.
+fn speed(text: &str) -> Result<f64, String> {
+    let seconds = match text.trim().strip_prefix("1/") {
+        Some(number) => {
+            number.parse::<f64>().map(|number| 1.0 / number).map_err(|e| e.to_string())?
+        }
+        None => time(text)?,
+    };
+    if seconds > 0.0 && seconds.is_finite() {
+        return Ok(seconds);
+    }
+    Err("write a speed as in 1/250, 4ms".into())
+}
+
+impl Args {
+    /// Is a table asked for?
+    pub fn is_many(&self) -> bool {
+        !(self.others.is_empty() && self.nominal.is_empty())
+    }
+}
+
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
     let refused = |reason: String| format!("{}: {reason}", args.trace.display());
-    let (trace, mut warnings) = read(args).map_err(refused)?;
-    let fit = fitted(&trace, args).map_err(|refusal| refused(refusal.to_string()))?;
+    let Recording { trace, reading, mut warnings } = read(args).map_err(refused)?;
+    let mut fit = fitted(&trace, args).map_err(|refusal| refused(refusal.to_string()))?;
+    fit.reading = Some(reading);
     warnings.extend(fit.warnings.iter().cloned());
 
     let name = args.trace.file_name().unwrap_or_default().to_string_lossy();
@@ -119,6 +176,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         // There is no one to tell if standard error cannot be written.
         let _ = writeln!(err, "warning: {warning}");
     }
+    if args.report == Report::Json {
+        return print(out, &fit::json(&name, &fit, &warnings));
+    }
     let mut report = fit::text(&name, &fit);
     if args.out.is_none() {
         report += &format!("\nThe scene, which --out SCENE.toml writes:\n\n{}", scene.text);
@@ -126,8 +186,16 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     print(out, &report)
 }
 
-/// The trace, and what is doubtful about its file.
-fn read(args: &Args) -> Result<(Trace, Vec<Warning>), String> {
+/// The fit of the trace, and what is doubtful about it.
+pub(super) fn measure(args: &Args) -> Result<(Fit, Vec<Warning>), String> {
+    let Recording { trace, mut warnings, .. } = read(args)?;
+    let fit = fitted(&trace, args).map_err(|refusal| refusal.to_string())?;
+    warnings.extend(fit.warnings.iter().cloned());
+    Ok((fit, warnings))
+}
+
+/// The trace, how it was read, and what is doubtful about its file.
+fn read(args: &Args) -> Result<Recording, String> {
     let mut bytes = Vec::new();
     // No more than that, whatever the file says of its size: a device may have no end.
     let file = File::open(&args.trace).map_err(|e| e.to_string())?;
@@ -137,8 +205,7 @@ fn read(args: &Args) -> Result<(Trace, Vec<Warning>), String> {
     }
     let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
     let options = trace::Options { unit: args.unit, columns, rate: args.rate };
-    let text = trace::decode(&bytes).map_err(|refusal| refusal.to_string())?;
-    trace::read(&text, &options).map_err(|refusal| refusal.to_string())
+    trace::open(&bytes, &options).map_err(|refusal| refusal.to_string())
 }
 
 /// The fit, with a bar for whoever waits for it.
@@ -150,6 +217,7 @@ fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
         frame: args.frame,
         light: args.light,
         triggers: args.triggers,
+        sync: args.sync,
     };
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {

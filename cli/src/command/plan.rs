@@ -1,4 +1,4 @@
-//! `shutter plan`: a scene file in, a checked list of trigger times out, with a picture of it.
+//! `shutter plan`: scene files in, checked lists of trigger times out, with a picture of one.
 
 use std::error::Error;
 use std::fs;
@@ -8,16 +8,18 @@ use std::path::{Path, PathBuf};
 use super::output::{print, svg_path, write_whole};
 use crate::emit::Form;
 use crate::plan::Plan;
-use crate::{emit, picture, report};
+use crate::{emit, picture, report, speeds};
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
 
 /// Plan a shutter's triggers, each in the middle of an equal share of the exposure
+///
+/// Several scenes are the speeds of a shutter: a table of them, or one text with an array of all.
 #[derive(clap::Args, Default)]
 pub struct Args {
-    /// The scene, as in cli/scenes; a soft shutter if left out
-    scene: Option<PathBuf>,
+    /// The scenes, as in cli/scenes; a soft shutter if left out
+    scenes: Vec<PathBuf>,
     /// Write the picture to this file
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     out: Option<PathBuf>,
@@ -27,14 +29,26 @@ pub struct Args {
     /// Print this form alone
     #[arg(long, value_name = "FORM")]
     emit: Option<Form>,
+    /// What it is called; the scene's file name, or `shutter` for several, if left out
+    #[arg(long)]
+    name: Option<String>,
+}
+
+pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
+    match args.scenes.as_slice() {
+        [] => one(args, DEFAULT.0.into(), checked(DEFAULT.0, DEFAULT.1)?, out),
+        [path] => one(args, stem(path), read(path)?, out),
+        paths => several(args, paths, out),
+    }
 }
 
 type Draw = fn(&str, &Plan) -> Result<String, Box<dyn Error>>;
 
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
-    let (name, plan) = match &args.scene {
-        Some(path) => (stem(path), read(path)?),
-        None => (DEFAULT.0.into(), checked(DEFAULT.0, DEFAULT.1)?),
+fn one(args: &Args, name: String, plan: Plan, out: &mut dyn Write) -> Result<(), String> {
+    let name = args.name.clone().unwrap_or(name);
+    let text = match args.emit {
+        Some(form) => emit::emit(form, &name, &plan)?,
+        None => report::text(&name, &plan),
     };
     let draw = |path: &Option<PathBuf>, draw: Draw| match path {
         Some(path) => {
@@ -44,9 +58,19 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
     };
     draw(&args.out, picture::svg)?;
     draw(&args.set_ups, picture::set_ups)?;
+    print(out, &text)
+}
+
+fn several(args: &Args, paths: &[PathBuf], out: &mut dyn Write) -> Result<(), String> {
+    if args.out.is_some() || args.set_ups.is_some() {
+        return Err("a picture is of one scene".into());
+    }
+    let plans = paths.iter().map(|path| Ok((stem(path), read(path)?)));
+    let plans = plans.collect::<Result<Vec<_>, String>>()?;
+    let name = args.name.as_deref().unwrap_or("shutter");
     let text = match args.emit {
-        Some(form) => emit::emit(form, &name, &plan),
-        None => report::text(&name, &plan),
+        Some(form) => emit::several(form, name, &plans)?,
+        None => speeds::text(&plans),
     };
     print(out, &text)
 }

@@ -1,7 +1,7 @@
 //! A frame's samples as means over intervals: each sample owns the time to its neighbours' midpoints, and where there are
 //! many of them, several share an interval, fewer on the ramps than elsewhere.
 
-use crate::trace::{Crossings, Trace};
+use crate::trace::{Crossings, Trace, sampling_interval};
 
 /// More samples than this share intervals.
 const MOST: usize = 800;
@@ -37,9 +37,7 @@ impl Bin {
 pub fn each(samples: &Trace) -> Vec<Bin> {
     let Trace { times, values } = samples;
     let n = times.len();
-    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let middle = (n - 1) / 2;
-    let usual = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = sampling_interval(times);
     // Across a gap no sample owns more than the usual step: nothing is known of the rest.
     let reach = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
     (0..n)

@@ -4,6 +4,7 @@ use super::frame::FrameFits;
 use super::outcome::{Candidate, Options, Reason, Tolerance};
 use super::shots::Shots;
 use super::signal::Kind;
+use super::structure::structure;
 
 /// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter.
 const WITHIN: f64 = 1.1;
@@ -53,9 +54,20 @@ pub fn choose(
     }
     if let Some(Shots { count, scatter, .. }) = shots {
         let meets = |error: f64| error <= WITHIN * scatter;
-        let kind = simplest(&|candidate| candidate.left_out.is_some_and(meets));
-        return (kind, Reason::Shots { shots: *count, scatter: *scatter });
+        let (shots, scatter) = (*count, *scatter);
+        let found = candidates.iter().find(|candidate| candidate.left_out.is_some_and(meets));
+        return match found {
+            Some(candidate) => (candidate.signal.kind, Reason::Shots { shots, scatter }),
+            None => (Kind::Free, Reason::NoKind { shots, scatter }),
+        };
     }
     let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
-    (kind, Reason::Criterion { effective: fits.effective() })
+    if structure(fits, kind).explained {
+        return (kind, Reason::Criterion { effective: fits.effective() });
+    }
+    let freer = Kind::ALL.into_iter().filter(|freer| *freer > kind);
+    match freer.into_iter().find(|freer| structure(fits, *freer).explained) {
+        Some(freer) => (freer, Reason::Explains),
+        None => (kind, Reason::Criterion { effective: fits.effective() }),
+    }
 }

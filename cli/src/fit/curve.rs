@@ -146,6 +146,11 @@ impl Exposure {
         [opening * self.ramps[0].reaches(openness), closing * self.ramps[1].reaches(openness)]
     }
 
+    /// The mean openness over an interval.
+    pub fn mean(&self, from: f64, to: f64) -> f64 {
+        (self.collected(to).amount - self.collected(from).amount) / (to - from)
+    }
+
     /// All that is collected, and how it moves with each parameter.
     pub fn whole(&self) -> Collected {
         // After the end, wherever that is.

@@ -1,26 +1,25 @@
 //! What is doubtful about a fit: each doubt looks at the fit by itself, and is told or not.
 
+use super::bins::Bin;
 use super::frame::FrameFits;
-use super::outcome::Fit;
-use crate::trace::{Frame, Pulses, Warning};
+use super::outcome::{Fit, From, Test};
+use super::signal::Kind;
+use super::structure::{Parts, Walk, missed};
+use crate::trace::{Frame, Warning};
 
 /// All doubts about the fit of a frame.
-pub fn doubts(
-    fit: &Fit,
-    fits: &FrameFits,
-    pulses: &Pulses,
-    frame: &Frame,
-    full_is_given: bool,
-) -> Vec<Warning> {
+pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
     // The sampling interval in seconds.
     let step = fits.step * fits.units.pulse();
     let doubts = [
-        clipped(fit),
+        clipped(fit).or_else(|| saturated(fit, fits)),
         hum(fit),
+        flicker(fit),
+        cut_tail(fit, fits),
         drift(fit),
         lost_ramps(fit, fits.correlation, frame, step),
         if full_is_given { None } else { no_plateau(fit, step) },
-        poor_fit(fit, fits, pulses),
+        misfit(fit),
     ];
     doubts.into_iter().flatten().collect()
 }
@@ -41,10 +40,66 @@ fn clipped(fit: &Fit) -> Option<Warning> {
         .then_some(Warning::Clipped { share, at: fit.as_measured(top) })
 }
 
+/// Next to no noise in full light, where the dark has some: an amplifier at its end passes none.
+fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let parts = Parts::new(fits, fit.chosen);
+    let [_, open, close, _] = fits.exposure(fit.chosen).curve.times();
+    let from = fits.samples.partition_point(|bin| bin.from < open);
+    let to = fits.samples.partition_point(|bin| bin.to <= close);
+    let differ = |range: std::ops::Range<usize>| -> Vec<f64> {
+        let means = fits.samples[range].windows(2);
+        means.map(|pair| (pair[1].mean - pair[0].mean).powi(2)).collect()
+    };
+    let (light, dark) = (differ(from..to.max(from)), differ(parts.before));
+    if light.len() < 20 || dark.len() < 20 {
+        return None;
+    }
+    let [quiet, usual] = [&light, &dark].map(|d| d.iter().sum::<f64>() / d.len() as f64);
+    // Twenty differences and more scatter by a half at most; rounding makes both the same.
+    let is_quiet = quiet < 0.25 * usual && usual.sqrt() * fits.rounding.recip() > 4.0;
+    let top = fit.best().signal.dark + fit.best().signal.gain;
+    let share = light.len() as f64 / (parts.pulse.len() as f64);
+    is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(top) })
+}
+
 fn hum(fit: &Fit) -> Option<Warning> {
     let signal = fit.best().signal;
     let hum = signal.hum?;
     Some(Warning::Hum { hertz: hum.frequency, amplitude: hum.amplitude() / signal.gain })
+}
+
+fn flicker(fit: &Fit) -> Option<Warning> {
+    let flicker = fit.best().signal.flicker?;
+    Some(Warning::Flicker { hertz: flicker.frequency, amplitude: flicker.amplitude() })
+}
+
+/// A signal that still falls at the end of the trace, where it did not in the dark before.
+fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let parts = Parts::new(fits, Kind::Free);
+    let gain = fits.of(Kind::Free).solution.signal.gain;
+    let levels = |part: &std::ops::Range<usize>, of: usize| -> Vec<f64> {
+        let few = (part.len() / of).max(1);
+        let mean = |bins: &[Bin]| {
+            bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain)
+        };
+        fits.samples[part.clone()].chunks_exact(few).map(mean).collect()
+    };
+    let [before, after] = [levels(&parts.before, 2), levels(&parts.after, 2)];
+    let dark = before.iter().sum::<f64>() / before.len().max(1) as f64;
+    let ([early, late, ..], [earlier, later, ..]) = (&after[..], &before[..]) else {
+        // There is no dark at all behind the curve.
+        let (first, last) = (fits.samples.first()?, fits.samples.last()?);
+        let is_open = fits.exposure(fit.chosen).curve.end() > last.to;
+        return is_open.then_some(Warning::CutTail { left: (last.mean - first.mean) / gain });
+    };
+    let walk = Walk::new(&missed(fits, Kind::Free), &parts, fits.step)?;
+    let half = 0.5 * fits.step * parts.after.len() as f64;
+    let error = (2.0 * walk.power / half).sqrt().hypot(fits.rounding);
+    // As steep before as after is a drift.
+    let same = (later - earlier) * parts.after.len() as f64 / parts.before.len() as f64;
+    let falls = early - late > 5.0 * error && early - late > 2.0 * same.abs();
+    let left = late - dark;
+    (falls && left > 5.0 * error && left > 1e-3).then_some(Warning::CutTail { left })
 }
 
 fn drift(fit: &Fit) -> Option<Warning> {
@@ -61,6 +116,10 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
     if curve.opening.min(curve.closing) < 2.0 * step {
         return Some(Warning::SharpEdges { step });
     }
+    // What a misfit leaves is no noise, and no average makes it less.
+    if !fit.test.explained {
+        return None;
+    }
     let [up25, _, up75, down75, _, down25] = frame.crossings;
     let longer = (up75 - up25).max(down25 - down75);
     // Half a ramp lies between its quarters.
@@ -74,9 +133,13 @@ fn no_plateau(fit: &Fit, step: f64) -> Option<Warning> {
     (curve.plateau < step.max(0.01 * curve.length())).then_some(Warning::NoPlateau)
 }
 
-/// Residuals of more than the noise. Noise with a colour differs little between neighbours, so a small misfit is not told.
-fn poor_fit(fit: &Fit, fits: &FrameFits, pulses: &Pulses) -> Option<Warning> {
-    let rms = fits.of(fit.chosen).variance().sqrt();
-    let noise = pulses.relative_noise();
-    (rms > 3.0 * noise && fit.best().rms > 0.01).then_some(Warning::PoorFit { times: rms / noise })
+/// Structure that the model does not explain, or too little dark to tell.
+fn misfit(fit: &Fit) -> Option<Warning> {
+    let Test { explained, tested, share, at, .. } = fit.test;
+    let after = at - fit.best().signal.curve.start;
+    match (explained, tested) {
+        (false, _) => Some(Warning::Misfit { share, after, by_trace: fit.from == From::Trace }),
+        (true, false) => Some(Warning::Untested),
+        _ => None,
+    }
 }

@@ -30,9 +30,11 @@ impl Measured {
 }
 
 /// What a curve is good for.
+#[derive(Clone, Debug)]
 pub struct Results {
     pub exposure: Measured,
     pub efficiency: Measured,
+    pub start: Measured,
     pub triggers: Vec<Measured>,
 }
 
@@ -46,6 +48,7 @@ impl Results {
         Self {
             exposure: self.exposure.scaled(units.pulse() * peak),
             efficiency: self.efficiency.scaled(peak),
+            start: seconds(self.start),
             triggers: self.triggers.into_iter().map(seconds).collect(),
         }
     }
@@ -72,10 +75,31 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     };
     widen(&mut chosen.exposure, &|results| results.exposure);
     widen(&mut chosen.efficiency, &|results| results.efficiency);
+    widen(&mut chosen.start, &|results| results.start);
     for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
         widen(trigger, &|results| results.triggers[i]);
     }
-    chosen
+    chosen.widened(fits, kind)
+}
+
+/// What a lamp's flicker leaves unknown, as a share of it, where a period of it is in the pulse.
+const FLICKER: f64 = 0.2;
+
+impl Results {
+    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
+    fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
+        let lamp = fits.of(kind).solution.signal.flicker;
+        let lamp = lamp.map_or(0.0, |lamp| FLICKER * lamp.amplitude() / lamp.frequency);
+        let share = (2f64.sqrt() * fits.rounding).hypot(lamp);
+        for result in [&mut self.exposure, &mut self.efficiency] {
+            result.error = result.error.hypot(share * result.value);
+        }
+        let late = fits.rounding.hypot(0.3 * lamp) * self.exposure.value;
+        for time in self.triggers.iter_mut().chain([&mut self.start]) {
+            time.error = time.error.hypot(late);
+        }
+        self
+    }
 }
 
 /// One kind's curve with all that its errors come from.
@@ -112,7 +136,7 @@ impl<'a> OfKind<'a> {
     fn results(&self, n: u32) -> Results {
         let exposure = self.exposure();
         let efficiency = self.efficiency(exposure);
-        Results { exposure, efficiency, triggers: self.triggers(n) }
+        Results { exposure, efficiency, start: self.start(), triggers: self.triggers(n) }
     }
 
     /// The light that each foot may hold or not.
@@ -143,6 +167,21 @@ impl<'a> OfKind<'a> {
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 
+    /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is long. The
+    /// linear error counts as well, but where a shape makes up for a shift it is too large: the length's serves as its bound.
+    fn start(&self) -> Measured {
+        let (curve, value) = (&self.curve, self.curve.start);
+        let mut moves = [0.0; PARAMETERS];
+        moves[START] = 1.0;
+        let linear = self.covariance.error(&moves);
+        if self.is_straight {
+            return Measured { value, error: linear };
+        }
+        let length = self.searched(Whole::Length, self.covariance.error(&Curve::LENGTH));
+        let hidden = length * curve.opening / (curve.opening + curve.closing);
+        Measured { value, error: hidden.hypot(linear.min(length)).hypot(self.feet[0]) }
+    }
+
     fn triggers(&self, n: u32) -> Vec<Measured> {
         let by_noise = |u: f64| {
             let (value, moves) = self.integral.trigger(u);
@@ -170,7 +209,7 @@ struct Covariance {
     kind: Kind,
     /// Of the parameters that are on no bound.
     moving: Vec<usize>,
-    factor: Option<Cholesky>,
+    factor: Cholesky,
     /// What the inverse is multiplied by: the noise's variance, for correlated samples.
     variance: f64,
     /// The variance of each edge beside it: a sample tells an edge's side, not its place.
@@ -185,10 +224,10 @@ impl Covariance {
         // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
         let on_bound = |k: &usize| *k < CONTROLS && packed[*k] <= bounds[*k].0;
         let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
-        let cell =
-            |i: usize, j: usize| solution.normal[i][j] * if i == j { 1.0 + 1e-10 } else { 1.0 };
-        let matrix: Vec<Vec<f64>> =
-            moving.iter().map(|i| moving.iter().map(|j| cell(*i, *j)).collect()).collect();
+        let matrix: Vec<Vec<f64>> = moving
+            .iter()
+            .map(|i| moving.iter().map(|j| solution.normal[*i][*j]).collect())
+            .collect();
         // The degrees of freedom: a parameter takes an independent sample.
         let n = fits.samples.len() as f64;
         let free = (n - packed.len() as f64 * fits.correlation).max(0.5 * n);
@@ -198,7 +237,7 @@ impl Covariance {
         Self {
             kind,
             moving,
-            factor: Cholesky::new(matrix),
+            factor: Cholesky::stiffened(&matrix),
             variance: fitted.squares / free * fits.correlation,
             edges: [edge(curve.opening), edge(curve.closing)],
         }
@@ -210,8 +249,7 @@ impl Covariance {
         self.kind.gather(moves, &mut gathered);
         let row: Vec<f64> =
             self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
-        let Some(factor) = &self.factor else { return f64::INFINITY };
-        let noise: f64 = factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
+        let noise: f64 = self.factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
         // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
         let (opening, closing) = (moves[START] - moves[PLATEAU], moves[PLATEAU]);
         let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];

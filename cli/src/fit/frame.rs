@@ -1,51 +1,15 @@
 //! One frame fitted by every kind of curve, with the columns that it asks for, in units of its own.
 
 use super::bins::{self, Bin};
-use super::columns::with_columns;
+use super::columns;
 use super::curve::{Exposure, Whole, fractions};
+use super::kind::KindFit;
 use super::noise::{self, correlation};
 use super::search::Search;
 use super::signal::{Kind, Signal};
-use super::solve::{Held, Problem, Solution};
+use super::solve::{Held, Problem};
 use super::units::Units;
-use crate::trace::{Frame, Pulses, sampling_interval};
-
-/// A kind's best signal.
-#[derive(Clone, Debug)]
-pub struct KindFit {
-    pub solution: Solution,
-    /// What each sample is missed by.
-    pub residuals: Vec<f64>,
-    /// The sum of their squares.
-    pub squares: f64,
-}
-
-impl KindFit {
-    pub fn new(solution: Solution, samples: &[Bin]) -> Self {
-        let mut moves = vec![0.0; solution.signal.len()];
-        let mut means = solution.signal.means();
-        let residuals: Vec<f64> =
-            samples.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves)).collect();
-        let squares = residuals.iter().map(|r| r * r).sum();
-        Self { solution, residuals, squares }
-    }
-
-    fn all(solutions: Vec<Solution>, samples: &[Bin]) -> Vec<Self> {
-        solutions.into_iter().map(|solution| Self::new(solution, samples)).collect()
-    }
-
-    /// The mean of the residuals' squares.
-    pub fn variance(&self) -> f64 {
-        self.squares / self.residuals.len() as f64
-    }
-
-    /// Schwarz's criterion, where so many samples stand for an independent one.
-    pub fn bic(&self, correlation: f64) -> f64 {
-        let effective = self.residuals.len() as f64 / correlation;
-        let variance = self.variance().max(noise::LEAST * noise::LEAST);
-        effective * variance.ln() + self.solution.signal.len() as f64 * effective.ln()
-    }
-}
+use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
 
 /// A frame's fits.
 #[derive(Clone, Debug)]
@@ -59,15 +23,18 @@ pub struct FrameFits {
     problem: Problem,
     /// Of each kind, simplest first.
     kinds: Vec<KindFit>,
-    /// How many samples stand for one that is independent of the others, by the freest kind's residuals.
+    /// How many samples stand for one that is independent of the others: by the freest kind's residuals where that explains
+    /// them, else by those in the dark.
     pub correlation: f64,
+    /// The standard deviation that a step of the values puts into all of a plateau alike, as a share of the light.
+    pub rounding: f64,
 }
 
 impl FrameFits {
     /// Fits every kind; `progress` is told the share that is done, as far as that is known.
     pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
-        let crossings = frame.crossings.map(|t| units.time(t));
+        let crossings = units.crossings(frame);
         let trace = units.inside(pulses.trace.part(&frame.samples));
         let step = sampling_interval(&trace.times);
 
@@ -76,23 +43,59 @@ impl FrameFits {
         let noise = pulses.relative_noise().max(noise::LEAST);
         // A control number is 0.5 of the way around a straight ramp's, give or take.
         let problem = Problem { bins, prior: 4.0 * noise * noise, held: None };
+        let rounding = pulses.rounding / pulses.light();
+        let (kinds, correlation) = (Vec::new(), 1.0);
+        let mut fits = Self { units, samples, step, problem, kinds, correlation, rounding };
 
         // If a column turns out to be worth it, the search comes twice, half of the way each.
-        let search = Search { problem: &problem, crossings: &crossings, step };
-        let plain = search.every_kind(&Signal::plain(), &mut |done| progress(0.5 * done));
-        let mut kinds = KindFit::all(plain, &samples);
-        if let Some(free) = with_columns(&problem, &kinds[Kind::Free as usize], &samples) {
-            let like = &free.solution.signal;
-            let found = search.every_kind(like, &mut |done| progress(0.5 + 0.5 * done));
-            kinds = KindFit::all(found, &samples);
-            // What is known already may be better than where the search ends.
-            let last = &mut kinds[Kind::Free as usize];
-            if free.solution.cost < last.solution.cost {
-                *last = free;
-            }
+        let plain = Signal::plain();
+        fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
+        let free = fits.of(Kind::Free);
+        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples) {
+            fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
         }
-        let correlation = correlation(&kinds[Kind::Free as usize].residuals);
-        Self { units, samples, step, problem, kinds, correlation }
+        fits
+    }
+
+    /// The same with the flicker of a lamp on the mains, where that is worth it.
+    pub fn flickering(&self, crossings: &Crossings) -> Option<Self> {
+        let free = self.of(Kind::Free);
+        let second = self.units.pulse();
+        let found = columns::flickering(&self.problem, free, &self.samples, second)?;
+        let mut others = self.clone();
+        others.search_with(crossings, found, &mut |_| ());
+        Some(others)
+    }
+
+    /// Searches for every kind's best signal, from what `like` has beside its curve.
+    fn search(&mut self, crossings: &Crossings, like: &Signal, progress: &mut dyn FnMut(f64)) {
+        let search = Search { problem: &self.problem, crossings, step: self.step };
+        self.kinds = KindFit::all(search.every_kind(like, progress), &self.samples);
+        self.correlation = correlation(&self.of(Kind::Free).residuals);
+    }
+
+    /// The same from the columns of a fit of the freest kind, which may be better than where the search ends.
+    fn search_with(&mut self, crossings: &Crossings, free: KindFit, progress: &mut dyn FnMut(f64)) {
+        self.search(crossings, &free.solution.signal, progress);
+        let last = &mut self.kinds[Kind::Free as usize];
+        if free.solution.cost < last.solution.cost {
+            *last = free;
+            self.correlation = correlation(&last.residuals);
+        }
+    }
+
+    /// Each sample as an openness, by a kind's levels, drift, hum and flicker.
+    pub fn opened(&self, kind: Kind) -> Vec<f64> {
+        let fitted = self.of(kind);
+        let signal = fitted.solution.signal;
+        let integral = self.exposure(kind);
+        let each = self.samples.iter().zip(&fitted.residuals);
+        each.map(|(bin, r)| {
+            let (middle, width) = (0.5 * (bin.from + bin.to), bin.to - bin.from);
+            let lamp = signal.flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+            integral.mean(bin.from, bin.to) + r / (signal.gain * lamp.max(0.1))
+        })
+        .collect()
     }
 
     /// A kind's best signal.

@@ -10,15 +10,7 @@ const MOST: usize = 600;
 
 /// The sine that explains most of what the signal misses, or none where the trace is too short for any.
 pub fn strongest(bins: &[Bin], signal: &Signal) -> Option<Hum> {
-    let mut moves = vec![0.0; signal.len()];
-    let mut means = signal.means();
-    let missed: Vec<(f64, f64, f64)> = bins
-        .iter()
-        .map(|bin| {
-            let miss = bin.mean - means.over(bin.from, bin.to, &mut moves);
-            (0.5 * (bin.from + bin.to), miss, bin.samples)
-        })
-        .collect();
+    let missed = missed(bins, signal);
     let length = bins.last()?.to - bins.first()?.from;
     let spacing = 0.5 / length;
     // Up to a quarter of the intervals a period, as far as the tries go.
@@ -33,6 +25,28 @@ pub fn strongest(bins: &[Bin], signal: &Signal) -> Option<Hum> {
         if sine(&missed, a).0 > sine(&missed, b).0 { high = b } else { low = a }
     }
     Some(sine(&missed, 0.5 * (low + high)).1)
+}
+
+/// What the signal misses of each bin: when, how much, and of how many samples.
+fn missed(bins: &[Bin], signal: &Signal) -> Vec<(f64, f64, f64)> {
+    let mut moves = vec![0.0; signal.len()];
+    let mut means = signal.means();
+    let miss = |bin: &Bin| {
+        let miss = bin.mean - means.over(bin.from, bin.to, &mut moves);
+        (0.5 * (bin.from + bin.to), miss, bin.samples)
+    };
+    bins.iter().map(miss).collect()
+}
+
+/// Is the hum as strong outside the curve as on the whole? `signal` is what was fitted without it.
+pub fn is_in_the_dark(bins: &[Bin], signal: &Signal, hum: &Hum) -> bool {
+    let (start, end) = (signal.curve.start, signal.curve.end());
+    let mut dark = missed(bins, signal);
+    dark.retain(|(t, ..)| *t < start || *t > end);
+    let (_, alone) = sine(&dark, hum.frequency);
+    // The part of it that is in phase.
+    let shared = alone.cosine * hum.cosine + alone.sine * hum.sine;
+    (0.5..2.0).contains(&(shared / hum.amplitude().powi(2)))
 }
 
 /// The best sine of a frequency, and by how much it lowers the sum of squares.

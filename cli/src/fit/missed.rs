@@ -17,11 +17,16 @@ pub struct Missed {
 
 impl Missed {
     pub fn new(fits: &FrameFits, kind: Kind) -> Self {
+        Self::around(fits, kind, 0.0)
+    }
+
+    /// With what is missed so long before and after the curve.
+    pub fn around(fits: &FrameFits, kind: Kind, room: f64) -> Self {
         let fitted = fits.of(kind);
         let signal = fitted.solution.signal;
         let [start, _, _, end] = signal.curve.times();
         let inside = fits.samples.iter().zip(&fitted.residuals);
-        let inside = inside.filter(|(bin, _)| bin.to > start && bin.from < end);
+        let inside = inside.filter(|(bin, _)| bin.to > start - room && bin.from < end + room);
         let mut sum = 0.0;
         let sums = inside
             .map(|(bin, residual)| {

@@ -7,7 +7,8 @@
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `shots`, `choice`: the kinds compared, and one chosen;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
-//! - `report`, `scene`: the [`Fit`] as text, and as a scene for `shutter plan`.
+//! - `structure`: does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
+//! - `report`, `json`, `scene`: the [`Fit`] as text, for a program, and as a scene for `shutter plan`.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
 
@@ -15,35 +16,43 @@ mod bins;
 mod choice;
 mod columns;
 mod curve;
+mod delay;
 mod doubts;
 mod errors;
+mod explain;
 mod frame;
 mod hum;
+mod json;
+mod kind;
 mod missed;
 mod noise;
 mod outcome;
 mod ramp;
 mod report;
+mod running;
 mod scene;
 mod search;
 mod shots;
 mod signal;
 mod solve;
+mod speed;
 mod starts;
+mod structure;
 mod units;
 
 use std::iter::once;
 
 use crate::plan::MOST_TRIGGERS;
-use crate::trace::{Pulses, Refusal, Trace, pulses};
+use crate::trace::{Light, Pulses, Refusal, Trace, Warning, pulses, undone};
 pub use curve::Curve;
 pub use errors::Measured;
 use frame::FrameFits;
-pub use outcome::{Candidate, Fit, Frames, Options, Reason, Tolerance};
+pub use json::json;
+pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
 pub use report::{because, plus_minus, text};
 pub use scene::{Scene, Zero};
 use shots::Shots;
-pub use signal::{Hum, Kind, Signal};
+pub use signal::{Flicker, Hum, Kind, Signal};
 
 /// Fits a trace. `progress` is told the share that is done.
 ///
@@ -55,15 +64,22 @@ pub fn fit(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
-    let pulses = pulses(trace, options.light)?;
+    let pulses = found(trace, options.light)?;
     let asked = shots::asked(&pulses.frames, options.frame)?;
-    let frames = fit_frames(&pulses, asked, options, progress);
+    let counted = Frames::new(&pulses.frames, asked);
+    let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
+    let frames = fit_frames(&pulses, asked, differ, options, progress);
     let (fits, shots) = (&frames[0], Shots::new(&frames, n));
 
     let candidates = choice::candidates(fits, shots.as_ref(), n);
     let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
     let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
-    let results = errors::results(fits, chosen, n).outside(&fits.units, peak);
+    let test = judged(fits, chosen, reason);
+    let model = errors::results(fits, chosen, n).outside(&fits.units, peak);
+    let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
+    let from = if from_trace.is_some() { From::Trace } else { From::Model };
+    let results = from_trace.map(|results| results.outside(&fits.units, peak));
+    let results = results.unwrap_or_else(|| model.clone());
 
     let frame = &pulses.frames[asked];
     let mut fit = Fit {
@@ -72,33 +88,66 @@ pub fn fit(
         reason,
         exposure: results.exposure,
         efficiency: results.efficiency,
+        delay: delay::delay(options.sync, results.start, &pulses.frames[..asked])?,
         triggers: results.triggers,
+        from,
+        model_exposure: model.exposure,
+        model_triggers: model.triggers,
+        test,
         peak,
-        frames: Frames::new(&pulses.frames, asked),
+        frames: counted,
+        reading: None,
         warnings: pulses.warnings.clone(),
         samples: pulses.trace.part(&frame.samples),
         inverted: pulses.inverted,
         middle: fits.units.seconds(0.0),
     };
-    let doubts = doubts::doubts(&fit, fits, &pulses, frame, options.full.is_some());
+    if differ {
+        fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
+    }
+    let doubts = doubts::doubts(&fit, fits, frame, options.full.is_some());
     fit.warnings.extend(doubts);
-    Ok(fit)
+    if fit.is_determined() { Ok(fit) } else { Err(Refusal::Undetermined) }
+}
+
+/// The pulses of the trace; those without a capacitor before the recorder, where the dark asks for that.
+fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
+    let plain = pulses(trace, light);
+    let is_sound = !matches!(plain, Err(Refusal::Unsound | Refusal::TooFewSamples { .. }));
+    let coupled = if is_sound && light == Light::Auto { undone(trace) } else { None };
+    let Some((mut pulses, seconds)) = coupled else { return plain };
+    pulses.warnings.push(Warning::Coupled { seconds });
+    Ok(pulses)
+}
+
+/// Does the chosen kind explain the trace? A kind that was taken for a tolerance, or for shots that differ, need not follow
+/// every sample: there the freest is asked.
+fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> Test {
+    let kind = match reason {
+        Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,
+        _ => chosen,
+    };
+    let found = structure::structure(fits, kind);
+    let explained = found.explained && !matches!(reason, Reason::NoKind { .. });
+    let at = fits.units.seconds(found.at);
+    Test { explained, tested: found.tested, sigma: found.sigma, share: found.share, at }
 }
 
 /// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.
 fn fit_frames(
     pulses: &Pulses,
     asked: usize,
+    differ: bool,
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Vec<FrameFits> {
-    let shots_decide = options.model.is_none() && options.tolerance.is_none();
+    let shots_decide = !differ && options.model.is_none() && options.tolerance.is_none();
     let others = if shots_decide { shots::others(&pulses.frames, asked) } else { Vec::new() };
     let steps = 1.0 + others.len() as f64;
     let mut frames = Vec::new();
     for (i, k) in once(asked).chain(others).enumerate() {
         let mut progress = |done: f64| progress((i as f64 + done) / steps);
-        frames.push(FrameFits::new(pulses, &pulses.frames[k], &mut progress));
+        frames.push(explain::fits(pulses, &pulses.frames[k], &mut progress));
     }
     progress(1.0);
     frames

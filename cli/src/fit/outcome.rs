@@ -3,7 +3,7 @@
 use super::curve::Exposure;
 use super::errors::Measured;
 use super::signal::{Kind, Signal};
-use crate::trace::{Frame, Light, Pulses, Refusal, Trace, Warning};
+use crate::trace::{Frame, Light, Pulses, Reading, Refusal, Trace, Warning};
 use crate::unit::Unit;
 
 /// A difference in trigger times that is small enough.
@@ -30,6 +30,8 @@ pub struct Options {
     pub light: Light,
     /// How many triggers are judged and planned: 1 to [`crate::plan::MOST_TRIGGERS`], clamped to that.
     pub triggers: u32,
+    /// When the edge of the camera's sync comes, in seconds of the trace, where that is known.
+    pub sync: Option<f64>,
 }
 
 impl Options {
@@ -46,6 +48,7 @@ impl Default for Options {
             frame: None,
             light: Light::Auto,
             triggers: Self::TRIGGERS,
+            sync: None,
         }
     }
 }
@@ -79,6 +82,15 @@ pub enum Reason {
         /// By how much shots differ, as a share of the exposure.
         scatter: f64,
     },
+    /// No kind meets shots left out so well; it is the freest.
+    NoKind {
+        /// So many shots.
+        shots: usize,
+        /// By how much they differ, as a share of the exposure.
+        scatter: f64,
+    },
+    /// Schwarz's criterion took a simpler one, which does not explain the trace; this is the simplest that does.
+    Explains,
     /// Schwarz's criterion is least.
     Criterion {
         /// So many samples count as independent.
@@ -119,6 +131,30 @@ pub(super) fn peak(full: Option<f64>, pulses: &Pulses, best: &Candidate) -> Resu
     Ok(peak.min(1.0))
 }
 
+/// What exposure and triggers are taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum From {
+    /// The chosen model, which explains the trace.
+    Model,
+    /// The samples themselves, since it does not.
+    Trace,
+}
+
+/// Whether the chosen model explains the trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Test {
+    /// It does.
+    pub explained: bool,
+    /// There is enough dark beside the pulse to know the noise by.
+    pub tested: bool,
+    /// By how many standard deviations the most telling of the tests is off.
+    pub sigma: f64,
+    /// The greatest structure that is left, as a share of the light.
+    pub share: f64,
+    /// When that is, in seconds.
+    pub at: f64,
+}
+
 /// What came out.
 pub struct Fit {
     /// Every kind, simplest first.
@@ -131,12 +167,24 @@ pub struct Fit {
     pub exposure: Measured,
     /// The exposure by the time from the start of opening to the end of closing.
     pub efficiency: Measured,
+    /// From the edge of the camera's sync to the start of opening, in seconds, where the edge's time was given.
+    pub delay: Option<Measured>,
     /// The times in seconds by which (i + 1/2)/n of the exposure is collected.
     pub triggers: Vec<Measured>,
+    /// What these three are taken from.
+    pub from: From,
+    /// The chosen model's own, wherever those are taken from.
+    pub model_exposure: Measured,
+    /// The same of its triggers.
+    pub model_triggers: Vec<Measured>,
+    /// Does the chosen model explain the trace?
+    pub test: Test,
     /// The peak as a share of full light, where that was given; else 1.
     pub peak: f64,
     /// The pulses.
     pub frames: Frames,
+    /// How the trace was read, where whoever read it says so.
+    pub reading: Option<Reading>,
     /// What is doubtful.
     pub warnings: Vec<Warning>,
     /// The samples that were fitted: times in seconds, light upwards.
@@ -153,12 +201,24 @@ impl Fit {
         &self.candidates[self.chosen as usize]
     }
 
+    /// Is every result a number, and each error one that says something?
+    pub(super) fn is_determined(&self) -> bool {
+        let sound = |m: &Measured| m.value.is_finite() && m.error.is_finite() && m.error >= 0.0;
+        let length = self.best().signal.curve.length();
+        let signals = self.candidates.iter().map(|candidate| candidate.signal);
+        [self.exposure, self.efficiency].iter().chain(&self.triggers).all(sound)
+            && self.exposure.value > self.exposure.error
+            && length > 0.0
+            && signals.into_iter().all(|s| s.gain > 0.0 && s.gain.is_finite() && s.dark.is_finite())
+    }
+
     /// The fitted signal at a time in seconds, light upwards.
     pub fn value(&self, t: f64) -> f64 {
-        let Signal { curve, dark, gain, drift, hum, .. } = self.best().signal;
+        let Signal { curve, dark, gain, drift, hum, flicker, .. } = self.best().signal;
         let since = t - self.middle;
         let hum = hum.map_or(0.0, |hum| hum.at(since));
-        dark + gain * Exposure::new(&curve).openness(t) + drift.unwrap_or(0.0) * since + hum
+        let lamp = flicker.map_or(1.0, |flicker| flicker.factor(since, 0.0));
+        dark + gain * lamp * Exposure::new(&curve).openness(t) + drift.unwrap_or(0.0) * since + hum
     }
 
     /// A value with light upwards as it was measured.

@@ -3,9 +3,11 @@
 use std::fmt::{self, Write};
 
 use super::curve::fractions;
+use super::delay;
 use super::errors::Measured;
-use super::outcome::{Fit, Reason, Tolerance};
+use super::outcome::{Fit, From, Reason, Test, Tolerance};
 use super::signal::Kind;
+use super::speed;
 use crate::rows::hidden_rows;
 use crate::trace::sampling_interval;
 use crate::unit::{Unit, count, decimals, short, trimmed};
@@ -35,11 +37,16 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     let (times, signal) = (&fit.samples.times, &fit.best().signal);
     let step = sampling_interval(times);
     writeln!(out, "trace        {name}")?;
+    if let Some(reading) = &fit.reading {
+        writeln!(out, "signal       {}", reading.signal())?;
+        writeln!(out, "times        {}", reading.times())?;
+    }
     write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
     if fit.frames.count > 1 {
         write!(out, "; the exposures scatter by {} %", short(100.0 * fit.frames.scatter, 2))?;
     }
-    writeln!(out, "\nsamples      {}, {} apart", times.len(), Unit::fit(step).show(step))?;
+    let (apart, rate) = (Unit::fit(step).show(step), short(1.0 / step, 4));
+    writeln!(out, "\nsamples      {}, {apart} apart: {rate} Hz", times.len())?;
     let (gain, dark) = (short(signal.gain, 4), short(fit.as_measured(signal.dark), 4));
     let way = if fit.inverted { "below" } else { "above" };
     writeln!(out, "light        {gain} {way} the dark at {dark}")
@@ -71,22 +78,30 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
     let name = unit.name();
     writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
     writeln!(out, "chosen       {}", fit.chosen.title())?;
-    writeln!(out, "because      {}", because(fit))
+    writeln!(out, "because      {}", because(fit))?;
+    writeln!(out, "fit          {}", judgement(fit))
 }
 
 /// The chosen curve, and what it is good for.
 fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
-    let unit = fit.unit().name();
+    let (unit, places) = (fit.unit(), speed::places(fit));
     let curve = &fit.best().signal.curve;
-    let [start, open_end, close_start, end] = curve.times().map(|time| at(fit, time));
+    let show = |time: f64| format!("{:.places$}", unit.of(time));
+    let [start, open_end, close_start, end] = curve.times().map(show);
+    let unit = unit.name();
     writeln!(out, "opens        from {start} to {open_end} {unit}")?;
     writeln!(out, "closes       from {close_start} to {end} {unit}")?;
+    writeln!(out, "delay        {}", delay::told(fit))?;
     if fit.chosen > Kind::Trapezoid {
         let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
         writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;
         writeln!(out, "             (the closing ramp seen backwards; fractions of each ramp)")?;
     }
-    writeln!(out, "exposure     {}", exposure(fit))?;
+    writeln!(out, "tester       {}", speed::times(fit))?;
+    writeln!(out, "exposure     {}{}", exposure(fit), source(fit))?;
+    if let Some(speed) = speed::speed(fit) {
+        writeln!(out, "speed        {speed}")?;
+    }
     writeln!(out, "efficiency   {}", efficiency(fit))?;
     if fit.peak < 1.0 {
         writeln!(out, "peak         {} % of full light", short(100.0 * fit.peak, 4))?;
@@ -94,10 +109,42 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
     writeln!(out, "             (standard errors behind ±)")
 }
 
+/// Whether the model explains the trace.
+fn judgement(fit: &Fit) -> String {
+    let Test { explained, tested, sigma, share, at } = fit.test;
+    if explained && !tested {
+        return "untested: there is too little dark to know the noise by".into();
+    }
+    if explained {
+        return "the model explains the trace".into();
+    }
+    let (unit, after) = (fit.unit(), at - fit.best().signal.curve.start);
+    format!(
+        "structure that the model has not: {} % of the light,\n             {} after opening ({} standard deviations)",
+        short(100.0 * share, 2),
+        format_args!("{} {}", short(unit.of(after), 3), unit.name()),
+        short(sigma, 2)
+    )
+}
+
+/// What the exposure is taken from, where that is not the model.
+fn source(fit: &Fit) -> String {
+    match fit.from {
+        From::Model => String::new(),
+        From::Trace => {
+            let Measured { value, error } = fit.model_exposure;
+            let unit = fit.unit();
+            let model = plus_minus(unit.of(value), unit.of(error), unit.name());
+            format!(", by the trace (the model: {model})")
+        }
+    }
+}
+
 fn write_triggers(out: &mut String, fit: &Fit) -> fmt::Result {
     let unit = fit.unit();
     let (time, error) = (format!("time ({})", unit.name()), format!("error ({})", unit.name()));
-    writeln!(out, "    #        u  {time:>15}  {error:>12}")?;
+    let beside = if fit.from == From::Trace { "  by the model" } else { "" };
+    writeln!(out, "    #        u  {time:>15}  {error:>12}{beside}")?;
     let least = fit.triggers.iter().map(|trigger| unit.of(trigger.error));
     // Two digits of the least error, and as many decimals for all: a column that the eye can run down.
     let places = decimals(least.fold(f64::INFINITY, f64::min), 2).min(MOST_PLACES);
@@ -111,7 +158,11 @@ fn write_triggers(out: &mut String, fit: &Fit) -> fmt::Result {
             continue;
         }
         let (time, error) = (at(fit, trigger.value), unit.of(trigger.error));
-        writeln!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12.places$}")?;
+        write!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12.places$}")?;
+        match fit.from {
+            From::Model => writeln!(out)?,
+            From::Trace => writeln!(out, "  {:>12}", at(fit, fit.model_triggers[i].value))?,
+        }
     }
     Ok(())
 }
@@ -152,6 +203,12 @@ pub fn because(fit: &Fit) -> String {
             count(shots as u64, "shot"),
             short(100.0 * scatter, 2)
         ),
+        Reason::NoKind { shots, scatter } => format!(
+            "it is the freest; no model meets shots left out as well as {} meet each other, to {} %",
+            count(shots as u64, "shot"),
+            short(100.0 * scatter, 2)
+        ),
+        Reason::Explains => "the simplest that explains the trace".into(),
         Reason::Criterion { effective } => {
             format!("least BIC, from one shot of {} independent samples", trimmed(effective, 0))
         }

@@ -1,7 +1,9 @@
 //! A fit as a scene for `shutter plan`.
 
 use super::curve::Curve;
-use super::outcome::Fit;
+use super::delay;
+use super::errors::Measured;
+use super::outcome::{Fit, From};
 use super::ramp::STRAIGHT;
 use super::report::{because, efficiency, exposure};
 use super::signal::Kind;
@@ -66,11 +68,18 @@ impl Fit {
         let name: String = name.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
         let n = self.triggers.len();
         let mut text = format!("# Fitted to {name}: {}, {}.\n", self.chosen.title(), because(self));
+        if let Some(reading) = &self.reading {
+            let reading = reading.to_string().replace(|c: char| c.is_control(), "?");
+            text += &format!("# Read: {reading}.\n");
+        }
         text += &format!(
             "# Exposure {}, efficiency {}, standard errors behind ±.\n",
             exposure(self),
             efficiency(self),
         );
+        if self.from == From::Trace {
+            text += &self.trace_triggers(curve);
+        }
         for warning in &self.warnings {
             text += &format!("# Warning: {warning}.\n");
         }
@@ -85,11 +94,31 @@ impl Fit {
             text += "# The ramps' inner control points t1 y1 t2 y2, t5 y5 t6 y6: times as fractions of the interval.\n";
             text += &format!("shutteropening = [{numbers}]\n");
         }
+        text += &delay::line(self, unit, places);
         let hz = timer_hz(self.exposure.value / self.peak / n as f64, curve.length());
         text += &format!("triggers = {n}\ntimer_hz = {hz} # your timer's\n");
         text +=
             &format!("min_gap = 0 # {}, what your lamp needs between two flashes\n", unit.name());
         text
+    }
+}
+
+impl Fit {
+    /// The triggers of the trace, as times after the scene's time 0. A curve cannot say them: they are a comment.
+    fn trace_triggers(&self, curve: &Curve) -> String {
+        let unit = Unit::fit(curve.length());
+        let zero = self.best().signal.curve.start - curve.start;
+        let places = decimals(unit.of(curve.length()), DIGITS);
+        let shown = |m: &Measured| trimmed(unit.of(m.value - zero), places);
+        let times: Vec<String> = self.triggers.iter().map(shown).collect();
+        let mut text = String::from(
+            "# The curve below does not explain the trace. The trace's own triggers, in the unit below:\n\
+             # trace_triggers = [\n",
+        );
+        for few in times.chunks(8) {
+            text += &format!("#   {},\n", few.join(", "));
+        }
+        text + "# ]\n"
     }
 }
 

@@ -129,7 +129,46 @@ impl Hum {
     }
 }
 
-/// `v = dark + gain f(t) + drift t + hum(t)`
+/// A lamp's own ups and downs at a frequency and twice that: by `1 + flicker(t)` the light is multiplied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flicker {
+    /// Periods in a unit of time; it is known, and not fitted.
+    pub frequency: f64,
+    /// What cosine and sine, and those of twice the frequency, are multiplied by.
+    pub terms: [f64; 4],
+}
+
+impl Flicker {
+    /// None, as a start.
+    pub(super) fn none(frequency: f64) -> Self {
+        Self { frequency, terms: [0.0; 4] }
+    }
+
+    /// Half of what the first frequency spans, as a share of the light.
+    pub fn amplitude(&self) -> f64 {
+        self.terms[0].hypot(self.terms[1])
+    }
+
+    /// Cosines and sines, each as its mean over an interval.
+    fn waves(&self, middle: f64, width: f64) -> [f64; 4] {
+        let wave = |frequency: f64| {
+            let (s, c) = (TAU * frequency * middle).sin_cos();
+            let half = PI * frequency * width;
+            let less = if half.abs() < 1e-4 { 1.0 } else { half.sin() / half };
+            [less * c, less * s]
+        };
+        let ([a, b], [c, d]) = (wave(self.frequency), wave(2.0 * self.frequency));
+        [a, b, c, d]
+    }
+
+    /// By what the light is multiplied over an interval.
+    pub fn factor(&self, middle: f64, width: f64) -> f64 {
+        let waves = self.waves(middle, width);
+        1.0 + waves.iter().zip(self.terms).map(|(wave, term)| wave * term).sum::<f64>()
+    }
+}
+
+/// `v = dark + gain f(t) (1 + flicker(t)) + drift t + hum(t)`
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Signal {
     /// Which curves it may have.
@@ -144,6 +183,8 @@ pub struct Signal {
     pub drift: Option<f64>,
     /// Beside the light.
     pub hum: Option<Hum>,
+    /// Of the light.
+    pub flicker: Option<Flicker>,
 }
 
 /// A range that a parameter stays in.
@@ -160,13 +201,14 @@ impl Signal {
             gain: 1.0,
             drift: None,
             hum: None,
+            flicker: None,
         }
     }
 
     /// How many numbers it takes.
     pub(super) fn len(&self) -> usize {
         let (drift, hum) = (self.drift.map_or(0, |_| 1), self.hum.map_or(0, |_| 3));
-        self.kind.parameters() + 2 + drift + hum
+        self.kind.parameters() + 2 + drift + hum + self.flicker.map_or(0, |_| 4)
     }
 
     /// Its numbers, the curve's first.
@@ -175,6 +217,7 @@ impl Signal {
         packed.extend([self.dark, self.gain]);
         packed.extend(self.drift);
         packed.extend(self.hum.iter().flat_map(|hum| [hum.frequency, hum.cosine, hum.sine]));
+        packed.extend(self.flicker.iter().flat_map(|flicker| flicker.terms));
         packed
     }
 
@@ -182,6 +225,7 @@ impl Signal {
     pub(super) fn unpack(&self, packed: &[f64]) -> Self {
         let (curve, rest) = packed.split_at(self.kind.parameters());
         let (columns, at) = (&rest[2..], self.drift.map_or(0, |_| 1));
+        let waves = at + self.hum.map_or(0, |_| 3);
         Self {
             kind: self.kind,
             curve: self.kind.unpack(curve),
@@ -192,6 +236,10 @@ impl Signal {
                 frequency: columns[at],
                 cosine: columns[at + 1],
                 sine: columns[at + 2],
+            }),
+            flicker: self.flicker.map(|Flicker { frequency, .. }| Flicker {
+                frequency,
+                terms: std::array::from_fn(|k| columns[waves + k]),
             }),
         }
     }
@@ -228,7 +276,7 @@ pub struct Means<'a> {
 impl Means<'_> {
     /// The mean over [`from`, `to`], and how it moves with each parameter.
     pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> f64 {
-        let Signal { kind, dark, gain, drift, hum, .. } = *self.signal;
+        let Signal { kind, dark, gain, drift, hum, flicker, .. } = *self.signal;
         let start = match self.last {
             Some((end, collected)) if end == from => collected,
             _ => self.exposure.collected(from),
@@ -237,14 +285,15 @@ impl Means<'_> {
         self.last = Some((to, end));
         let width = to - from;
         let openness = (end.amount - start.amount) / width;
-        let each = std::array::from_fn(|k| gain / width * (end.moves[k] - start.moves[k]));
+        let middle = 0.5 * (from + to);
+        let lamp = flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+        let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
         // In the order of `Signal::pack`.
         let (of_curve, beside) = moves.split_at_mut(kind.parameters());
         kind.gather(&each, of_curve);
         let (levels, mut columns) = beside.split_at_mut(2);
-        levels.copy_from_slice(&[1.0, openness]);
-        let mut mean = dark + gain * openness;
-        let middle = 0.5 * (from + to);
+        levels.copy_from_slice(&[1.0, openness * lamp]);
+        let mut mean = dark + gain * openness * lamp;
         if let Some(drift) = drift {
             columns[0] = middle;
             columns = &mut columns[1..];
@@ -252,8 +301,13 @@ impl Means<'_> {
         }
         if let Some(hum) = hum {
             let (value, moves) = hum.mean(middle, width);
-            columns.copy_from_slice(&moves);
+            columns[..3].copy_from_slice(&moves);
+            columns = &mut columns[3..];
             mean += value;
+        }
+        if let Some(flicker) = flicker {
+            let waves = flicker.waves(middle, width);
+            columns.copy_from_slice(&waves.map(|wave| gain * openness * wave));
         }
         mean
     }

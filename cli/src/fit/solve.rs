@@ -166,6 +166,26 @@ impl Cholesky {
         Some(Self { lower: a })
     }
 
+    /// The same where the samples do not tell the parameters apart: their diagonal is raised until they are, so that each has
+    /// a variance, however large.
+    pub fn stiffened(a: &[Vec<f64>]) -> Self {
+        let largest = a.iter().enumerate().map(|(k, row)| row[k]).fold(f64::MIN_POSITIVE, f64::max);
+        let raised = |by: f64| {
+            let mut a = a.to_vec();
+            for (k, row) in a.iter_mut().enumerate() {
+                row[k] = row[k] * (1.0 + by) + 1e-6 * by * largest;
+            }
+            Self::new(a)
+        };
+        let found = (0..6).find_map(|k| raised(1e-10 * 100f64.powi(k)));
+        // A diagonal alone has a root: that of the numbers that are none is left out.
+        found.unwrap_or_else(|| {
+            let row =
+                |k: usize| (0..a.len()).map(move |j| if j == k { largest.sqrt() } else { 0.0 });
+            Self { lower: (0..a.len()).map(|k| row(k).collect()).collect() }
+        })
+    }
+
     /// The `x` of `A x = right`.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         let (l, n) = (&self.lower, right.len());

@@ -57,6 +57,9 @@ fn through(crossings: &Crossings, step: f64, controls: [Controls; 2]) -> Curve {
         return Curve { controls, ..Curve::trapezoid(start, opening, close - open, closing) };
     }
     // The ramps would cross: they meet in a peak.
-    let peak = (0.5 * (open + close)).clamp(start + 0.1 * opening, end - 0.1 * closing);
-    Curve { controls, ..Curve::trapezoid(start, peak - start, 0.0, (end - peak).max(0.0)) }
+    let (earliest, latest) = (start + 0.1 * opening, end - 0.1 * closing);
+    // Of ramps that lie the wrong way round nothing but their middle is left.
+    let peak = (0.5 * (open + close)).max(earliest).min(latest.max(earliest));
+    let ramps = (peak - start, (end - peak).max(0.0));
+    Curve { controls, ..Curve::trapezoid(start, ramps.0, 0.0, ramps.1) }
 }

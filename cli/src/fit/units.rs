@@ -1,7 +1,7 @@
 //! A frame's own units: time counts from the pulse's middle in pulses, the signal from the dark in light.
 
-use super::signal::{Hum, Signal};
-use crate::trace::{Frame, Trace};
+use super::signal::{Flicker, Hum, Signal};
+use crate::trace::{Crossings, Frame, Trace};
 
 /// What leads from a frame's units to seconds and the trace's own unit, and back.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +21,11 @@ impl Units {
     /// A time in pulses from one in seconds.
     pub fn time(&self, seconds: f64) -> f64 {
         (seconds - self.middle) / self.pulse
+    }
+
+    /// A frame's crossings in pulses.
+    pub fn crossings(&self, frame: &Frame) -> Crossings {
+        frame.crossings.map(|t| self.time(t))
     }
 
     /// A time in seconds from one in pulses.
@@ -54,6 +59,10 @@ impl Units {
                 frequency: frequency / self.pulse,
                 cosine: cosine * self.light,
                 sine: sine * self.light,
+            }),
+            flicker: signal.flicker.map(|Flicker { frequency, terms }| Flicker {
+                frequency: frequency / self.pulse,
+                terms,
             }),
         }
     }

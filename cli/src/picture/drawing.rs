@@ -116,8 +116,19 @@ pub fn graph<'a, 'b>(
 /// The axis of time: the interval, and a little room on either side.
 pub fn time_range(plan: &Plan, unit: Unit) -> Range<f64> {
     let (start, end) = (unit.of(plan.curve.open_start()), unit.of(plan.curve.close_end()));
+    let start = sync(plan, unit).filter(|edge| is_near(plan, unit, *edge)).unwrap_or(start);
     let room = 0.03 * (end - start);
     start - room..end + room
+}
+
+/// The edge of the camera's sync on the plan's axis of time.
+pub fn sync(plan: &Plan, unit: Unit) -> Option<f64> {
+    plan.delay.map(|delay| unit.of(plan.curve.open_start()) - unit.of(delay.seconds))
+}
+
+/// Can the edge be on the axis without squeezing the curve?
+pub fn is_near(plan: &Plan, unit: Unit, edge: f64) -> bool {
+    unit.of(plan.curve.open_start()) - edge <= 1.5 * unit.of(plan.length())
 }
 
 /// So many steps from `from` to `to`, both ends included.

@@ -8,7 +8,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::drawing::{Axis, Drawn, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
 use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
-use crate::fit::Fit;
+use crate::fit::{Fit, From};
+use crate::trace::Trace;
 use crate::unit::{Unit, decimals, short, trimmed};
 
 const SIZE: (i32, i32) = (900, 640);
@@ -38,9 +39,10 @@ pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
 fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
     let unit = fit.unit();
     let facts = format!(
-        "{}: exposure {}, efficiency {} %, rms {} % of the light",
+        "{}: exposure {}{}, efficiency {} %, rms {} % of the light",
         fit.chosen.title(),
         unit.show(fit.exposure.value),
+        if fit.from == From::Trace { " by the trace" } else { "" },
         short(100.0 * fit.efficiency.value, 4),
         short(100.0 * fit.best().rms, 3),
     );
@@ -48,7 +50,11 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
     area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
     area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
     let y = 74 * SCALE;
-    for (k, name) in ["trace", "fitted curve", "trigger"].into_iter().enumerate() {
+    let trigger = match fit.from {
+        From::Model => "trigger",
+        From::Trace => "trigger by the trace",
+    };
+    for (k, name) in ["trace", "fitted curve", trigger].into_iter().enumerate() {
         let x = (SIZE.0 / 2 - 190 + 140 * k as i32) * SCALE;
         let line =
             |color, width| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen(color, width));
@@ -81,7 +87,18 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
     times.sort_by(f64::total_cmp);
     graph.draw_series(LineSeries::new(times.into_iter().map(at), pen(BLUE, 2.5)))?;
     let dark = sign * fit.best().signal.dark;
-    let marks = fit.triggers.iter().map(|trigger| at(trigger.value));
+    // The trace's own stand on the trace: the curve is elsewhere.
+    let seen = |t: f64| match fit.from {
+        From::Model => at(t),
+        From::Trace => (unit.of(t), sign * between(fit, t)),
+    };
+    if fit.from == From::Trace {
+        let model = fit.model_triggers.iter().map(|trigger| at(trigger.value));
+        graph.draw_series(
+            model.map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(BLUE, 0.8))),
+        )?;
+    }
+    let marks = fit.triggers.iter().map(|trigger| seen(trigger.value));
     graph.draw_series(
         marks.clone().map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(VERMILION, 1.2))),
     )?;
@@ -89,6 +106,14 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
         graph.draw_series(marks.map(dot))?;
     }
     Ok(())
+}
+
+/// The trace at a time.
+fn between(fit: &Fit, t: f64) -> f64 {
+    let Trace { times, values } = &fit.samples;
+    let k = times.partition_point(|time| *time < t).clamp(1, times.len() - 1);
+    let part = ((t - times[k - 1]) / (times[k] - times[k - 1])).clamp(0.0, 1.0);
+    values[k - 1] + part * (values[k] - values[k - 1])
 }
 
 fn draw_residual(area: &Area, fit: &Fit) -> Drawn {

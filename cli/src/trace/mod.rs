@@ -1,14 +1,27 @@
-//! A measured trace: [`decode`] and [`read`] take a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
+//! A measured trace: [`open`] takes a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
 //! Whatever is wrong with it on the way is a [`Refusal`] or a [`Warning`].
 
+mod asked;
+mod bytes;
+mod coupling;
+mod layout;
+mod numbers;
 mod pulse;
 mod read;
+mod reading;
 mod samples;
+mod select;
+mod table;
 mod told;
+mod wav;
 
+pub use asked::{Column, Options};
+pub use bytes::decode;
+pub(crate) use coupling::undone;
 pub(crate) use pulse::QUARTERS;
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
-pub use read::{Column, Options, decode, read};
+pub use read::{open, read};
+pub use reading::{Clock, Reading, Recording, Told};
 pub use samples::Trace;
-pub(crate) use samples::sampling_interval;
+pub(crate) use samples::{median, sampling_interval};
 pub use told::{Refusal, Warning};

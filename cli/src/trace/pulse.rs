@@ -1,16 +1,15 @@
 //! Where the pulses of a trace are: its levels in the dark and in the light, its noise, its frames.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::samples::{LARGEST, Trace};
+use super::samples::{CONTRAST, LARGEST, Trace, median, sampling_interval};
 use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
 const SPIKE: f64 = 6.0;
 /// One in so many samples is few: so many are a trace's end, are smoothed together at most, or may be spikes.
 const FEW_OF: usize = 50;
-/// The least contrast, in standard deviations of the (smoothed) noise.
-pub(super) const CONTRAST: f64 = 8.0;
 /// The fewest samples of a trace.
 const FEWEST: usize = 16;
 /// The fewest samples of a pulse.
@@ -25,6 +24,12 @@ const CUT: f64 = 0.3;
 const SWITCH: (f64, f64) = (0.4, 0.6);
 /// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
 const GLITCH: f64 = 0.2;
+
+/// No camera fires again so soon, in seconds, but a lamp on the mains or behind a switch does.
+const FASTEST: f64 = 0.011;
+
+/// So far below the dark, as a share of the light, neither drift nor hum take a signal.
+const UNDERSHOOT: f64 = 0.1;
 
 /// Which way light moves the signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,6 +69,8 @@ pub struct Pulses {
     pub levels: (f64, f64),
     /// The standard deviation of what differs from one sample to the next.
     pub noise: f64,
+    /// The standard deviation of what rounding adds to all samples of a level alike.
+    pub rounding: f64,
     /// In order.
     pub frames: Vec<Frame>,
     /// What is doubtful.
@@ -95,7 +102,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     check(trace)?;
     let mut trace = trace.clone();
     let mut warnings = Vec::new();
-    let noise = noise(&trace.values);
+    let (noise, rounding) = (noise(&trace.values), common_rounding(&trace.values));
     let spikes = drop_spikes(&mut trace, noise);
     if let Some(first) = spikes.first() {
         warnings.push(Warning::Spikes { count: spikes.len(), first: *first });
@@ -117,12 +124,14 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     }
     let levels = (smooth.dark, smooth.light());
     smooth.check_ends(levels.1)?;
+    warnings.extend(smooth.undershoot(levels.1));
 
     let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
     let mut runs = runs(&share);
     if runs.is_empty() {
         return Err(Refusal::NoPulse { contrast });
     }
+    warnings.extend(pulsed(&trace.times, &runs));
     let glitches = drop_glitches(&mut runs, &share);
     if glitches > 0 {
         warnings.push(Warning::Glitches { count: glitches });
@@ -135,7 +144,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     if inverted && light == Light::Auto {
         warnings.push(Warning::Inverted);
     }
-    Ok(Pulses { trace, inverted, levels, noise, frames, warnings })
+    Ok(Pulses { trace, inverted, levels, noise, rounding, frames, warnings })
 }
 
 /// What no arithmetic would survive.
@@ -166,9 +175,19 @@ fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)))
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+/// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is left.
+fn common_rounding(values: &[f64]) -> f64 {
+    let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let repeated = differ.iter().filter(|d| **d == 0.0).count();
+    let least = differ.iter().copied().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+    if repeated * FEW_OF < values.len() || !least.is_finite() {
+        return 0.0;
+    }
+    // Of many short parts the middle one is flat.
+    let part = |few: &[f64]| 0.5 * few.iter().map(|d| d * d).sum::<f64>() / few.len() as f64;
+    let rounding = least * least / 12.0;
+    let noise = (median(differ.chunks(24).map(part).collect()) - rounding).max(0.0);
+    (rounding * (-4.0 * (PI / least).powi(2) * noise).exp()).sqrt()
 }
 
 /// Drops the samples that lie outside what their neighbours span by [`SPIKE`] and by more than that span. The
@@ -258,6 +277,12 @@ impl Smooth {
         full - self.dark
     }
 
+    /// Light moves a signal one way only, unless a capacitor takes the mean away.
+    fn undershoot(&self, light: f64) -> Option<Warning> {
+        let share = (self.dark - range(&self.values).0) / light;
+        (share > UNDERSHOOT).then_some(Warning::Undershoot { share })
+    }
+
     /// Are both ends in the dark?
     fn check_ends(&self, light: f64) -> Result<(), Refusal> {
         let (first, last) = ends(&self.values);
@@ -315,6 +340,14 @@ fn runs(share: &[f64]) -> Vec<Range<usize>> {
     runs
 }
 
+/// Pulses that follow each other faster than any camera fires.
+fn pulsed(times: &[f64], runs: &[Range<usize>]) -> Option<Warning> {
+    let gaps: Vec<f64> =
+        runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
+    let period = if gaps.is_empty() { return None } else { median(gaps) };
+    (period < FASTEST).then_some(Warning::Pulsed { hertz: 1.0 / period })
+}
+
 /// Drops the runs with too little light to be pulses, and tells how many.
 fn drop_glitches(runs: &mut Vec<Range<usize>>, share: &[f64]) -> usize {
     let light = |run: &Range<usize>| share[run.clone()].iter().sum::<f64>();
@@ -364,11 +397,14 @@ fn frame(
     let crossings = crossings(t, share, run, &samples);
     // Half a pulse of dark on either side: more would only add noise.
     let (from, to) = window(t, &samples, crossings, 0.5);
+    let usual = sampling_interval(&t[samples.clone()]);
+    // Across a gap no sample stands for more than the usual time: nothing is known of the rest.
+    let owned = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
     let exposure = (from..to)
         .map(|i| {
             let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
             let after = t[(i + 1).min(samples.end - 1)] - t[i];
-            0.5 * (before + after) * (trace.values[i] - dark) / light
+            (owned(before) + owned(after)) * (trace.values[i] - dark) / light
         })
         .sum();
     // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell.
@@ -401,7 +437,7 @@ fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize
     crossings
 }
 
-/// The samples from so many pulses before a pulse to so many after it, some in any case.
+/// The samples from so many pulses before a pulse to so many after it, and some more, up to the next gap.
 fn window(
     times: &[f64],
     samples: &Range<usize>,
@@ -411,8 +447,18 @@ fn window(
     let around = pulses * (crossings[5] - crossings[0]);
     let from = times.partition_point(|t| *t < crossings[0] - around);
     let to = times.partition_point(|t| *t <= crossings[5] + around);
-    let few = 8;
-    (from.saturating_sub(few).max(samples.start), (to + few).min(samples.end))
+    let usual = sampling_interval(&times[samples.clone()]);
+    let near = |a: usize, b: usize| times[b] - times[a] <= around.max(4.0 * usual);
+    let (mut first, mut end) = (from.max(samples.start), to.min(samples.end));
+    for _ in 0..8 {
+        if first > samples.start && near(first - 1, first) {
+            first -= 1;
+        }
+        if end < samples.end && near(end - 1, end) {
+            end += 1;
+        }
+    }
+    (first, end)
 }
 
 /// The time between a sample and the next one at which the light is at a level.

@@ -1,9 +1,11 @@
-//! The trace itself.
+//! The trace itself, and what is asked of one.
 
 use std::ops::Range;
 
 /// No time and no signal is larger than this: squares and sums of them stay far from the end of `f64`.
 pub const LARGEST: f64 = 1e30;
+/// The least contrast of a pulse, in standard deviations of the (smoothed) noise.
+pub(super) const CONTRAST: f64 = 8.0;
 
 /// A signal over time: seconds, in order, no two the same; values in the file's own unit.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +26,13 @@ impl Trace {
     }
 }
 
-/// From one sample to the next, on average.
+/// From one sample to the next, by the median: a gap between two shots does not count.
 pub(crate) fn sampling_interval(times: &[f64]) -> f64 {
-    (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64
+    median(times.windows(2).map(|pair| pair[1] - pair[0]).collect())
+}
+
+/// The middle one of some values, which are not none.
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }

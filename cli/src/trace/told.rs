@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::pulse::CONTRAST;
-use super::samples::LARGEST;
+use super::samples::{CONTRAST, LARGEST};
 use crate::unit;
 
 /// Why a trace cannot be fitted.
@@ -17,6 +16,25 @@ pub enum Refusal {
     },
     /// One value a row, and no rate.
     NoTimes,
+    /// Numbers that count rows, and no rate.
+    Counter {
+        /// The column's.
+        name: String,
+    },
+    /// Two lines above the numbers tell different rates.
+    TwoRates {
+        /// One of them.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// Numbers with a comma beside others with a point.
+    Thousands {
+        /// The one with a comma.
+        number: String,
+        /// The other.
+        other: String,
+    },
     /// A column that is asked for is not there.
     NoColumn {
         /// As asked for.
@@ -74,6 +92,13 @@ pub enum Refusal {
         /// As seen.
         seen: f64,
     },
+    /// No delay can be told from the edge of the camera's sync.
+    NoDelay {
+        /// Why not.
+        reason: String,
+    },
+    /// The samples leave open what the shutter does: a result is no finite number.
+    Undetermined,
     /// No scene can be written that can be planned.
     NoScene {
         /// Why not.
@@ -86,10 +111,28 @@ impl fmt::Display for Refusal {
         match self {
             Self::NotCsv { reason } => write!(
                 out,
-                "this is no CSV of samples: {reason}; export the trace as text, a time and a value in each row"
+                "this is no CSV of samples: {reason}; export the trace as text, a time and a value in each row, both plain \
+                 numbers"
             ),
             Self::NoTimes => out.write_str(
                 "there is one value in each row and no time; give the sampling rate in hertz, as in --rate 100000",
+            ),
+            Self::Counter { name } => write!(
+                out,
+                "column {name} counts 0, 1, 2 ... without a unit, so it is no time; give the sampling rate in hertz, as in \
+                 --rate 100000, or the unit with --unit if it is one"
+            ),
+            Self::TwoRates { first, second } => write!(
+                out,
+                "'{first}' and '{second}' above the numbers tell different rates; give the right one, as in --rate 100000"
+            ),
+            Self::Thousands { number, other } if number == other => write!(
+                out,
+                "'{number}' may be one and a fraction, or a thousand; export without separators of thousands"
+            ),
+            Self::Thousands { number, other } => write!(
+                out,
+                "'{number}' has a comma and '{other}' a point, so one of them parts thousands; export without separators"
             ),
             Self::NoColumn { name, there } => {
                 write!(out, "there is no column '{name}'; there are {there}; see --columns")
@@ -134,6 +177,11 @@ impl fmt::Display for Refusal {
                 "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the \
                  trace's own unit, the dark level included"
             ),
+            Self::NoDelay { reason } => write!(out, "--sync: {reason}"),
+            Self::Undetermined => out.write_str(
+                "the samples do not tell what the shutter does; look at the trace: is there one rise, one plateau at most, \
+                 one fall, with samples on each?",
+            ),
             Self::NoScene { reason } => write!(
                 out,
                 "no scene can be made of this: {reason}; look at the trace: is there one rise, one plateau at most, one fall?"
@@ -171,6 +219,24 @@ pub enum Warning {
     },
     /// The file does not tell the time's unit.
     UnitAssumed,
+    /// Another column holds a pulse as well.
+    SecondSignal {
+        /// The one that was taken.
+        taken: String,
+        /// The other.
+        other: String,
+        /// How to take that.
+        option: String,
+    },
+    /// Values that the instrument could not show.
+    Overload {
+        /// So many.
+        count: usize,
+        /// The first one's line.
+        line: u64,
+    },
+    /// The file is a sound.
+    SoundCard,
     /// Samples left out as spikes.
     Spikes {
         /// So many.
@@ -187,6 +253,38 @@ pub enum Warning {
     PartialFrame {
         /// From 1.
         number: usize,
+    },
+    /// The exposures of the shots differ by more than a shutter's own scatter.
+    ShotsDiffer {
+        /// Their standard deviation, as a share of their mean.
+        scatter: f64,
+    },
+    /// The lamp is switched on and off, and what was found are its pulses.
+    Pulsed {
+        /// In hertz.
+        hertz: f64,
+    },
+    /// The recorder was coupled by a capacitor, which is undone.
+    Coupled {
+        /// Its time constant, in seconds.
+        seconds: f64,
+    },
+    /// The signal goes to both sides of the dark.
+    Undershoot {
+        /// How far to the other side, as a share of the light.
+        share: f64,
+    },
+    /// The trace ends before the light does.
+    CutTail {
+        /// What is left at the end, as a share of the light.
+        left: f64,
+    },
+    /// The lamp's light goes up and down, which is taken out.
+    Flicker {
+        /// In hertz.
+        hertz: f64,
+        /// As a share of the light.
+        amplitude: f64,
     },
     /// Light lowers the signal, by all appearance.
     Inverted,
@@ -222,12 +320,52 @@ pub enum Warning {
     /// There is no plateau: full light may never be reached.
     NoPlateau,
     /// No model passes the samples as closely as their noise allows.
-    PoorFit {
-        /// How many times the noise is missed.
-        times: f64,
+    Misfit {
+        /// The greatest structure that is left, as a share of the light.
+        share: f64,
+        /// So many seconds after the opening.
+        after: f64,
+        /// Are exposure and triggers the trace's own?
+        by_trace: bool,
     },
+    /// There is too little dark to tell whether the model explains the trace.
+    Untested,
     /// The times are too far from 0 for the scene's numbers.
     ZeroMoved,
+}
+
+impl Warning {
+    /// A name that a program can ask for: it stays as it is.
+    pub const fn code(&self) -> &'static str {
+        match self {
+            Self::BrokenRows { .. } => "broken_rows",
+            Self::Unsorted { .. } => "unsorted",
+            Self::Duplicates { .. } => "duplicates",
+            Self::UnitAssumed => "unit_assumed",
+            Self::SecondSignal { .. } => "second_signal",
+            Self::Overload { .. } => "overload",
+            Self::SoundCard => "sound_card",
+            Self::Spikes { .. } => "spikes",
+            Self::Glitches { .. } => "glitches",
+            Self::PartialFrame { .. } => "partial_frame",
+            Self::ShotsDiffer { .. } => "shots_differ",
+            Self::Pulsed { .. } => "pulsed",
+            Self::Coupled { .. } => "ac_coupled",
+            Self::Undershoot { .. } => "undershoot",
+            Self::CutTail { .. } => "cut_tail",
+            Self::Flicker { .. } => "flicker",
+            Self::Inverted => "inverted",
+            Self::Clipped { .. } => "clipped",
+            Self::Hum { .. } => "hum",
+            Self::Drift { .. } => "drift",
+            Self::NoiseHidesRamps { .. } => "noise",
+            Self::SharpEdges { .. } => "sharp_edges",
+            Self::NoPlateau => "no_plateau",
+            Self::Misfit { .. } => "misfit",
+            Self::Untested => "untested",
+            Self::ZeroMoved => "zero_moved",
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -250,6 +388,21 @@ impl fmt::Display for Warning {
             Self::UnitAssumed => out.write_str(
                 "the file does not say in which unit its times are; they are taken as seconds (see --unit)",
             ),
+            Self::SecondSignal { taken, other, option } => write!(
+                out,
+                "two columns hold a pulse: {taken} is taken for the light, and {other} is not ({option} takes that)"
+            ),
+            Self::Overload { count, line } => write!(
+                out,
+                "line {line}: the value is infinite; {} of the instrument {} taken as clipped, so the exposure may come out \
+                 wrong; choose a larger range",
+                counted(*count, "overload"),
+                if *count == 1 { "is" } else { "are" }
+            ),
+            Self::SoundCard => out.write_str(
+                "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \
+                 recorder that is coupled for DC, where the exposure matters",
+            ),
             Self::Spikes { count, first } => {
                 let first = unit::short(*first, 9);
                 write!(out, "{} left out, the first at {first} s", counted(*count, "spike"))
@@ -262,6 +415,41 @@ impl fmt::Display for Warning {
             Self::PartialFrame { number } => {
                 write!(out, "pulse {number} is cut by the end of the trace, and left out")
             }
+            Self::ShotsDiffer { scatter } => write!(
+                out,
+                "the exposures of the shots scatter by {} %, so they are not of one setting; only one of them was fitted \
+                 (--frame chooses which)",
+                unit::short(100.0 * scatter, 2)
+            ),
+            Self::Pulsed { hertz } => write!(
+                out,
+                "pulses follow each other at {} Hz: that is a lamp which is switched on and off (PWM), and the exposure is one \
+                 of its pulses', not the shutter's; use a steady lamp",
+                unit::short(*hertz, 3)
+            ),
+            Self::Coupled { seconds } => write!(
+                out,
+                "the recorder is coupled by a capacitor (AC), with a time constant of {}; that is undone; couple it for DC",
+                time(*seconds)
+            ),
+            Self::Undershoot { share } => write!(
+                out,
+                "the signal goes {} % of the light to the other side of the dark, which light does not do: a recorder that is \
+                 coupled by a capacitor (AC, a sound card) does, and no result of such a trace is right; couple it for DC",
+                unit::short(100.0 * share, 2)
+            ),
+            Self::CutTail { left } => write!(
+                out,
+                "the signal still falls where the trace ends, {} % of the light above the dark before: the tail is cut off, \
+                 so the exposure comes out too short; record a longer window",
+                unit::short(100.0 * left, 2)
+            ),
+            Self::Flicker { hertz, amplitude } => write!(
+                out,
+                "the lamp flickers at {} Hz by {} % of its light, which is fitted and taken out; a steady lamp is better",
+                unit::short(*hertz, 4),
+                unit::short(100.0 * amplitude, 2)
+            ),
             Self::Inverted => out.write_str(
                 "light seems to lower the signal, so it is turned round; if it does not, the trace begins and ends in \
                  the light (--light up)",
@@ -299,10 +487,20 @@ impl fmt::Display for Warning {
                 "there is no plateau: the shutter may never open fully; the peak counts as full light unless --full \
                  gives the signal of full light",
             ),
-            Self::PoorFit { times } => write!(
+            Self::Misfit { share, after, by_trace } => write!(
                 out,
-                "the curve misses the samples by {times:.1} times their noise: the shutter does what no model here can \
-                 follow; look at the residual in --picture"
+                "the trace has structure that the model has not: {} % of the light, {} after opening; exposure and \
+                 triggers are {}; look at --picture",
+                unit::short(100.0 * share, 2),
+                time(*after),
+                if *by_trace {
+                    "the trace's own, and the scene's curve is not"
+                } else {
+                    "the model's, and off by more than their errors say"
+                }
+            ),
+            Self::Untested => out.write_str(
+                "there is too little dark beside the pulse to tell whether the model explains the trace; record more of it",
             ),
             Self::ZeroMoved => out.write_str(
                 "the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to \

@@ -1,6 +1,12 @@
 //! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time, sampled
 //! and integrated numerically.
 
+// One table needs them.
+#[allow(dead_code)]
+pub mod fresh;
+#[allow(dead_code)]
+pub mod physics;
+
 /// Random numbers: Marsaglia's xorshift, seeded.
 pub struct Random(u64);
 
@@ -148,7 +154,7 @@ fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
 }
 
 /// The uncovered part of a circle behind an edge that has gone so far across it.
-fn circle(x: f64) -> f64 {
+pub fn circle(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     ((1.0 - 2.0 * x).acos() - (1.0 - 2.0 * x) * 2.0 * (x * (1.0 - x)).sqrt()) / std::f64::consts::PI
 }

@@ -1,0 +1,42 @@
+//! From the edge of a camera's sync to the start of opening.
+
+use crate::scene::{Fault, Scene};
+
+/// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
+/// second of the two, and only the edge can be seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Delay {
+    /// In seconds.
+    pub seconds: f64,
+    /// In ticks of the scene's timer, rounded to the nearest.
+    pub ticks: u32,
+}
+
+/// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
+const LAST: f64 = (1u32 << 31) as f64;
+
+impl Delay {
+    /// The delay that a scene has, if it has one, where the shutter is closed so many ticks after it opens.
+    ///
+    /// # Errors
+    /// A delay below 0, and one after which the frame ends too late.
+    pub(crate) fn new(scene: &Scene, timer_hz: u32, end: f64) -> Result<Option<Self>, Fault> {
+        let Some(place) = &scene.delay else { return Ok(None) };
+        let seconds = scene.seconds("delay", place)?;
+        if seconds < 0.0 {
+            let reason =
+                "delay: 0 or more is required; an edge cannot trigger what comes before it";
+            return Err(Fault::at(place, reason));
+        }
+        let ticks = (seconds * f64::from(timer_hz)).round();
+        let most = LAST - end;
+        if ticks > most {
+            let reason = format!(
+                "delay: the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not"
+            );
+            return Err(Fault::at(place, reason));
+        }
+        // Neither is -0.
+        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32 }))
+    }
+}

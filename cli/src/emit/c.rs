@@ -1,0 +1,109 @@
+//! A plan as a header of C99 and C++11.
+
+use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows};
+use crate::plan::Plan;
+
+/// The header of a plan, its names those of the scene.
+pub fn header(scene: &str, plan: &Plan) -> String {
+    let (lower, upper) = names(scene);
+    let n = plan.triggers.len();
+    let mut body = format!(
+        "#include <stdint.h>
+
+/* The timer's rate. */
+#define {upper}_TIMER_HZ UINT32_C({})
+#define {upper}_TRIGGERS {n}
+",
+        plan.timer_hz
+    );
+    if let Some(delay) = plan.delay {
+        body += &format!(
+            "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT32_C({})\n",
+            delay.ticks
+        );
+    }
+    let ticks = rows(plan.triggers.iter().map(|trigger| trigger.ticks.to_string()));
+    let base = base(plan, &format!("{upper}_DELAY_TICKS"));
+    body += &array(&format!("When to trigger. {base}"), &lower, "ticks", &upper, &ticks);
+    if has_pulses(plan) {
+        for (edge, which) in ["on", "off"].into_iter().zip(0..) {
+            let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
+            let about = format!("When to switch the lamp {edge}, counted as {lower}_ticks are.");
+            body += &array(&about, &lower, edge, &upper, &ticks);
+        }
+    }
+    format!("/*\n{} */\n{}", comment(" * ", scene, plan), guarded(&upper, &lower, &body))
+}
+
+/// The headers of several plans as one, and an array of them.
+pub fn headers(called: &str, plans: &[(String, Plan)]) -> String {
+    let Some((_, one)) = plans.first() else { return String::new() };
+    let (lower, upper) = names(called);
+    let mut body = format!(
+        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n\n",
+        one.timer_hz,
+        plans.len()
+    );
+    body += "typedef struct {\n    const char *name;\n    uint32_t triggers;\n";
+    if one.delay.is_some() {
+        body += "    /* From the edge of the camera's sync to the start of opening. */\n    uint32_t delay_ticks;\n";
+    }
+    body += "    /* So many as there are triggers, counted from the start of opening. */\n    const uint32_t *ticks;\n";
+    if has_pulses(one) {
+        body += "    const uint32_t *on;\n    const uint32_t *off;\n";
+    }
+    body += &format!(
+        "}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n"
+    );
+    for (scene, plan) in plans {
+        let (lower, upper) = names(scene);
+        let delay = plan.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
+        let pulses = match has_pulses(plan) {
+            true => format!(", {lower}_on, {lower}_off"),
+            false => String::new(),
+        };
+        body += &format!("    {{\"{lower}\", {upper}_TRIGGERS, {delay}{lower}_ticks{pulses}}},\n");
+    }
+    body += "};\n";
+    let made = format!(
+        "/*\n * {MADE_BY}: {}, a shutter of {} speeds.\n */\n",
+        name::shown(called),
+        plans.len()
+    );
+    let speeds: String = plans.iter().map(|(scene, plan)| header(scene, plan) + "\n").collect();
+    // A name of its own, so that a scene may be called as the whole is.
+    made + "\n" + &speeds + &guarded(&format!("{upper}_SPEEDS"), &lower, &body)
+}
+
+fn names(scene: &str) -> (String, String) {
+    let lower = name::identifier(scene);
+    let upper = lower.to_ascii_uppercase();
+    (lower, upper)
+}
+
+fn array(about: &str, lower: &str, what: &str, upper: &str, rows: &str) -> String {
+    format!(
+        "\n/* {about} */\nstatic const uint32_t {lower}_{what}[{upper}_TRIGGERS] = {{\n{rows}}};\n"
+    )
+}
+
+/// The body, once; another one of the same name does not compile, rather than being left out in silence.
+fn guarded(upper: &str, lower: &str, body: &str) -> String {
+    let hash = fnv(body);
+    format!(
+        "#ifndef {upper}_SCHEDULE_H
+#define {upper}_SCHEDULE_H {hash}
+
+{body}
+#elif {upper}_SCHEDULE_H != {hash}
+#error \"two different schedules are called {lower}: give one of them another name\"
+#endif
+"
+    )
+}
+
+/// Fowler, Noll and Vo's hash (FNV-1a), as a literal of C.
+fn fnv(text: &str) -> String {
+    let step = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(16_777_619);
+    format!("0x{:08X}U", text.bytes().fold(2_166_136_261, step))
+}

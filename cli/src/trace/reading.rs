@@ -1,0 +1,105 @@
+//! What was read of a file, as a reader is told: which column, and how its times are known.
+
+use std::fmt;
+
+use super::samples::Trace;
+use super::told::Warning;
+use crate::unit::{Unit, short};
+
+/// A column: its number, from 1, and its name, if it has one.
+pub type Named = (usize, Option<String>);
+
+/// What was read of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// So many columns, or channels, the file has.
+    pub columns: usize,
+    /// The times' column, if there is one.
+    pub time: Option<Named>,
+    /// The signal's.
+    pub signal: Named,
+    /// How a row's time is known.
+    pub clock: Clock,
+    /// Who tells that.
+    pub told: Told,
+}
+
+/// How the time of a row is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clock {
+    /// The row holds it, in this unit.
+    Unit(Unit),
+    /// The rows follow each other at this rate, in hertz.
+    Rate(f64),
+}
+
+/// Who tells the unit or the rate.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Told {
+    /// The column's name.
+    Name,
+    /// A line above the numbers.
+    Header(String),
+    /// The format of the file.
+    Format,
+    /// The options.
+    Asked,
+    /// Nobody.
+    Assumed,
+}
+
+/// A trace, and how it was read.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// The samples.
+    pub trace: Trace,
+    /// What was read.
+    pub reading: Reading,
+    /// What is doubtful.
+    pub warnings: Vec<Warning>,
+}
+
+/// The samples of one column.
+pub struct Samples {
+    pub trace: Trace,
+    pub warnings: Vec<Warning>,
+}
+
+/// A column as it is told: `column 2, "CH1"`.
+pub fn shown((number, name): &Named) -> String {
+    let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
+    format!("column {number}{name}")
+}
+
+impl Reading {
+    /// The signal and its place among all columns.
+    pub fn signal(&self) -> String {
+        let (number, name) = &self.signal;
+        let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
+        format!("column {number} of {}{name}", self.columns)
+    }
+
+    /// How the times are known.
+    pub fn times(&self) -> String {
+        let by = match &self.told {
+            Told::Name => "by its name".into(),
+            Told::Header(line) => format!("by '{line}'"),
+            Told::Format => "by the file".into(),
+            Told::Asked => "as asked".into(),
+            Told::Assumed => "assumed".into(),
+        };
+        match (&self.time, self.clock) {
+            (Some(time), Clock::Unit(unit)) => {
+                format!("{} in {}, {by}", shown(time), unit.name())
+            }
+            (_, Clock::Unit(unit)) => format!("in {}, {by}", unit.name()),
+            (_, Clock::Rate(rate)) => format!("{} samples a second, {by}", short(rate, 7)),
+        }
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}; times: {}", self.signal(), self.times())
+    }
+}

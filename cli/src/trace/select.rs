@@ -1,0 +1,61 @@
+//! Of several columns, the one that holds a pulse of light.
+
+use super::pulse::{Light, pulses};
+use super::reading::Samples;
+use super::samples::Trace;
+use super::told::{Refusal, Warning};
+
+/// What a column may be, the likeliest signal of light last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Holds {
+    NoNumbers,
+    NoPulse,
+    /// High or low and nothing in between: a trigger, a flash contact's or a shutter's drive.
+    Gate,
+    Light,
+}
+
+fn holds(samples: &Result<Samples, Refusal>) -> Holds {
+    match samples {
+        Err(_) => Holds::NoNumbers,
+        Ok(samples) if pulses(&samples.trace, Light::Auto).is_err() => Holds::NoPulse,
+        Ok(samples) if is_gate(&samples.trace) => Holds::Gate,
+        Ok(_) => Holds::Light,
+    }
+}
+
+/// Are all samples but one at each edge within a tenth of the highest or the lowest?
+fn is_gate(trace: &Trace) -> bool {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = trace.values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)));
+    let is_between = |v: &f64| (0.1..=0.9).contains(&((v - low) / (high - low)));
+    let is_high = |v: &f64| *v > 0.5 * (low + high);
+    let edges =
+        trace.values.windows(2).filter(|pair| is_high(&pair[0]) != is_high(&pair[1])).count();
+    trace.values.iter().filter(|v| is_between(v)).count() <= edges
+}
+
+/// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told, as
+/// `name` has them, with the option that chooses them.
+pub fn light_among(
+    all: Vec<(usize, Result<Samples, Refusal>)>,
+    name: impl Fn(usize) -> String,
+    time: Option<usize>,
+    warnings: &mut Vec<Warning>,
+) -> Result<(usize, Samples), Refusal> {
+    let held: Vec<Holds> = all.iter().map(|(_, samples)| holds(samples)).collect();
+    let best = held.iter().copied().max().unwrap_or(Holds::NoNumbers);
+    let taken = held.iter().position(|held| *held == best).unwrap_or(0);
+    let is_rival = |k: &usize| *k != taken && held[*k] >= Holds::Gate;
+    if let Some(other) = (0..all.len()).find(is_rival) {
+        let choice = time.map_or(String::new(), |time| format!("{},", time + 1));
+        warnings.push(Warning::SecondSignal {
+            taken: name(all[taken].0),
+            other: name(all[other].0),
+            option: format!("--columns {choice}{}", all[other].0 + 1),
+        });
+    }
+    let mut all = all;
+    let (column, samples) = all.swap_remove(taken);
+    samples.map(|samples| (column, samples))
+}

@@ -1,0 +1,66 @@
+//! A sound file as a trace: the channels are its columns, and it tells its rate.
+
+use std::io::Cursor;
+
+use hound::{SampleFormat, WavReader};
+
+use super::asked::{Column, Options};
+use super::reading::{Clock, Reading, Recording, Samples, Told};
+use super::samples::Trace;
+use super::select::light_among;
+use super::told::{Refusal, Warning};
+
+pub fn is_wav(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE")
+}
+
+/// The trace in the bytes of a WAV.
+pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
+    let refused = |reason: String| Refusal::NotCsv { reason };
+    let broken = |e: hound::Error| refused(format!("it is a WAV that cannot be read ({e})"));
+    let mut file = WavReader::new(Cursor::new(bytes)).map_err(broken)?;
+    let spec = file.spec();
+    let (channels, rate) =
+        (usize::from(spec.channels), options.rate.unwrap_or(spec.sample_rate.into()));
+    if channels == 0 || rate <= 0.0 {
+        return Err(refused("it is a WAV without a channel or a rate".into()));
+    }
+    let values: Vec<f64> = match spec.sample_format {
+        SampleFormat::Float => file.samples::<f32>().map_while(Result::ok).map(f64::from).collect(),
+        SampleFormat::Int => {
+            let full = 2f64.powi(i32::from(spec.bits_per_sample) - 1);
+            file.samples::<i32>().map_while(Result::ok).map(|x| f64::from(x) / full).collect()
+        }
+    };
+    let channel = |k: usize| {
+        let values = values.iter().skip(k).step_by(channels);
+        let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
+        let (times, values) =
+            values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v)).unzip();
+        Ok(Samples { trace: Trace { times, values }, warnings: Vec::new() })
+    };
+    let asked = match options.columns.last() {
+        Some(Column::Number(number)) if (1..=channels).contains(number) => vec![number - 1],
+        None => (0..channels).collect(),
+        Some(other) => {
+            let name = match other {
+                Column::Number(number) => number.to_string(),
+                Column::Name(name) => name.clone(),
+            };
+            return Err(Refusal::NoColumn {
+                name,
+                there: format!("{channels} channels, by number"),
+            });
+        }
+    };
+    let named = |k: usize| (k + 1, None);
+    let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
+    let clock = Clock::Rate(rate);
+    let mut reading = Reading { columns: channels, time: None, signal: named(0), clock, told };
+    let mut warnings = vec![Warning::SoundCard];
+    let name = |k: usize| format!("channel {}", k + 1);
+    let all = asked.into_iter().map(|k| (k, channel(k))).collect();
+    let (signal, samples) = light_among(all, name, None, &mut warnings)?;
+    reading.signal = named(signal);
+    Ok(Recording { trace: samples.trace, reading, warnings })
+}
