@@ -56,6 +56,10 @@ pub fn next() -> Option<Input> {
         let mut received = RECEIVED.borrow_ref_mut(cs);
         let received = received.as_mut()?;
         let byte = received.bytes.pop_front().map(Input::Byte);
+        #[cfg(feature = "faults")]
+        if strobe::is_planted(strobe::Fault::Full) {
+            received.lost = false;
+        }
         // What was lost came after everything that there was room for.
         byte.or_else(|| core::mem::take(&mut received.lost).then_some(Input::Lost))
     })

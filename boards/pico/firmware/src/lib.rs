@@ -4,6 +4,7 @@
 pub mod board;
 pub mod console;
 pub mod cycles;
+pub mod flash;
 pub mod output;
 
 /// A debugger stops here; without one, the processor stops for good.

@@ -12,7 +12,7 @@ use rp2040_hal::pac::PIO0;
 use rp2040_hal::pio::{
     Buffers, PIO, PIOBuilder, PinDir, PinState, StateMachineIndex, Tx, UninitStateMachine,
 };
-use strobe::Frame;
+use strobe::{Edge, Frame};
 
 /// What the state machine does, in cycles of 8 ns.
 fn program() -> Program<32> {
@@ -21,7 +21,7 @@ fn program() -> Program<32> {
         ".wrap_target",
         "    pull block       side 0", // the number of pulses, less 1
         "    mov y, osr       side 0",
-        "    wait 0 pin 0     side 0", // an edge starts the frame, not a level
+        "    wait 0 pin 0     side 0", // an edge starts the frame, not a level; inverted before, where it is the falling one
         "    wait 1 pin 0     side 0",
         "pulse:",
         // Both words are here before the pin goes high, so that it cannot be left high.
@@ -60,6 +60,8 @@ type Feed<SM, CH> = Transfer<Channel<CH>, Armed, Tx<(PIO0, SM)>>;
 /// The state machine `SM` and the DMA channel `CH`, armed with a frame, and the frame that comes after it.
 pub struct Output<SM: StateMachineIndex, CH: ChannelIndex> {
     transfer: Option<Feed<SM, CH>>,
+    /// Of the frame that is armed.
+    edge: Edge,
     next: &'static mut Frame,
     is_fresh: bool,
 }
@@ -89,14 +91,23 @@ where
         machine.set_pindirs([(lamp, PinDir::Output)]);
         pio.irq0().enable_sm_interrupt(SM::id() as u8);
         machine.start();
+        let edge = first.edge();
         let transfer = Some(Config::new(channel, Armed(first), fifo).start());
-        Self { transfer, next, is_fresh: false }
+        Self { transfer, edge, next, is_fresh: false }
     }
 
     /// Takes a frame, to be fired from the next arming on, for one to plan in.
     pub fn publish(&mut self, frame: &mut &'static mut Frame) {
         mem::swap(&mut self.next, frame);
         self.is_fresh = true;
+    }
+
+    /// The edge that the next frame waits for; to be set up before it is armed.
+    pub fn next_edge(&self) -> Edge {
+        match self.is_fresh {
+            true => self.next.edge(),
+            false => self.edge,
+        }
     }
 
     /// Arms the next frame, or the same again; to be called at the interrupt that ends a frame.
@@ -107,6 +118,7 @@ where
         if mem::take(&mut self.is_fresh) {
             mem::swap(&mut frame, &mut self.next);
         }
+        self.edge = frame.edge();
         self.transfer = Some(Config::new(channel, Armed(frame), fifo).start());
     }
 }

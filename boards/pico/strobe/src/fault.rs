@@ -4,7 +4,37 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::limits::MIN_LOW;
 
-const NAMES: [&str; 5] = ["lost", "twice", "early", "late", "close"];
+/// One that can be planted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// A pulse is lost.
+    Lost,
+    /// A pulse comes twice.
+    Twice,
+    /// A pulse comes a cycle early.
+    Early,
+    /// A pulse comes a cycle late.
+    Late,
+    /// A pulse comes too soon after the one before.
+    Close,
+    /// A record that was written in part is taken for a whole one.
+    Torn,
+    /// Bytes for which there was no room are not missed.
+    Full,
+    /// While settings are saved, no edge is seen.
+    Save,
+}
+
+const NAMES: [(&str, Fault); 8] = [
+    ("lost", Fault::Lost),
+    ("twice", Fault::Twice),
+    ("early", Fault::Early),
+    ("late", Fault::Late),
+    ("close", Fault::Close),
+    ("torn", Fault::Torn),
+    ("full", Fault::Full),
+    ("save", Fault::Save),
+];
 
 /// Which of [`NAMES`]; none at first.
 static PLANTED: AtomicUsize = AtomicUsize::new(NAMES.len());
@@ -12,34 +42,44 @@ static PLANTED: AtomicUsize = AtomicUsize::new(NAMES.len());
 /// The pulse that a fault spoils.
 const SPOILED: usize = 5;
 
-/// Has every frame that is planned from now on spoiled by the fault of this name, which zeros fill up.
-///
-/// # Panics
-/// No fault has this name.
+/// Plants the fault of this name, which zeros fill up. Another name is none of this firmware's, and plants nothing.
 pub fn plant(name: [u8; 8]) {
-    let is_it = |known: &&str| name.iter().copied().eq(known.bytes().chain([0; 8]).take(8));
-    let fault = NAMES.iter().position(is_it).expect("a fault's name");
+    let is_it = |known: &str| name.iter().copied().eq(known.bytes().chain([0; 8]).take(8));
+    let fault = NAMES.iter().position(|(known, _)| is_it(known)).unwrap_or(NAMES.len());
     PLANTED.store(fault, Ordering::Relaxed);
 }
 
-/// Spoils the first `n` of the ticks, which have room for one more, and gives their new number.
-pub fn spoil(ticks: &mut [u32], n: usize, length: u32) -> usize {
-    let (Some(fault), true) = (NAMES.get(PLANTED.load(Ordering::Relaxed)), n > SPOILED + 1) else {
-        return n;
-    };
-    match *fault {
-        "lost" => {
-            ticks.copy_within(SPOILED + 1..n, SPOILED);
+/// Is this the planted one?
+pub fn is_planted(fault: Fault) -> bool {
+    planted() == Some(fault)
+}
+
+fn planted() -> Option<Fault> {
+    NAMES.get(PLANTED.load(Ordering::Relaxed)).map(|(_, fault)| *fault)
+}
+
+/// Spoils the first `n` of the pulses, which have room for one more, and gives their new number.
+pub fn spoil(pulses: &mut [(u32, u32)], n: usize) -> usize {
+    let (Some(fault), true) = (planted(), n > SPOILED + 1) else { return n };
+    let moved = |(on, off): (u32, u32), by: u32| (on + by, off + by);
+    let (on, off) = pulses[SPOILED];
+    match fault {
+        Fault::Lost => {
+            pulses.copy_within(SPOILED + 1..n, SPOILED);
             return n - 1;
         }
-        "twice" => {
-            ticks.copy_within(SPOILED..n, SPOILED + 1);
-            ticks[SPOILED + 1] += length + MIN_LOW;
+        Fault::Twice => {
+            pulses.copy_within(SPOILED..n, SPOILED + 1);
+            pulses[SPOILED + 1] = moved((on, off), off - on + MIN_LOW);
             return n + 1;
         }
-        "early" => ticks[SPOILED] -= 1,
-        "late" => ticks[SPOILED] += 1,
-        _ => ticks[SPOILED] = ticks[SPOILED - 1] + length + MIN_LOW,
+        Fault::Early => pulses[SPOILED] = (on - 1, off - 1),
+        Fault::Late => pulses[SPOILED] = moved((on, off), 1),
+        Fault::Close => {
+            let before = pulses[SPOILED - 1].1 + MIN_LOW;
+            pulses[SPOILED] = (before, before + off - on);
+        }
+        Fault::Torn | Fault::Full | Fault::Save => (),
     }
     n
 }

@@ -11,16 +11,20 @@ mod fault;
 mod frame;
 mod limits;
 mod lines;
+mod record;
+mod refused;
 mod settings;
+pub mod store;
 
-pub use change::{Change, Refused};
+pub use change::{Change, Request};
 pub use curves::CURVES;
 #[cfg(feature = "faults")]
-pub use fault::plant;
+pub use fault::{Fault, is_planted, plant};
 pub use frame::Frame;
-pub use limits::{LONGEST_FRAME, MIN_LOW, MIN_PULSE, OVERHEAD, TICK_HZ};
+pub use limits::{LATEST, LONGEST_FRAME, MIN_LOW, MIN_PULSE, MOST_PULSES, OVERHEAD, TICK_HZ};
 pub use lines::{Broken, Lines};
-pub use settings::Settings;
+pub use refused::Refused;
+pub use settings::{Curve, Edge, Frames, Light, Numbers, Settings};
 
 /// docs/firmware.md's code, compiled and run.
 #[cfg(doctest)]

@@ -1,0 +1,118 @@
+// Made by `shutter plan` 0.2.0: camera, a shutter of 2 speeds.
+
+use shutter_curve::ShutterCurve;
+
+/// The timer's rate.
+#[allow(dead_code)]
+pub const TIMER_HZ: u32 = 25000000;
+
+/// A speed of the shutter.
+#[allow(dead_code)]
+pub struct Speed {
+    /// The scene's name.
+    pub name: &'static str,
+    /// The shutter, its times in seconds.
+    pub shutter: &'static ShutterCurve,
+    /// From the edge of the camera's sync to the start of opening.
+    pub delay_ticks: u32,
+    /// When to trigger, counted from the start of opening.
+    pub ticks: &'static [u32],
+}
+
+/// The speeds.
+#[allow(dead_code)]
+pub static SPEEDS: [Speed; 2] = [
+    Speed {
+        name: "leaf",
+        shutter: &leaf::SHUTTER,
+        delay_ticks: leaf::DELAY_TICKS,
+        ticks: &leaf::TICKS,
+    },
+    Speed {
+        name: "fast",
+        shutter: &fast::SHUTTER,
+        delay_ticks: fast::DELAY_TICKS,
+        ticks: &fast::TICKS,
+    },
+];
+
+/// A speed of the shutter.
+pub mod leaf {
+    // Made by `shutter plan` 0.2.0.
+    //
+    // scene        leaf
+    // shutter      opens from 4.247 to 6.8739, closes from 10.959 to 12.958 ms
+    // times        T1 2.6269 ms opening, T2 4.0849 ms fully open, T3 1.9988 ms closing
+    // half open    TE 6.2364 ms, between the half openings
+    // exposure     TV 6.2541 ms, fully open for as much light
+    // efficiency   71.8 %
+    // timer        25000000 Hz
+    // delay        4.247 ms from the sync's edge to the start of opening: 106175 ticks
+    // gap          at least 0.1 ms; the closest two come 9772 ticks apart
+    // set-up       emulated: equal flashes while the camera's own shutter stays open
+    // triggers     16; up to 62 keep the gap
+    // direct       frames of up to 630 triggers are placed without a search
+
+    use shutter_curve::{ShutterCurve, valid};
+
+    /// The shutter, its times in seconds.
+    #[allow(dead_code)]
+    pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
+        [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
+        [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
+    ));
+
+    /// The timer's rate.
+    #[allow(dead_code)]
+    pub const TIMER_HZ: u32 = 25000000;
+
+    /// From the edge of the camera's sync to the start of opening.
+    #[allow(dead_code)]
+    pub const DELAY_TICKS: u32 = 106175;
+
+    /// When to trigger. Ticks count from the start of opening, which comes [`DELAY_TICKS`] after the edge of the camera's sync; add both to the timer's count at the edge, wrapping.
+    #[allow(dead_code)]
+    pub const TICKS: [u32; 16] = [
+        32391, 48161, 59197, 69077, 78849, 88621, 98394, 108166, 117938, 127710, 137482, 147254, 157026,
+        166798, 176964, 190651,
+    ];
+}
+
+/// A speed of the shutter.
+pub mod fast {
+    // Made by `shutter plan` 0.2.0.
+    //
+    // scene        fast
+    // shutter      opens from 4.25 to 6.4, closes from 7 to 9.1 ms
+    // times        T1 2.15 ms opening, T2 0.6 ms fully open, T3 2.1 ms closing
+    // half open    TE 2.725 ms, between the half openings
+    // exposure     TV 2.725 ms, fully open for as much light
+    // efficiency   56.19 %
+    // nominal      4 ms, ΔEV -0.55
+    // timer        25000000 Hz
+    // delay        4.25 ms from the sync's edge to the start of opening: 106250 ticks
+    // gap          at least 0.1 ms; the closest two come 8515 ticks apart
+    // set-up       emulated: equal flashes while the camera's own shutter stays open
+    // triggers     8; up to 27 keep the gap
+    // direct       frames of up to 315 triggers are placed without a search
+
+    use shutter_curve::{ShutterCurve, valid};
+
+    /// The shutter, its times in seconds.
+    #[allow(dead_code)]
+    pub static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.00425, 0.0064, 0.007, 0.0091));
+
+    /// The timer's rate.
+    #[allow(dead_code)]
+    pub const TIMER_HZ: u32 = 25000000;
+
+    /// From the edge of the camera's sync to the start of opening.
+    #[allow(dead_code)]
+    pub const DELAY_TICKS: u32 = 106250;
+
+    /// When to trigger. Ticks count from the start of opening, which comes [`DELAY_TICKS`] after the edge of the camera's sync; add both to the timer's count at the edge, wrapping.
+    #[allow(dead_code)]
+    pub const TICKS: [u32; 8] = [
+        21394, 37056, 47839, 56680, 65195, 73970, 84627, 100106,
+    ];
+}
