@@ -7,7 +7,8 @@ cd "$(dirname "$0")"
 
 target=wasm32-unknown-unknown
 build=(cargo build --quiet --profile page --target "$target" --package designer --lib)
-if [ ! -d "$(rustc --print target-libdir --target "$target")" ] && ! rustup target add "$target"; then
+if [ ! -d "$(rustc --print target-libdir --target "$target")" ] &&
+    echo "designer: fetching the target $target by rustup, 20 MB, some seconds ..." >&2 && ! rustup target add "$target"; then
     # Without it, the standard library can be compiled where its source is there: rustup's, or that of Debian's compiler.
     if [ ! -d "$(rustc --print sysroot)/lib/rustlib/src/rust/library" ]; then
         RUSTC=$(TARGETS=$target ../.ci/thumb.sh sh -c 'echo "${RUSTC:-}"') && [ -n "$RUSTC" ] || {
@@ -16,13 +17,18 @@ if [ ! -d "$(rustc --print target-libdir --target "$target")" ] && ! rustup targ
         }
         build=(env RUSTC="$RUSTC" "${build[@]}")
     fi
+    echo "designer: the standard library for the page is compiled as well, another minute" >&2
     export RUSTC_BOOTSTRAP=1
     build+=(-Zbuild-std=std,panic_abort)
 fi
 
+echo "designer: building the page, in two parts, a minute or two the first time ..." >&2
 rm -rf dist.new
 mkdir dist.new
 cp page/* ../cli/traces/leaf.csv dist.new
+# Comments are for those who read the source.
+sed -i.bak -E '/^ *\/\/ /d' dist.new/*.js
+rm dist.new/*.js.bak
 cargo run --quiet --package designer --bin presets >dist.new/presets.js
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.

@@ -3,7 +3,7 @@
 export const UNITS = ['s', 'ms', 'µs', 'ns'];
 export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
-export const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse'];
+export const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
 const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 
@@ -37,7 +37,7 @@ export function inUnit(scene, unit) {
   const factor = 1000 ** Math.abs(by);
   const convert = (x) => (x === null ? null : tidy(by < 0 ? x / factor : x * factor));
   const converted = { ...scene, unit, times: scene.times.map(convert) };
-  for (const key of ['min_gap', 'nominal', 'pulse', 'min_pulse']) converted[key] = convert(scene[key]);
+  for (const key of ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay']) converted[key] = convert(scene[key]);
   return converted;
 }
 

@@ -4,7 +4,7 @@ import { toml } from './scene.js';
 import * as studio from './studio.js';
 
 const $ = (id) => document.getElementById(id);
-const FORMS = [['rust', 'Rust', 'rs'], ['c', 'C', 'h'], ['toml', 'TOML', 'toml'], ['csv', 'CSV', 'csv'], ['json', 'JSON', 'json']];
+const FORMS = [['rust', 'Rust', 'rs'], ['c', 'C', 'h'], ['toml', 'TOML', 'toml'], ['csv', 'CSV', 'csv'], ['json', 'JSON', 'json'], ['pico', 'Pico', 'txt']];
 
 let form = 'rust';
 let scene = null;

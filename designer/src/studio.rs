@@ -45,9 +45,10 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<String, Wrong> {
         "c" => Form::C,
         "csv" => Form::Csv,
         "json" => Form::Json,
+        "pico" => Form::Pico,
         _ => return Err(format!("there is no form {form}").into()),
     };
-    Ok(emit::emit(form, name, &plan(name, scene)?))
+    Ok(emit::emit(form, name, &plan(name, scene)?)?)
 }
 
 /// The scene, if it can be planned.

@@ -81,7 +81,7 @@ struct Question(Vec<f64>);
 
 impl Question {
     /// The numbers of a question.
-    const LENGTH: usize = 22;
+    const LENGTH: usize = 23;
 
     /// Of the bytes of so many `f64`, or what is wrong with them.
     fn read(bytes: &[u8]) -> Result<Self, Wrong> {
@@ -113,11 +113,12 @@ impl Question {
             triggers: numbers[7],
             timer_hz: numbers[8],
             min_gap: numbers[9],
-            shutteropening: (has & (1 << 4) != 0).then(|| std::array::from_fn(|i| numbers[10 + i])),
+            shutteropening: (has & (1 << 5) != 0).then(|| std::array::from_fn(|i| numbers[10 + i])),
             nominal: optional(0),
             pulse: optional(1),
             duty: optional(2),
             min_pulse: optional(3),
+            delay: optional(4),
         }
     }
 }

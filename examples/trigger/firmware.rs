@@ -31,7 +31,9 @@ const MIN_GAP: u32 = TICK_HZ / 10_000;
 const LATEST: u32 = 16;
 /// How long before a pulse its interrupt comes, to have the handler ready.
 const LEAD: u32 = 128;
-/// From one frame's start to the next's: 20 ms.
+/// The camera's delay, by its trace: 4.247 ms from the edge of its sync to the start of opening.
+const _: () = assert!(measured::DELAY_TICKS == 106_175);
+/// From one edge of the sync to the next: 20 ms.
 const PERIOD: u32 = TICK_HZ / 50;
 
 // The handler computes a tick between two pulses, so none may be searched for: a curve that needs that does not compile.
@@ -50,6 +52,7 @@ enum Fault {
     Early,
     Late,
     Close,
+    NoDelay,
     NoWrap,
 }
 
@@ -68,9 +71,10 @@ impl Fault {
             Some(Some("early")) => Self::Early,
             Some(Some("late")) => Self::Late,
             Some(Some("close")) => Self::Close,
+            Some(Some("nodelay")) => Self::NoDelay,
             Some(Some("nowrap")) => Self::NoWrap,
             _ => {
-                error!("TRIGGER_FAULT is lost, twice, early, late, close or nowrap");
+                error!("TRIGGER_FAULT is lost, twice, early, late, close, nodelay or nowrap");
                 ExitCode::from(2).exit_process()
             }
         }
@@ -80,7 +84,7 @@ impl Fault {
 /// A frame as it is being fired.
 struct Frame {
     fault: Fault,
-    /// The pulses that come after the next, and when the shutter starts to open.
+    /// The pulses that come after the next, and when the shutter starts to open: the delay after the edge of the sync.
     ticks: Option<TriggerTicks<'static>>,
     base: u32,
     /// When the next pulse has to come, and its number.
@@ -135,7 +139,7 @@ fn fire(frame: &mut Frame) {
     acknowledge();
     let Some(due) = frame.due else { return };
     // A fault spoils one pulse. Which, is settled before the pulse is waited for.
-    if frame.next == 5 && frame.fault != Fault::None {
+    if frame.next == 5 && !matches!(frame.fault, Fault::None | Fault::NoDelay) {
         fire_wrongly(frame, due);
     } else {
         while is_before(due) {}
@@ -185,7 +189,8 @@ unsafe fn DefaultHandler(irq: i16) {
 
 /// The greatest lateness of a frame's pulses, if they are what was planned. Those on time are in order, for
 /// the plan is.
-fn check(base: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong> {
+fn check(edge: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong> {
+    let base = edge.wrapping_add(measured::DELAY_TICKS);
     if fired.len() < plan.len() {
         return Err(Wrong::Missing(fired.len()));
     }
@@ -212,18 +217,35 @@ fn check(base: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong>
     Ok(worst)
 }
 
+/// Sleeps until the frame that starts at `base` is over: until a gap has passed after its end.
+fn wait_for_end(base: u32) {
+    let length = ((CURVE.close_end() - CURVE.open_start()) * TICK_HZ as f32) as u32 + MIN_GAP;
+    while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
+        // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
+        critical_section::with(|cs| {
+            let frame = FRAME.borrow_ref(cs);
+            if frame.due.is_some() {
+                wfi();
+            }
+        });
+    }
+}
+
 #[entry]
 fn main() -> ! {
     let fault = Fault::planted();
     critical_section::with(|cs| FRAME.borrow_ref_mut(cs).fault = fault);
     // The counter wraps in the middle of the third frame.
-    start(if fault == Fault::NoWrap { u32::MAX } else { PERIOD * 3 + PERIOD / 4 });
+    start(if fault == Fault::NoWrap { u32::MAX } else { PERIOD * 3 + PERIOD / 5 * 2 });
     let begin = now().wrapping_add(PERIOD);
     let mut good = true;
     let mut wrapped = false;
     info!("{}: exposure {} s", CURVE, CURVE.exposure());
     for (i, wanted) in FRAMES.into_iter().enumerate() {
-        let base = begin.wrapping_add(i as u32 * PERIOD);
+        // What a capture unit holds of the sync's edge: the counter at that moment, which no interrupt makes late.
+        let edge = begin.wrapping_add(i as u32 * PERIOD);
+        let delay = if fault == Fault::NoDelay { 0 } else { measured::DELAY_TICKS };
+        let base = edge.wrapping_add(delay);
         let begun = now();
         let plan = match plan(wanted, fault) {
             Ok(plan) => plan,
@@ -239,24 +261,14 @@ fn main() -> ! {
             frame.fired.clear();
             frame.proceed();
         });
-        // The frame is over when a gap has passed after its end.
-        let length = (CURVE.close_end() * TICK_HZ as f32) as u32 + MIN_GAP;
-        while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
-            // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
-            critical_section::with(|cs| {
-                let frame = FRAME.borrow_ref(cs);
-                if frame.due.is_some() {
-                    wfi();
-                }
-            });
-        }
+        wait_for_end(base);
         let fired = critical_section::with(|cs| FRAME.borrow_ref(cs).fired.clone());
         let across = fired.last() < fired.first();
         wrapped |= across;
         let n = plan.len();
         let [first, last] =
             [plan.clone().next(), plan.clone().last()].map(Option::unwrap_or_default);
-        match check(base, plan, &fired) {
+        match check(edge, plan, &fired) {
             Ok(late) => info!(
                 "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",
                 i,

@@ -5,9 +5,10 @@
 //! cargo run --release --target thumbv7em-none-eabihf --example trigger
 //! ```
 //!
-//! It exits with 0 only if every pulse of every frame came once, in order, never early, at most
-//! `LATEST` ticks late and with the minimum gap kept, and if the counter wrapped within a frame.
-//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nowrap`) before that command plants such
+//! It exits with 0 only if every pulse of every frame came once, in order, with the minimum gap kept, never before its
+//! tick and the delay after the edge of the camera's sync and at most `LATEST` ticks after that, and if the counter
+//! wrapped within a frame.
+//! `TRIGGER_FAULT=lost` (or `twice`, `early`, `late`, `close`, `nodelay`, `nowrap`) before that command plants such
 //! a fault, which the check sees: it exits with 1. With 2 if the fault is another one.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 // Registers are written, as they must be, in `board` alone; the entry and the handler take unsafe attributes.
@@ -17,7 +18,7 @@
 mod board;
 #[cfg(target_os = "none")]
 mod firmware;
-/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv`, then `shutter plan --emit rust` for this board's timer.
+/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv --sync 0`, then `shutter plan --emit rust` for this board's timer.
 #[cfg(target_os = "none")]
 #[rustfmt::skip]
 mod measured;
