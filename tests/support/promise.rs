@@ -58,11 +58,14 @@ impl Figures {
 
         let ts = aimed_ts(&exact, rng);
         let values = |t| [direct.cdf(t), direct.pdf(t), direct.opening(t)];
+        let others = |t| [searched.cdf(t), searched.pdf(t), searched.opening(t)];
         self.values(&exact, &ts, values);
+        self.values(&exact, &ts, others);
         self.ticks(&exact, &direct, rng);
         self.ticks(&exact, &searched, rng);
-        let others = |t| [searched.cdf(t), searched.pdf(t), searched.opening(t)];
-        self.expect("values by CELLS", ts.iter().all(|t| values(*t) == others(*t)), curve);
+        // The cdf asks an octave first, and may end in another bit where there is none.
+        let same = |t: &f32| values(*t)[1..] == others(*t)[1..];
+        self.expect("pdf and opening by CELLS", ts.iter().all(same), curve);
         self.twins(curve, &us, &ts);
         self.single(curve, rng);
         self.curves += 1;
