@@ -89,10 +89,12 @@ impl<const CELLS: usize> Plan<CELLS> {
         Some((units ^ sign).wrapping_sub(sign))
     }
 
-    /// Polynomials are then less exact than `f32` next to 0 are dense.
+    /// Polynomials are then less exact than `f32` next to 0 are dense. By integers, because a processor waits for a
+    /// comparison of floats; no time here is -0.0.
     #[inline(always)]
     fn runs_across_0(&self) -> bool {
-        self.exposure.outer(0) < 0.0 && self.exposure.outer(1) > 0.0
+        let [start, end] = [0, 1].map(|side| self.exposure.outer(side).to_bits() as i32);
+        start < 0 && end > 0
     }
 
     /// The time, in units, of the middle between the `f32` with these bits and the next one, if one polynomial serves
