@@ -32,8 +32,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         if way != way as i32 as i64 || !octave.exists() {
             return None;
         }
-        // Now `P(x) <= y` just where, from side 0, `t` is not before the time of `x`, and from side 1, whose factor is
-        // negative, just where `t` is before it.
+        // From side 0, `P(x) <= y` says that `t` is not before the time of `x`; from side 1, whose factor is negative,
+        // that `t` is before it.
         let y = way as i32 ^ -(side as i32);
         let doubled = octave.inverted(y);
         // The octave is (top / 2, top], and `a` and `end`, its top, count 2⁻³¹ of its power of two: so they fit a word.
@@ -44,16 +44,16 @@ impl<const CELLS: usize> Plan<CELLS> {
         let end = (8 + eighths) << 28;
         let since_start = doubled.wrapping_add((8 - eighths) << 28);
         let a = (end >> 1) + (since_start >> 1);
-        // `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
+        // Neighbouring `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
         let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power_bits / BINADE };
         if apart > 24 {
             return None;
         }
-        // Half of their distance in 2⁻³², as positions count; in 2⁻³¹ this is all of it.
+        // All of their distance in 2⁻³¹, as `a` counts, is half of it in 2⁻³², as positions count.
         let half = 1 << apart;
         let n = (a + (half >> 1)) >> apart;
-        // From side 0 `n` has its leading one at bit 23, and its last place is 2⁻²⁴ of the power, or 2⁻²³ from there
-        // on: hence two binades less, or one.
+        // From side 0 `n` is a significand with its leading one, which adds a binade to the bits: one is taken off
+        // again. Below the power of two it is two, for the lesser exponent.
         let bits = if side == 0 {
             (power_bits - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE)
         } else {

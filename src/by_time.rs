@@ -9,7 +9,7 @@ use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
 /// The error of a search for a time, relative to the way from the ramp's end. The way is at most as long as the time
-/// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 it may be longer, up
+/// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up
 /// to about the time of the farther end. But there [`on_grid`] leaves multiples of a quarter of that end's ulp, which
 /// are about 2⁻²⁶ of the way apart, or more. The error is a quarter of this distance, so neighbours keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;

@@ -118,8 +118,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();
         // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
-        // (Below a mass of 0, `next` is on its other side. It does not matter: `settled` answers 0 for no mass.)
         let rest = (mass.hi - nearest) + mass.lo;
+        // (For a negative mass this is the neighbour on its other side. It does not matter: `settled` answers 0.)
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
         let distance = (0.5 * (next - nearest) - rest).abs();

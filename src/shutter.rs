@@ -214,7 +214,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
         let f = rounded(self.plan.exposure.openness(t));
-        // To the same bits as by `openness`, which compares before it rounds, and takes longer.
+        // Where rounding makes the curve graze 1. `openness` would give the same bits, but takes longer.
         if f > 1.0 { 1.0 } else { f }
     }
 
