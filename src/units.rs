@@ -1,8 +1,8 @@
 //! The scales on which the inside counts, and the steps from one to another. All are powers of two, so that no step
 //! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
-//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole. Two scales
-//! stand elsewhere: that of an openness in [`by_time`](crate::by_time), and places in `f64`, while a curve is built, in
-//! [`path`](crate::path).
+//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole. Three
+//! scales stand elsewhere: an openness has its own in [`by_time`](crate::by_time), a tiny sum in
+//! [`moment`](crate::moment), and, while a curve is built, places in [`path`](crate::path).
 //!
 //! | what is counted | from | to | in |
 //! |---|---|---|---|
