@@ -16,17 +16,19 @@ code("pub(crate) fn cdf_by_octave(&self, ramp: usize, t: f32) -> Option<f32> {",
     let (side, index) = self.octave_about(ramp, time)?;
     let octave = self.octaves[side & 1].get(index)?;""")
 code("let top = octave::top(self.tops[side & 1][ramp & 1]).wrapping_sub((index as u32) << 23);", """
-    let power = top & !(BINADE - 1); let eighths = (top / TOP_STEP) & 7; let end = (8 + eighths) << 28;
-    let ahead = doubled.wrapping_add((8 - eighths) << 28);
-    let a = (end >> 1) + (ahead >> 1);
-    let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power / BINADE };
+    let power_bits = top & !(BINADE - 1); let eighths = (top / TOP_STEP) & 7; let end = (8 + eighths) << 28;
+    let since_start = doubled.wrapping_add((8 - eighths) << 28);
+    let a = (end >> 1) + (since_start >> 1);
+    let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power_bits / BINADE };
     if apart > 24 { return None; }
     let half = 1 << apart; let n = (a + (half >> 1)) >> apart;
-    let bits = if side == 0 { (power - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE) } else { ONE - n };
+    let bits = if side == 0 { (power_bits - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE) } else { ONE - n };
+    let leaves_ramp = if ramp == 0 { bits >= self.last.wrapping_sub(self.count) } else { bits <= self.last + 1 };
+    if leaves_ramp { return None; }
+    let leaves_octave = (n + 1) << apart > end || (n - 1) << apart <= end >> 1;
+    let leaves_side = if side == 0 { bits >= HALF } else { bits <= HALF + 1 };
     let position = n << apart << 1;
-    if if ramp == 0 { bits >= self.last.wrapping_sub(self.count) } else { bits <= self.last + 1 }
-    || (n + 1) << apart > end || (n - 1) << apart <= end >> 1
-    || if side == 0 { bits >= HALF } else { bits <= HALF + 1 } || position == 0 { return None; }
+    if leaves_octave || leaves_side || position == 0 { return None; }
     let octave = core::hint::black_box(octave);
     let low = octave.polynomial(octave.ahead_of_center(position.wrapping_sub(half) as i32));
     let high = octave.polynomial(octave.ahead_of_center(position.wrapping_add(half) as i32));
@@ -42,16 +44,17 @@ code("fn in_units(&self, t: f32) -> Option<i64> {", """let (bits, sign) = (t.to_
     Some((units ^ sign).wrapping_sub(sign))""")
 code("pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {", """
     let both = [bits, bits.wrapping_add(1)];
-    let [first, last] = both.map(|bits| self.last.wrapping_sub(bits));
+    let [before_last, next_before_last] = both.map(|bits| self.last.wrapping_sub(bits));
     let [(side, a), (other, b)] = both.map(|bits| Self::nearer(f32::from_bits(bits)));
-    let is_one = side == other && first >> 31 == last >> 31;
-    if self.runs_across_0() || !is_one || first < self.count || last < self.count { return None; }
-    let (octave, a) = self.look_up(side, (first >> 31) as usize, a)?;
-    let (same, b) = self.look_up(side, (first >> 31) as usize, b)?;
-    let [a, b] = [a, b].map(|position| position.wrapping_add(position & !(position >> 31)));
+    let is_one_ramp = side == other && before_last >> 31 == next_before_last >> 31;
+    let on_line = before_last < self.count || next_before_last < self.count;
+    if self.runs_across_0() || !is_one_ramp || on_line { return None; }
+    let ramp = (before_last >> 31) as usize;
+    let (octave, a) = self.look_up(side, ramp, a)?; let (same, b) = self.look_up(side, ramp, b)?;
+    let [a, b] = [a, b].map(octave::doubled);
     let middle = a.wrapping_add(b.wrapping_sub(a) >> 1);
-    let is_one = core::ptr::eq(octave, same) && octave.exists();
-    is_one.then(|| octave.time(octave.ahead_of_center(middle)))""")
+    let is_served = core::ptr::eq(octave, same) && octave.exists();
+    is_served.then(|| octave.time(octave.ahead_of_center(middle)))""")
 code("if CELLS > 0 && let Some(time) = self.time_between((lesser / WHOLE).to_bits())", "{ return if fixed(t, self.unit()) >= time { greater } else { lesser }; }")
 code("let is_told = nearest > least_told", "&& distance >= nearest * NEAR_MIDDLE;")
 

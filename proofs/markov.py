@@ -1,4 +1,4 @@
-"""src/solve.rs: Markov's constant, in exact rational arithmetic.
+"""Markov's constant, for the noise of a mass (src/solve.rs, cdf.rs, certificate.rs), in exact rational arithmetic.
 
 How much greater than a series of degree 6, whose slope g is at least 0 on [0, 1], can the sum of its terms without their
 signs be at 1? By Lukacs, g = x a^2 + (1 - x) b^2 with quadratic a and b. For given signs of the six terms the sum is linear

@@ -4,8 +4,8 @@ Horner's rule in integers truncates, by Gappa."""
 from solver import *
 
 
-code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """let ahead = position & !(position >> 31);
-    self.ahead_of_center(position.wrapping_add(ahead)) }""")
+code("pub(crate) const fn offset(&self, position: i32) -> i32 {", "self.ahead_of_center(doubled(position)) }")
+code("pub(crate) const fn doubled(position: i32) -> i32 {", "position.wrapping_add(position & !(position >> 31)) }")
 code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
     doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
 code("let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;

@@ -2,15 +2,15 @@
 
 from solver import *
 
-code("fn tick(&self, time: i64) -> u32 {", """let delay = time.wrapping_sub(self.start);
-    let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
-    let low = ((low * self.up as u64) >> 32) as u32;
-    let delay = (high.wrapping_mul(self.up).wrapping_add(low) as i32).max(0) as u64;
+code("fn tick(&self, time: i64) -> u32 {", "self.tick_of_delay(time.wrapping_sub(self.start)) }")
+code("fn tick_of_delay(&self, delay: i64) -> u32 {", """let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
+    let low = ((low * self.power as u64) >> 32) as u32;
+    let delay = (high.wrapping_mul(self.power).wrapping_add(low) as i32).max(0) as u64;
     let low = (delay * (self.factor as u32 as u64)) >> 32;
     ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32 }""")
 code("let up = length.leading_zeros().wrapping_sub(1) & 31;", """let shift = unit + 96 - up as i32; let rate = tick_hz as u64;
     let factor = if shift < 0 { rate.checked_shr(shift.unsigned_abs()) } else { rate.checked_shl(shift.unsigned_abs()) };
-    Self { start, up: 1 << up, factor: factor.unwrap_or(0) }""")
+    Self { start, power: 1 << up, factor: factor.unwrap_or(0) }""")
 
 # A delay moved up, and its upper word: for each shift.
 delay = BitVec("delay", 64)

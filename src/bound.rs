@@ -25,11 +25,11 @@ use crate::path::{Path, absolute, unknown, value};
 const POINTS: [(usize, f64); 3] =
     [(22, 0.9898214418809327), (48, 0.9978589232386035), (96, 0.9994645874763657)];
 
-/// The number of ways to a bound.
-pub(crate) const WAYS: usize = POINTS.len();
+/// A bound is tried with so many efforts, the cheapest first.
+pub(crate) const EFFORTS: usize = POINTS.len();
 
-/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f` has
-/// degree 11, so it may be taken away first.
+/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f`
+/// has degree 11, so it may be taken away first.
 const ELLIPSES: [[f32; 3]; 6] =
     [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 
@@ -66,9 +66,9 @@ pub(crate) const fn errors(
     x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
-    way: usize,
+    effort: usize,
 ) -> Errors {
-    let (points, cosine) = POINTS[way % WAYS];
+    let (points, cosine) = POINTS[effort % EFFORTS];
     // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
     let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
     let (mut s, mut last, mut i) = (1.0, cosine, 0);

@@ -32,43 +32,50 @@ impl<const CELLS: usize> Plan<CELLS> {
         if way != way as i32 as i64 || !octave.exists() {
             return None;
         }
-        // From the later side, where the factor is negative, `P(x) <= y` just where the time is before that of `x`.
+        // From side 0, `P(x) <= y` says that `t` is not before the time of `x`; from side 1, whose factor is negative,
+        // that `t` is before it.
         let y = way as i32 ^ -(side as i32);
         let doubled = octave.inverted(y);
-        // The octave is (top / 2, top], and `a` is counted in 2⁻³¹ of its power of two: so it fits a word.
+        // The octave is (top / 2, top], and `a` and `end`, its top, count 2⁻³¹ of its power of two: so they fit a word.
+        // The way from the octave's start, in 2⁻³² as positions, fits one, too.
         let top = octave::top(self.tops[side & 1][ramp & 1]).wrapping_sub((index as u32) << 23);
-        let power = top & !(BINADE - 1);
+        let power_bits = top & !(BINADE - 1);
         let eighths = (top / TOP_STEP) & 7;
         let end = (8 + eighths) << 28;
-        let ahead = doubled.wrapping_add((8 - eighths) << 28);
-        let a = (end >> 1) + (ahead >> 1);
-        // `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
-        let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power / BINADE };
+        let since_start = doubled.wrapping_add((8 - eighths) << 28);
+        let a = (end >> 1) + (since_start >> 1);
+        // Neighbouring `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
+        let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power_bits / BINADE };
         if apart > 24 {
             return None;
         }
+        // All of their distance in 2⁻³¹, as `a` counts, is half of it in 2⁻³², as positions count.
         let half = 1 << apart;
         let n = (a + (half >> 1)) >> apart;
+        // From side 0 `n` is a significand with its leading one, which adds a binade to the bits: one is taken off
+        // again. Below the power of two it is two, for the lesser exponent.
         let bits = if side == 0 {
-            (power - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE)
+            (power_bits - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE)
         } else {
             ONE - n
         };
-        // Both neighbours have to be served by this polynomial, too: on this ramp, in this octave, and on this side. And
-        // where the power of two is between them they are not equally far.
-        let position = n << apart << 1;
-        if if ramp == 0 {
+        // Both neighbours have to be served by this polynomial, too: on this ramp, in this octave, and on this side.
+        // And where the power of two is between them they are not equally far.
+        let leaves_ramp = if ramp == 0 {
             bits >= self.last.wrapping_sub(self.count)
         } else {
             bits <= self.last + 1
-        } || (n + 1) << apart > end
-            || (n - 1) << apart <= end >> 1
-            || if side == 0 { bits >= HALF } else { bits <= HALF + 1 }
-            || position == 0
-        {
+        };
+        if leaves_ramp {
             return None;
         }
-        // Loaded anew, or the compiler would spill the coefficients, and once for both.
+        let leaves_octave = (n + 1) << apart > end || (n - 1) << apart <= end >> 1;
+        let leaves_side = if side == 0 { bits >= HALF } else { bits <= HALF + 1 };
+        let position = n << apart << 1;
+        if leaves_octave || leaves_side || position == 0 {
+            return None;
+        }
+        // The coefficients are loaded anew, or the compiler would spill them; once for both evaluations.
         let octave = core::hint::black_box(octave);
         let low = octave.polynomial(octave.ahead_of_center(position.wrapping_sub(half) as i32));
         let high = octave.polynomial(octave.ahead_of_center(position.wrapping_add(half) as i32));
@@ -101,18 +108,20 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// both.
     pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {
         let both = [bits, bits.wrapping_add(1)];
-        let [first, last] = both.map(|bits| self.last.wrapping_sub(bits));
+        let [before_last, next_before_last] = both.map(|bits| self.last.wrapping_sub(bits));
         let [(side, a), (other, b)] = both.map(|bits| Self::nearer(f32::from_bits(bits)));
-        let is_one = side == other && first >> 31 == last >> 31;
-        if self.runs_across_0() || !is_one || first < self.count || last < self.count {
+        let is_one_ramp = side == other && before_last >> 31 == next_before_last >> 31;
+        let on_line = before_last < self.count || next_before_last < self.count;
+        if self.runs_across_0() || !is_one_ramp || on_line {
             return None;
         }
-        let (octave, a) = self.look_up(side, (first >> 31) as usize, a)?;
-        let (same, b) = self.look_up(side, (first >> 31) as usize, b)?;
-        let [a, b] = [a, b].map(|position| position.wrapping_add(position & !(position >> 31)));
+        let ramp = (before_last >> 31) as usize;
+        let (octave, a) = self.look_up(side, ramp, a)?;
+        let (same, b) = self.look_up(side, ramp, b)?;
+        let [a, b] = [a, b].map(octave::doubled);
         let middle = a.wrapping_add(b.wrapping_sub(a) >> 1);
-        let is_one = core::ptr::eq(octave, same) && octave.exists();
-        is_one.then(|| octave.time(octave.ahead_of_center(middle)))
+        let is_served = core::ptr::eq(octave, same) && octave.exists();
+        is_served.then(|| octave.time(octave.ahead_of_center(middle)))
     }
 
     /// The side and the index of the octave in which a time on a ramp probably is.
@@ -136,14 +145,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         let mut index = if middle(SKIP).is_some_and(|middle| t < middle) { SKIP } else { 0 };
         let (mut before, mut here) = (i32::MAX, middle(index)?);
         while let Some(next) = middle(index + 1) {
-            // An octave ends a third of the way, in fractions, to the next one's middle: in time somewhat more.
+            // An octave ends a third of the way, in fractions, back from the next one's middle: in time somewhat more.
             let way = here.wrapping_sub(next);
             if t >= next.wrapping_add(way >> 2).wrapping_add(way >> 3) {
                 return Some((side, index));
             }
             (index, before, here) = (index + 1, here, next);
         }
-        // The last one ends less than half as far from its middle as the one before has its own.
+        // The last one ends nearer to its middle than half the distance to the middle before.
         let is_near = before == i32::MAX || t >= here.wrapping_sub(before.wrapping_sub(here) >> 1);
         is_near.then_some((side, index))
     }

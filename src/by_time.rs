@@ -8,9 +8,10 @@ use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
-/// An error in time, relative to the way from the ramp's end. The way is at most as long as the time itself or, on a
-/// ramp across time 0, about as the farther end; and there [`on_grid`] leaves multiples of a quarter of its ulp. So
-/// neighbours are about 2⁻²⁶ of the way apart, or more. This is about a quarter of it, so two of them keep their order.
+/// The error of a search for a time, relative to the way from the ramp's end. The way is at most as long as the time
+/// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up
+/// to about the time of the farther end. But there [`on_grid`] leaves multiples of a quarter of that end's ulp, which
+/// are about 2⁻²⁶ of the way apart, or more. The error is a quarter of this distance, so neighbours keep their order.
 const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
 
 /// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
@@ -110,8 +111,8 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is next
-    /// to it: what [`Series::at_pair`] loses of the terms from either's end.
+    /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is
+    /// next to it: what [`Series::at_pair`] loses of the terms from either's end.
     // proofs/series.py
     pub(crate) fn noise(&self, side: usize) -> f32 {
         let terms = |side: usize| {

@@ -32,8 +32,8 @@ pub(crate) struct Candidate {
     pub(crate) step: f64,
     /// A bound of its slope.
     pub(crate) steep: f32,
-    /// What rounding adds to it, in the unit of the coefficients: Horner's, and less than a unit of time where the outer
-    /// end is cut to such units.
+    /// What rounding adds to it, in the unit of the coefficients: Horner's, and less than a unit of time where the
+    /// outer end is cut to such units.
     pub(crate) truncated: f32,
 }
 

@@ -9,7 +9,8 @@ use crate::plan::Plan;
 use crate::units::{WHOLE, WHOLE_EXPONENT, fixed};
 
 /// A mass may be what a measured part leaves of a ramp's share, or of the whole. While it is more than this fraction of
-/// the part, the part's noise, relative to the mass, is at most four times what it is relative to the part.
+/// the part, the part's noise, relative to the mass, is at most four times what it is relative to the part. A mass that
+/// is not more is always [`settled`](Plan::settled).
 const LITTLE: f32 = 0.25;
 
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
@@ -99,8 +100,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     fn cdf_by_place(&self, ramp: usize, t: f32) -> f32 {
         let on = self.exposure.ramp(ramp).at_time(t);
         let part = on.mass();
-        // From the start of the ramp the mass is a sum. Back from its end it is a difference, and one of this or less
-        // has lost too much to be told.
+        // From the start of the ramp the mass is a sum. Back from its end it is a difference, and one of at most LITTLE
+        // of the part has lost too much: it is always settled.
         let least = LITTLE * part.hi;
         let (mass, least_told) = match (ramp, on.side) {
             (0, 0) => (part, 0.0),
@@ -111,13 +112,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.nearest(t, mass, least_told, Some(on))
     }
 
-    /// The `f32` nearest to the fraction that is collected by `t`, here called its `mass`, in WHOLE; settled where pairs cannot tell which that is, and
-    /// where the mass is `least_told` or less.
+    /// The `f32` nearest to the fraction that is collected by `t`, here called its `mass`, in WHOLE; settled where
+    /// pairs cannot tell which that is, and where the mass is `least_told` or less.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();
         // How far the mass is from the middle between the nearest `f32` and the next one on the mass's side.
         let rest = (mass.hi - nearest) + mass.lo;
+        // (For a negative mass this is the neighbour on its other side. It does not matter: `settled` answers 0.)
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
         let distance = (0.5 * (next - nearest) - rest).abs();

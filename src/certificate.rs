@@ -1,6 +1,6 @@
 //! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
-use crate::bound::{KINDS, WAYS, errors};
+use crate::bound::{EFFORTS, KINDS, errors};
 use crate::candidate::Candidate;
 use crate::path::{Path, Side, absolute, scale, singles, unknown, value};
 use crate::span::Span;
@@ -46,13 +46,13 @@ impl Side<'_> {
             OFF[0] + OFF[1] * span.to,
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
-        let single = step as f32;
-        let per_tick = single / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
+        let single_step = step as f32;
+        let per_tick = single_step / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
         // In `f64`, since the openness of a single curve may have any scale.
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
-            single / self.size_of_time(ends[0]) / FORWARD_ERROR,
-            single / self.size_of_time(ends[1]) / FORWARD_ERROR,
+            single_step / self.size_of_time(ends[0]) / FORWARD_ERROR,
+            single_step / self.size_of_time(ends[1]) / FORWARD_ERROR,
         ];
         // In the unit of the coefficients.
         along.time[0] -= middle;
@@ -74,7 +74,9 @@ impl Side<'_> {
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                (self.greatest_beyond(ramp, single / per_tick) * per_exposure) as f32
+                // The greatest error that a tick allows: TICK_ERROR of the interval.
+                let tick_error = single_step / per_tick;
+                (self.greatest_beyond(ramp, tick_error) * per_exposure) as f32
             } else {
                 0.0
             },
@@ -84,22 +86,23 @@ impl Side<'_> {
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded to 1/2, where a tick's fraction may lose 2.
         let noise = limits.rounding + 0.25 * limits.lost;
-        let (mut way, mut bounds) = (0, [f32::INFINITY; 4]);
-        while way < WAYS {
-            let errors = errors(octave, &along, &offset, &weights, noise, way);
+        let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
+        while effort < EFFORTS {
+            let errors = errors(octave, &along, &offset, &weights, noise, effort);
             bounds = limits.share(&errors.most);
             // If the samples alone are too wrong, no closer bound helps.
-            way = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
-                WAYS
+            effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
+                EFFORTS
             } else {
-                way + 1
+                effort + 1
             };
         }
         bounds
     }
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
-    /// at most the interval, since ticks are counted from its start.
+    /// at most the interval. So wherever a curve lies, its error is small beside its length, even a little smaller than
+    /// ticks ask for ([`TICK_ERROR`]).
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since: f64) -> f32 {
         let [start, end] = [self.exposure.outer(0), self.exposure.outer(1)];
@@ -158,9 +161,9 @@ impl Limits {
     #[inline(never)]
     const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 4] {
         let error = time + self.rounding;
-        // How far along the ramp so much time leads at most. A way `d` takes at least `d` times the least slope and,
-        // where time bends upwards, at least t3 d³ / 4, as around a point where it stands still. One of these has to be
-        // as much.
+        // How far along the ramp so much time leads at most: the `way` (docs/proofs.md, "From time to exposure"). A way
+        // `d` takes at least `d` times the least slope and, where time bends upwards, at least t3 d³ / 4, as around a
+        // point where it stands still. One of these has to be as much.
         let [_, t1, t2, t3] = self.time;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
         let slowest =
@@ -175,6 +178,7 @@ impl Limits {
         [
             (error + self.lost) * self.per_tick,
             relative + self.rounding * self.per_size,
+            // The last term: on the way the openness may become greater.
             exposed + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
             error * self.beyond,
         ]

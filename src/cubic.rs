@@ -1,5 +1,4 @@
-//! Cubics in `f64`, for the construction of a curve: extremes, the power form around a place, and how a curve that
-//! grazes a bound is lifted onto it.
+//! Cubics in `f64`, for the construction of a curve: extremes, and the power form around a place.
 
 /// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
 #[derive(Clone, Copy)]

@@ -65,8 +65,8 @@ const fn parts(bits: u32) -> (u32, u32) {
     (bits >> 23 & 0xFF, bits & 0x7F_FFFF | 1 << 23)
 }
 
-/// In the unit of the lesser number's last place both numbers and the sum are whole numbers, and what is lost is at most
-/// the lesser number, since the greater one was a choice for the sum.
+/// In the unit of the lesser number's last place both numbers and the sum are whole numbers, and what is lost is at
+/// most the lesser number, since the greater one was a choice for the sum.
 #[inline(never)]
 pub(crate) const fn sum_by_integers(sum: f32, a: f32, b: f32) -> f32 {
     let (a_bits, b_bits) = (a.to_bits(), b.to_bits());

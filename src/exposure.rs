@@ -1,4 +1,4 @@
-//! The exposure: a ramp, a plateau and a ramp, with one area over all three, and its exact inverse.
+//! The exposure: a ramp, a plateau and a ramp, with one area over all three, and the inverse, to 2⁻²⁶ or 2⁻⁴⁰.
 //!
 //! Fractions of the exposure are counted from the nearer end of the curve: from side 0, the earlier end, `a = u`; from
 //! side 1, the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near*
@@ -126,6 +126,8 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
+        // If the two nearly cancel, the second number may be the greater one. Multiplied below, it is rounded to 2⁻²⁴
+        // of itself, which is some 2⁻⁴⁸ of `a`. No script proves that.
         let past_near = a.minus_loose(near);
         let past_plateau = past_near.minus(self.plateau);
         if past_plateau.rounded() > 0.0 {

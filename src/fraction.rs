@@ -1,7 +1,23 @@
-//! The fractions of the exposure at which triggers and the ends of pulses are due, to 96 bits.
+//! The fractions of the exposure at which triggers and the ends of pulses are due, to 96 bits. A *frame* is the
+//! triggers, or the pulses, of one exposure.
 
 use crate::pair::Pair;
 use crate::units::{WHOLE_EXPONENT, power_of_two};
+
+/// One end of a pulse. A pulse lies around the middle of its share of the exposure, where its trigger would be: so its
+/// ends are half of the pulse before and behind that. A trigger is a pulse without length.
+#[derive(Clone, Copy)]
+pub(crate) struct Edge {
+    /// Half of the pulse, in units of 2⁻⁶⁴, and the rest in units of 2⁻⁹⁶.
+    half: u64,
+    rest: u32,
+    /// Is it the end behind, where the pulse goes off?
+    is_off: bool,
+}
+
+impl Edge {
+    pub(crate) const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
+}
 
 /// The fractions `(2i + 1) / 2n` of the exposure.
 #[derive(Clone)]
@@ -48,8 +64,8 @@ impl Fractions {
         let low = near * self.rest as u64;
         let middle = near * (self.half_share as u32 as u64) + (low >> 32);
         let words = (near * (self.half_share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
-        // Half of the pulse, towards the other side or away from it. It is at most as much, so no difference is
-        // negative.
+        // Half of the pulse, towards the other side or away from it. It is at most half a share, and `near` counts at
+        // least one of these, so no difference is negative.
         let (words, low) = if edge.is_off == (side == 0) {
             let (low, carry) = (low as u32).overflowing_add(edge.rest);
             (words.wrapping_add(edge.half).wrapping_add(carry as u64), low)
@@ -78,17 +94,4 @@ impl Fractions {
         let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
         [edge(false), edge(true)]
     }
-}
-
-/// One end of a pulse: half of the pulse, in units of 2⁻⁶⁴ and for the rest 2⁻⁹⁶, before or behind the middle of its
-/// share. For a trigger that is 0.
-#[derive(Clone, Copy)]
-pub(crate) struct Edge {
-    half: u64,
-    rest: u32,
-    is_off: bool,
-}
-
-impl Edge {
-    pub(crate) const TRIGGER: Self = Self { half: 0, rest: 0, is_off: false };
 }

@@ -1,4 +1,5 @@
-//! The iterators over a frame: any item in constant time, from either end.
+//! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
+//! either end.
 
 /// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the
 /// range of those that are `left`.

@@ -31,20 +31,21 @@
 
 // To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve.
 //
-// Numbers    `units`: every scale and its reason. `exact`: what a sum and a product lose. `pair`: two `f32` as one number.
-//            `series`: polynomials of these.
+// Numbers    `units`: the scales. `exact`: what a sum and a product lose. `pair`: two `f32` as one number. `series`:
+//            polynomials of these.
 // Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
 // A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
 //            is found. `ramp`: when a mass has been collected. `quick`: a place for a time without a search. `by_time`:
-//            the same ramp, asked by time.
+//            the same ramp, asked by time, and its openness.
 // A curve    `exposure`: two ramps and a plateau, by fraction.
-// Directly   `octave`: a polynomial that needs no search. How it is built: `path`, the exact ramp; `span`, the part
+// Directly   `octave`: a polynomial that needs no search. How it is built: `path`, a ramp in `f64`; `span`, the part
 //            that it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of
 //            a side.
-// An answer  `plan`: the steps from one `u` to its time. `by_octave`: from a time to its `u` by a polynomial; `cdf`: by
-//            any way. `batch`: a short cut by doubles, for one `u` and for many.
-// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: from fractions to ticks.
-mod batch;
+// An answer  `plan`: the steps to a time, from an `f32` `u` and from a fraction of 64 bits. `by_octave`: from a time to
+//            its `u` by a polynomial; `cdf`: by any way, and the ways of openness and density. `doubles`: a short cut
+//            on processors of 64 bits, for one `u` and for many.
+// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: the times and ticks of triggers and
+//            pulses.
 mod bezier;
 mod bound;
 mod by_octave;
@@ -53,6 +54,7 @@ mod candidate;
 mod cdf;
 mod certificate;
 mod cubic;
+mod doubles;
 mod error;
 mod exact;
 mod exposure;

@@ -8,8 +8,9 @@ use crate::cubic::{cubic_range, quadratic_min, widened};
 /// reaches the plateau at 1. Each is rounded to the next `f32` above. A Bezier moves with its control values.
 ///
 /// Where the greater end has less than half of the greatest value, that value stays, so that nothing moves by more than
-/// the raise. An end at 0 has to move even if only the inside dips. To keep it there would mean to raise the slope by
-/// several 2⁻¹¹, because a steep cubic may start with a slope of minus that, and dip by only 2⁻²².
+/// the raise. An end at 0 has to move even if only the inside dips. If it stayed, the slope there would have to be
+/// raised to 0, and that moves the curve much farther: `3p² - s p` dips by only `s²/12`, so by 2⁻²² with a slope of
+/// -3.5 · 2⁻¹¹.
 pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
     let (low, high) = cubic_range(widened(v));
     if low >= 0.0 {

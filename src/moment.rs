@@ -7,8 +7,8 @@ use crate::units::power_of_two;
 /// [-252, 22].
 ///
 /// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless
-/// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of `rest`: no promise is
-/// as fine as that.
+/// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of what the sum
+/// of the first numbers leaves (`rest`): no promise is as fine as that.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {

@@ -6,8 +6,8 @@
 //! ramp ends, or somewhat more; each further one ends at half of the one before. So no octave holds parts of two ramps,
 //! unless their join is so near to 1/2 that it counts as that. The plateau between the ramps is answered by its line.
 //!
-//! The difference of the bits of the top's and of `a`'s `f32` tells how many octaves lie between them, since the
-//! exponent is the upper part of the bits.
+//! The bits of the top less the bits of `a`, shifted right by 23, are the index of the octave that holds `a`, since the
+//! exponent is the upper part of the bits of an `f32`.
 //!
 //! An octave holds the end of one binade and the start of the next one. A *position* in it is `a` less the power of two
 //! between them. Above, it counts 2⁻³¹ of that power, from 0 to 2³¹, and has to be doubled; below, it counts 2⁻³² of
@@ -49,6 +49,12 @@ pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 
+/// A position in 2⁻³² of the power of two throughout: one above the power counts 2⁻³¹, and is doubled.
+#[inline(always)]
+pub(crate) const fn doubled(position: i32) -> i32 {
+    position.wrapping_add(position & !(position >> 31))
+}
+
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: NO_TIME, factor: 0, center: 0, c: [0; DEGREE] };
 
@@ -61,11 +67,10 @@ impl Octave {
     /// The `x` of a position, in 2⁻³².
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
-        let ahead = position & !(position >> 31);
-        self.ahead_of_center(position.wrapping_add(ahead))
+        self.ahead_of_center(doubled(position))
     }
 
-    /// The `x` of a position that is doubled where it has to be.
+    /// The `x` of a position that is [`doubled`] where it has to be.
     ///
     /// The difference and its multiple fit the word, even if one of the numbers does not: a span leaves room for that
     /// (`FILLED` in [`span`](crate::span)).
@@ -96,9 +101,8 @@ impl Octave {
     }
 }
 
-/// Has the processor no instruction for the upper word of a product? Of the cores that are known here the one without
-/// lacks another kind of instruction as well, of which a stable compiler tells. Where this is wrong, the bits are the
-/// same, only later.
+/// Has the processor no instruction for the upper word of a product? Armv6-M has none, and no compare-and-swap, of
+/// which a stable compiler tells. Where this is wrong, the bits are the same, only later.
 const HALVES: bool =
     cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
 

@@ -44,8 +44,10 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = side ^ 1 ^ i;
         let (top, end) = this.of_ramp(ramp, octaves, first);
-        // A raised top is below 2³, which fits: the far ramp's top is below 1; its octaves but the last begin above the
-        // near ramp's end, or above half of LEAST_TOP; and the near ramp's top is less than an octave above that.
+        // It fits a byte, since a raised top is below 2³. Let the far ramp have `n` octaves. Its top `f` is below 1,
+        // and the top of its last octave, `2 f / 2ⁿ`, is above the near ramp's end and above LEAST_TOP / 2. The near
+        // ramp's top is less than twice that end, or twice LEAST_TOP: so less than `8 f / 2ⁿ`. Raised `n` times it is
+        // below `8 f`.
         tops[ramp & 1] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
@@ -60,9 +62,10 @@ impl Side<'_> {
     const fn of_ramp(&self, ramp: usize, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // A ramp without octaves has a top, too, for fractions of the plateau that are below FINE, and so not on its
-            // line: they are looked up as if they were on this ramp. The top is at or above all of them, and what they
-            // find has no polynomial, as a near ramp that ends below FINE has none ([`range`]).
+            // Here too a fraction may be looked up: on side 0, one of the plateau that is at most FINE, and so not on
+            // its line, counts as on the near ramp. It must not find a polynomial. There is none from `first` on
+            // ([`range`]), but from a lower top its index might be less than that, one of the far ramp's. So the top is
+            // at or above all such fractions.
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -77,9 +80,10 @@ impl Side<'_> {
             while index < octaves.len() {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
-                // The first octave whose top is below LEAST_TOP has a place, too, if never a polynomial: without it, a
-                // fraction of the far ramp there would be looked up in the near ramp's first octave.
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
+                    // One octave whose top is below LEAST_TOP has a place, too, if never a polynomial. Let the ramps
+                    // join at 0.7 LEAST_TOP, and the far ramp's tops be 7/8 of powers of two. Without that place, 0.8
+                    // LEAST_TOP on the far ramp would be looked up in the near ramp's first octave.
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {

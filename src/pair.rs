@@ -1,10 +1,11 @@
 //! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
 //! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
-//! functions. What each loses is said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). Plain
-//! sums and products without fused operations, and what these lose ([`exact`](crate::exact)), so that the bits are the
-//! same on every machine. They are exact, or as good as each says, as long as nothing overflows or becomes subnormal;
-//! who calls them scales by powers of two to see to that.
+//! functions. Only `minus_loose` may leave the greater number second, if its operands nearly cancel. What each loses is
+//! said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). Plain sums and products without
+//! fused operations, and what these lose ([`exact`](crate::exact)), so that the bits are the same on every machine.
+//! They are exact, or as good as each says, as long as nothing overflows or becomes subnormal; who calls them scales by
+//! powers of two to see to that.
 
 use crate::exact::{lost_by_product, lost_by_sum};
 use crate::units::power_of_two;

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use crate::batch;
 use crate::bezier::CubicBezier;
+use crate::doubles;
 use crate::error::{CurveError, Part};
 use crate::plan::Plan;
 
@@ -105,7 +105,7 @@ impl<const CELLS: usize> BezierPdf<CELLS> {
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        batch::inverse_cdf(&self.plan, u)
+        doubles::inverse_cdf(&self.plan, u)
     }
 
     /// `∫ f dt`, before normalisation: `f` times the curve's unit of time.

@@ -15,7 +15,7 @@
 //! 9. Halley's steps, what is then missing in pairs, and one step for that, with a proof ([`solve`](crate::solve)).
 //! 10. One rounding to `f32`.
 //!
-//! On a processor with doubles, [`batch`](crate::batch) takes the plateau's line in those, to the same bits.
+//! On a processor with doubles, [`doubles`](crate::doubles) takes the plateau's line in those, to the same bits.
 //!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
@@ -34,9 +34,6 @@ use crate::units::{
     FINE, FINE_DOUBLE_WORD, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64,
     time_unit,
 };
-
-/// Does the processor have doubles? One of 64 bits does.
-pub(crate) const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
@@ -66,7 +63,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         part: Part,
         most: f64,
     ) -> Result<Self, CurveError> {
-        // Beyond, less than 2⁻⁶⁴ of all `u` would be left to serve.
+        // A fraction of 0 has to fall into no octave: by its bits, it is 99 octaves or more below every top. (Only
+        // about 30 octaves a side can have a polynomial.)
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
         let exposure = match Exposure::new(opening, closing, part, most) {
             Ok(exposure) => exposure,
@@ -106,8 +104,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         Ok(Self { exposure, scale, last, count, base, slope, tops, octaves })
     }
 
-    /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its length,
-    /// that its area is less than 2⁴⁰ units, every `u` is searched for.
+    /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its
+    /// length, that its area is less than 2⁴⁰ units, every `u` is searched for.
     const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
@@ -124,8 +122,8 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// The time by which the fraction `u` of the exposure has been collected, without doubles.
     ///
-    /// The plateau's way returns by itself, and the ramp's has one end. So the compiler saves registers on the ramp's way
-    /// alone, and only those that a polynomial needs.
+    /// The plateau's way has a return of its own, and the ramp's way has only one. So the compiler saves registers on
+    /// the ramp's way alone, and only those that a polynomial needs.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         let before_last = self.before_last(u);
@@ -178,9 +176,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         }
     }
 
-    /// How many bits' steps `u` is before the last one on the plateau: less than `count` only on the line, since the bits
-    /// of a negative `u` or a NaN are at least 2²⁹ away from `last`, and `count` is below 2²⁷. The top bit is set beyond
-    /// the plateau.
+    /// By how many `f32` `u` is before the last one on the plateau: less than `count` only on the line, since the bits
+    /// of a negative `u` or a NaN are at least 2²⁹ away from `last`, and `count` is below 2²⁷. The top bit is set
+    /// beyond the plateau.
     #[inline(always)]
     fn before_last(&self, u: f32) -> u32 {
         self.last.wrapping_sub(u.to_bits())
@@ -191,7 +189,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     #[inline(always)]
     fn by_octave(&self, u: f32, before_last: u32) -> i64 {
         let (side, bits) = Self::nearer(u);
-        // Beyond the plateau it is the closing one.
+        // Beyond the plateau it is the closing one. A `u` on the plateau but not on its line, at or below FINE, counts
+        // as on the opening one, which has no polynomial for it ([`octaves::range`]).
         let ramp = (before_last >> 31) as usize;
         match self.look_up(side, ramp, bits) {
             // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
@@ -246,8 +245,8 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// Out of line, so that the direct way saves no registers for it; and the bits, since a call that returned the very
-    /// answer would be a second end of the ramp's way.
+    /// Out of line, so that the direct way saves no registers for it. It returns bits, because a call that returned the
+    /// answer itself would become a tail call, which is a second return of the ramp's way.
     #[cold]
     #[inline(never)]
     fn searched(&self, u: f32) -> u32 {
@@ -306,8 +305,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The plateau by `u` in units of 2⁻⁶⁴.
     pub(crate) fn plateau_u64(&self) -> PlateauU64 {
         let [near, far] = self.exposure.joins_u64();
-        // With a plateau both joins are on the line, 1/2 too. Without one, a `u` at the join counts as on the closing
-        // ramp. At 1/2 it has to: `direct_u64` counts 1/2 from side 1.
+        // With a plateau both joins count as on the line, also one at 1/2. Without one, a `u` at the join counts as on
+        // the closing ramp. At 1/2 it has to: `direct_u64` counts 1/2 from side 1.
         let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
         let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
         // By the slope, not by `count`: a plateau too short for an `f32` may hold fractions of 64 bits.

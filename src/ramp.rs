@@ -43,9 +43,9 @@ struct End {
 /// count away from the nearer end of the ramp. Place and mass are negative if that is the later end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// How far from the nearer end.
+    /// How far from the nearer end, with that sign.
     place: f32,
-    /// The mass between that end and here.
+    /// The mass between that end and here, with that sign.
     mass: Pair,
     /// The mass from here, by powers of the distance. The last two coefficients follow from those of the end.
     c: [f32; 4],
@@ -212,13 +212,13 @@ impl Ramp {
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
         let c5 = c5 + 6.0 * c6 * from_end;
-        let (base, sign) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
-        let place = Pair::sum(base, flipped(from_end, sign));
+        let (base, counts_back) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
+        let place = Pair::sum(base, flipped(from_end, counts_back));
         let back = sought.to_bits() & BACK;
         // Mirrored, both the distance and the mass count the other way, so it is the even powers that change their
         // sign.
-        let sign = sign ^ back;
-        let c = [c1, flipped(c2, sign), c3, flipped(c4, sign), c5, flipped(c6, sign)];
+        let mirror = counts_back ^ back;
+        let c = [c1, flipped(c2, mirror), c3, flipped(c4, mirror), c5, flipped(c6, mirror)];
         Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }
     }
 }

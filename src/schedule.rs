@@ -53,14 +53,14 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if most > 1 { most } else { 1 }
     }
 
-    /// A number such that in a frame of up to so many triggers each is placed by a polynomial or by the plateau's line,
-    /// none by a search. So each costs at most the worst direct answer. This holds for
-    /// [`trigger_times`](Self::trigger_times), and for [`trigger_ticks`](Self::trigger_ticks) on intervals of up to 2²⁴
-    /// ticks. The README has both costs in cycles.
+    /// A number of triggers such that, if a frame (the triggers of one exposure) has no more, each is placed by a
+    /// polynomial or by the plateau's line, none by a search. So each costs at most the worst direct answer. This holds
+    /// for [`trigger_times`](Self::trigger_times), and for [`trigger_ticks`](Self::trigger_ticks) on intervals of up to
+    /// 2²⁴ ticks. The README has both costs in cycles.
     ///
-    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more. 0 says that there is no
-    /// such frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too difficult for
-    /// polynomials.
+    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more, up to 2²². 0 says that
+    /// there is no such frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too
+    /// difficult for polynomials.
     ///
     /// Being constant, it makes a deadline that the compiler checks:
     ///
@@ -111,8 +111,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most 3/4 tick from
     /// that, for intervals of any length up to 2³¹ ticks: above 2²⁴, triggers are searched for, and placed to a
     /// thousandth of a tick. If the openness touches 0 between the ends, many times have nearly the same exposure.
-    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ of the lesser of `u` and `1 - u` by proof, to 2⁻³⁴ of
-    /// it in all tests.
+    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ of the lesser of `u` and `1 - u` by proof, to 2⁻³⁴
+    /// of it in all tests.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.

@@ -23,13 +23,14 @@ impl Series<'_> {
         self.value(x, core::hint::black_box(self.c.len()))
     }
 
-    /// The same, all but the highest of its `k` terms in a loop.
+    /// The same, where `k` is the number of coefficients in `c`: known to the compiler or not, as the caller has it.
     #[inline(always)]
     const fn value(self, x: f32, mut k: usize) -> Pair {
         let Pair { mut hi, mut lo } = self.last;
         loop {
             let product = hi * x;
             lo = lo * x + lost_by_product(product, hi, x);
+            // At the end it wraps: one comparison ends the loop and spares the check of a bound.
             k = k.wrapping_sub(1);
             if k >= self.c.len() {
                 return Pair { hi: product, lo };

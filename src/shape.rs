@@ -23,8 +23,8 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
 
 /// Does time run forward, and does the openness stay in [0, `most`]?
 ///
-/// A curve that touches its bound rarely has control values that are `f32` (a value of -1/3 is rounded), so both may graze their bound by [`GRAZE`] of the
-/// ramp's length or of the greatest |f|.
+/// A curve that touches its bound rarely has control values that are `f32` (a value of -1/3 is rounded), so both may
+/// graze their bound by [`GRAZE`] of the ramp's length or of the greatest |f|.
 pub(crate) const fn check_ramp(
     curve: &CubicBezier,
     part: Part,
@@ -32,8 +32,8 @@ pub(crate) const fn check_ramp(
 ) -> Result<(), CurveError> {
     let t = widened(curve.times());
     // Time may not leave the ramp, but rounding may put the first inner control time a trace before its start. If the
-    // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much is
-    // forgiven. (t' is three times the differences.)
+    // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much
+    // is forgiven. (t' is three times the differences.)
     let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
     let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
     let leaves = first < -slack || last > t[3] - t[0] + slack;

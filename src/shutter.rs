@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use crate::batch;
 use crate::bezier::CubicBezier;
+use crate::doubles;
 use crate::error::{CurveError, Part};
 use crate::moment::rounded;
 use crate::octave::NO_TIME;
@@ -19,9 +19,9 @@ use crate::plan::Plan;
 ///
 /// `CELLS` is the number of octaves of `u` on either side, from the start and from the end; each has a polynomial that
 /// answers it. A curve takes 480 bytes, and 96 more for each two of these. With 8 a side at most one `u` in 256 of a
-/// typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
-/// and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another number than 8
-/// end in `with_cells`.
+/// typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64
+/// do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another
+/// number than 8 end in `with_cells`.
 #[derive(Clone, Copy, PartialEq)]
 pub struct ShutterCurve<const CELLS: usize = 8> {
     pub(crate) plan: Plan<CELLS>,
@@ -214,7 +214,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`close_end`]: Self::close_end
     pub fn opening(&self, t: f32) -> f32 {
         let f = rounded(self.plan.exposure.openness(t));
-        // Where rounding makes the curve graze it.
+        // Where rounding makes the curve graze 1. `openness` would give the same bits, but takes longer.
         if f > 1.0 { 1.0 } else { f }
     }
 
@@ -264,7 +264,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;
-    /// // A ramp of 0.2 has the area 0.1, and the whole is 0.1 + 0.5 + 0.15 = 0.75: half of that is collected at 0.475, not 0.375.
+    /// // A ramp of 0.2 has the area 0.1, and the whole is 0.1 + 0.5 + 0.15 = 0.75. Half of that is collected at 0.475,
+    /// // not at 0.375.
     /// let curve = ShutterCurve::linear(0.0, 0.2, 0.7, 1.0)?;
     /// assert_eq!(curve.exposure(), 0.75);
     /// assert_eq!(curve.inverse_cdf(0.5), 0.475);
@@ -274,7 +275,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        batch::inverse_cdf(&self.plan, u)
+        doubles::inverse_cdf(&self.plan, u)
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits, and the same unit.
@@ -294,7 +295,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     #[inline(always)]
     pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
         assert!(u.len() == t.len(), "u and t differ in length");
-        batch::inverse_cdf_slice(&self.plan, u, t);
+        doubles::inverse_cdf_slice(&self.plan, u, t);
     }
 
     /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.

@@ -8,10 +8,13 @@
 //! 3. one more step for that, and a computed bound of what it leaves ([`left`]), which accepts the answer or not.
 //!
 //! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
-//! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations. After `FREE`
-//! evaluations each measured place halves a bracket, at whose ends the sign of what is missing is certain, and between
-//! neighbouring `f32` a step is accepted, unless more is asked for than measuring gives. No search for an `f32` is
-//! known to reach the cap; a few for ticks do. There the answer is the last place that was measured, without a proof.
+//! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations.
+//!
+//! After `FREE` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
+//! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted, unless more is asked
+//! for than measuring gives. That the step stays between them is not proven (docs/proofs.md, "The end of a search"). No
+//! search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place that was
+//! measured, without a proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
@@ -226,7 +229,8 @@ pub(crate) const fn solve<const N: usize>(
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { accepted } else { wanted };
-        // Exit: the bound accepts the step. A quarter of the error is left for measuring (proofs/markov.py).
+        // Exit: the bound accepts the step. A quarter of the error is left for measuring (proofs/solve.py, at its end,
+        // by the constant of proofs/markov.py).
         if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             return (Pair::sum(p, way), evaluations);
         }

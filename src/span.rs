@@ -4,10 +4,10 @@ use crate::octave::FINER;
 use crate::path::{Path, scale};
 use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
 
-/// An offset counts 2⁻³² of a *width*, at first the octave's power of two. While half of the span is at most this share
-/// of it, it is halved, so that the half fills from 0.24 to 0.48 of it. (Without that it fills less than 0.47, as a top
-/// is at most 15/8 of the power.) The 0.02 · 2³² that this leaves of the word is
-/// more than a center's lowest five bits, shifted by the most.
+/// An offset counts 2⁻³² of `width`, which is the octave's power of two, but halved while `half <= FILLED * width`. So
+/// `half` is at most 0.48 of `width`. (If nothing is halved it is less than 0.47, since a top is at most 15/8 of the
+/// power.) That leaves 0.02 · 2³² of the word on either side: more than a center's lowest five bits, shifted by the
+/// most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;
@@ -63,7 +63,7 @@ impl Span {
         stretch
     }
 
-    /// The center as a position, and the offset of a position.
+    /// The center as a position, and how much a position adds to the offset.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
         (self.center() as f64 - WORD as f64, (self.power / self.width / WORD) as f64)
     }

@@ -91,7 +91,7 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let delay = moment.since(self.plan.exposure.outer(0), unit);
         if let Some(scale) = &self.scale {
             // Rounded as the direct way rounds, so that neighbours keep their order.
-            return scale.tick(scale.start + fixed(delay.hi, 0) + fixed(delay.lo, 0));
+            return scale.tick_of_delay(fixed(delay.hi, 0) + fixed(delay.lo, 0));
         }
         let Pair { hi, lo } = delay.times(Pair::from_u32(self.tick_hz)).shifted(unit);
         // A product's second half may be some ulp of the first.
@@ -144,8 +144,8 @@ fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
 #[derive(Clone)]
 pub(crate) struct TickScale {
     start: i64,
-    /// The power of two that brings a time after the start to 31 bits in the upper word.
-    up: u32,
+    /// The power of two that brings the delay, the time since the start, to 31 bits in the upper word.
+    power: u32,
     /// The ticks in a unit of that word, in units of 2⁻⁶⁴.
     factor: u64,
 }
@@ -153,7 +153,8 @@ pub(crate) struct TickScale {
 impl TickScale {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`.
     pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
-        // An interval has from 2³⁷ units, an ulp of a time just below 2⁶¹, to 2⁶².
+        // The length or one of the ends is at least 2⁶¹ units (`time_unit`). If an end is, the next `f32` is at least
+        // 2³⁷ units away. So an interval has from 2³⁷ to 2⁶² units.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         // 32 for the upper word, and 64 for the unit of the factor.
         let shift = unit + 96 - up as i32;
@@ -164,18 +165,23 @@ impl TickScale {
             rate.checked_shl(shift.unsigned_abs())
         };
         // If a tick is much longer than the interval, the factor is 0, and so are all ticks.
-        Self { start, up: 1 << up, factor: factor.unwrap_or(0) }
+        Self { start, power: 1 << up, factor: factor.unwrap_or(0) }
     }
 
-    /// The tick of a time: exact but for what is cut off the delay and the factor, at most 2⁻⁶ of one.
-    // proofs/ticks.py: tick
+    /// The tick of a time.
     #[inline(always)]
     pub(crate) fn tick(&self, time: i64) -> u32 {
-        let delay = time.wrapping_sub(self.start);
+        self.tick_of_delay(time.wrapping_sub(self.start))
+    }
+
+    /// The same by the delay, exact but for what is cut off that and the factor, at most 2⁻⁶ tick.
+    // proofs/ticks.py: tick
+    #[inline(always)]
+    fn tick_of_delay(&self, delay: i64) -> u32 {
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
-        let low = ((low * self.up as u64) >> 32) as u32;
+        let low = ((low * self.power as u64) >> 32) as u32;
         // A polynomial may be before the start by its error.
-        let delay = (high.wrapping_mul(self.up).wrapping_add(low) as i32).max(0) as u64;
+        let delay = (high.wrapping_mul(self.power).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
     }

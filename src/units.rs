@@ -1,6 +1,8 @@
-//! Every scale on which the inside counts, and the steps from one to another. All are powers of two, so that no step
+//! The scales on which the inside counts, and the steps from one to another. All are powers of two, so that no step
 //! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
-//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole.
+//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole. Three
+//! scales stand elsewhere: an openness has its own in [`by_time`](crate::by_time), a tiny sum in
+//! [`moment`](crate::moment), and, while a curve is built, places in [`path`](crate::path).
 //!
 //! | what is counted | from | to | in |
 //! |---|---|---|---|
@@ -11,10 +13,10 @@
 //! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
 //! | a fraction of the exposure on the plateau's line ([`plan`](crate::plan)) | 0 | 2³² | `u32` |
 //! | a fraction `(2i + 1) / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
-//! | a position in an [`octave`](crate::octave) | the power of two inside it | 2³¹ either way, in 2⁻³² of that power or, above it, 2⁻³¹ | `i32` |
+//! | a position in an [`octave`](crate::octave), in 2⁻³² of its power or, above, 2⁻³¹ | that power of two | ±2³¹ | `i32` |
 //! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
-//! | the ticks in a unit of time, which [`ticks`](crate::ticks) makes as great as it can | 0 | below 2⁶⁴, in 2⁻⁶⁴ of a tick | `u64` |
+//! | `TickScale::factor` in [`ticks`](crate::ticks), in 2⁻⁶⁴ of a tick | 0 | 2⁵⁸ | `u64` |
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -32,7 +34,7 @@ pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
 /// An `f32` from here on has no bit below 2⁻³², which is the unit of the plateau's line; the same in 2⁻⁶⁴. (A fraction
-/// of 64 bits is cut to that unit, which an `f32` u-error of 2⁻²⁴ does not feel from here on.)
+/// of 64 bits is cut to that unit. In an interval of 2²⁴ ticks that is less than 2⁻⁷ tick.)
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 pub(crate) const FINE_DOUBLE_WORD: u64 = 1 << 55;
 

@@ -1,7 +1,10 @@
-//! A faster way to the plateau's answers on a processor with doubles: its line in those, for one `u` and for a slice,
-//! to the same bits.
+//! The plateau's line in doubles, which answers faster on a processor that has them: for one `u` and for a slice, to
+//! the same bits.
 
-use crate::plan::{DOUBLES, Plan};
+use crate::plan::Plan;
+
+/// Does the processor have doubles? One of 64 bits does.
+const DOUBLES: bool = cfg!(target_pointer_width = "64");
 
 /// 2¹² units.
 const SLACK: f64 = 4096.0;
