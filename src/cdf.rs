@@ -33,17 +33,17 @@ impl Exposure {
     fn at(&self, t: f32) -> At {
         let [start, end] = [self.outer(0), self.outer(1)];
         let [open, close] = [self.inner(0), self.inner(1)];
-        // Without a plateau the instant of both inner ends is on the opening ramp if that has length, else on the
-        // closing one.
-        let plateau = open < close;
-        if !(t >= start && t <= end) {
+        if t < open {
+            if t >= start { At::Ramp(0) } else { At::Outside }
+        } else if t > close {
+            if t <= end { At::Ramp(1) } else { At::Outside }
+        } else if t.is_nan() {
             At::Outside
-        } else if t < open || (t == open && !plateau && start < open) {
-            At::Ramp(0)
-        } else if plateau && t <= close {
+        } else if open < close {
             At::Plateau
         } else {
-            At::Ramp(1)
+            // The instant of both inner ends is on the opening ramp if that has length, else on the closing one.
+            At::Ramp((start == open) as usize)
         }
     }
 
