@@ -21,7 +21,7 @@ code("let top = octave::top(self.tops[side & 1][ramp & 1]).wrapping_sub((index a
     let a = (end >> 1) + (since_start >> 1);
     let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power_bits / BINADE };
     if apart > 24 { return None; }
-    let half = 1 << apart; let n = (a + (half >> 1)) >> apart;
+    let [distance, half] = [1 << apart; 2]; let n = (a + (distance >> 1)) >> apart;
     let bits = if side == 0 { (power_bits - 2 * BINADE + n).wrapping_add((a >> 31) * BINADE) } else { ONE - n };
     let leaves_ramp = if ramp == 0 { bits >= self.last.wrapping_sub(self.count) } else { bits <= self.last + 1 };
     if leaves_ramp { return None; }
@@ -198,6 +198,15 @@ near = Fraction(source(r"const NEAR_MIDDLE: f32 = ([\d.]+) / \(1 << 28\) as f32;
 little = Fraction(source(r"const LITTLE: f32 = ([\d.]+);"))
 off = Fraction(1, 1 << int(source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << 54\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];")))
 require(near - markov * noise / little > 64 * off, "NEAR_MIDDLE")
+# The other way to tell, by the inverse of the middle, errs as well: `n` in docs/proofs.md, the worst of three places to search from.
+searched = max(2 ** -float(said.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹·", "0123456789."))) for said in (
+    documented(r"2⁻(\S+) from the end that faces the side, where"),
+    documented(r"2⁻(\S+) from the other end and"),
+    documented(r"2⁻(\S+) from a\s+minimum inside, where"),
+))
+together = markov * noise / little + Fraction(searched * 2**0.05) + Fraction(markov, 2**41)
+require(together <= near < together * Fraction(9, 8), f"2^{log2(together):.2f} and NEAR_MIDDLE")
+proven(f"what is measured and the inverse of a middle are off by 2^{log2(together):.2f} together, less than NEAR_MIDDLE")
 proven(f"a told mass is 2^{log2(near - markov * noise / little):.1f} of it beyond the middle, and a polynomial's fraction off by 2^{log2(off):.0f}")
 
 # Times are compared in units: exactly, as a polynomial's time is 2^26 units or more. A t below 2^24 units is cut, but is less.

@@ -227,6 +227,11 @@ on_path = terms * roundings * LAST_PLACE
 require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
 proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
 
+time_off = 1 / Fraction(2 ** int(source(r"const TIME_OFF: f32 = 1\.0 / \(1u64 << (\d+)\) as f32;")))
+terms, roundings = (int(x) for x in source(r"a sum of terms up to (\d+) times as great\s+/// \(`proofs/solve.py`\), with (\d+) roundings"))
+require(time_off / 2 < terms * roundings * LAST_PLACE <= time_off, "TIME_OFF")
+proven(f"{roundings} roundings of an f64, as many as were counted, in terms {terms} times as great are at most TIME_OFF = 2^{log2(time_off):g}")
+
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
 code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;

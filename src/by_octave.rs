@@ -27,7 +27,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let time = self.in_units(t)?;
         let (side, index) = self.octave_about(ramp, time)?;
         let octave = self.octaves[side & 1].get(index)?;
-        // The time from the middle, in the unit of the coefficients. A factor's power of two is below 2³².
+        // The time from the middle, in the unit of the coefficients. A factor's power of two is at most 2³¹.
         let way = time.wrapping_sub(octave.middle) >> (octave.factor.trailing_zeros() & 31);
         if way != way as i32 as i64 || !octave.exists() {
             return None;
@@ -49,9 +49,9 @@ impl<const CELLS: usize> Plan<CELLS> {
         if apart > 24 {
             return None;
         }
-        // All of their distance in 2⁻³¹, as `a` counts, is half of it in 2⁻³², as positions count.
-        let half = 1 << apart;
-        let n = (a + (half >> 1)) >> apart;
+        // One number for two: the distance in 2⁻³¹, as `a` counts, and half of the distance in 2⁻³², as positions count.
+        let [distance, half] = [1 << apart; 2];
+        let n = (a + (distance >> 1)) >> apart;
         // From side 0 `n` is a significand with its leading one, which adds a binade to the bits: one is taken off
         // again. Below the power of two it is two, for the lesser exponent.
         let bits = if side == 0 {
@@ -145,7 +145,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let mut index = if middle(SKIP).is_some_and(|middle| t < middle) { SKIP } else { 0 };
         let (mut before, mut here) = (i32::MAX, middle(index)?);
         while let Some(next) = middle(index + 1) {
-            // An octave ends a third of the way, in fractions, back from the next one's middle: in time somewhat more.
+            // Two octaves meet a third of the way, in fractions, from the next one's middle to this one's. In time it is
+            // somewhat more: here three eighths.
             let way = here.wrapping_sub(next);
             if t >= next.wrapping_add(way >> 2).wrapping_add(way >> 3) {
                 return Some((side, index));

@@ -1,6 +1,6 @@
 //! What rounding takes from a sum and from a product of two `f32`, exactly, with the same bits on every machine.
 //!
-//! With floats these are the classic sums and products of Knuth (1969) and Dekker (1971), in 6 and 17 operations. Where
+//! With floats these are Knuth's sum (1969), in 6 operations, and Dekker's product (1971), in 11, as a mask cuts the halves. Where
 //! floats are emulated, each operation is a call of about a hundred instructions. There the same numbers come from
 //! integers: what is lost fits a word, so only the lowest word of the exact sum or product is needed, and that wraps.
 //! Numbers so small that something may be subnormal, infinite ones and NaN are left to the floats.

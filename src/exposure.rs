@@ -191,10 +191,10 @@ impl Exposure {
         ]
     }
 
-    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. The joins of a symmetric curve are there except for the
-    /// rounding of pairs, 2⁻⁴⁴. Without a plateau it is even 2⁻²³, four ulp, too little for octaves of its own: the
-    /// polynomial of the near ramp serves what is beyond the join, too, and has a second certificate along the far
-    /// ramp.
+    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. With a plateau that is 2⁻⁴⁴, the rounding of pairs, for a
+    /// join that is meant to be at 1/2. Without one, where a symmetric curve has its only join at 1/2, it is 2⁻²³, four
+    /// ulp: less than that is too little for octaves of its own. The polynomial of the near ramp then serves what is
+    /// beyond the join, too, and has a second certificate along the far ramp.
     const fn trace(&self) -> u64 {
         if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }

@@ -43,7 +43,7 @@ pub(crate) const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
-/// The number with a linear logarithm, at least 0; what is beyond all `f32` is infinite or NaN.
+/// The number with this linear logarithm, at least 0; what is beyond all `f32` is infinite or NaN.
 #[inline(always)]
 const fn power(log: i32) -> f32 {
     let log = log + 127 * LOG_ONE;

@@ -111,8 +111,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most 3/4 tick from
     /// that, for intervals of any length up to 2³¹ ticks: above 2²⁴, triggers are searched for, and placed to a
     /// thousandth of a tick. If the openness touches 0 between the ends, many times have nearly the same exposure.
-    /// There it is the exposure that is exact, not the tick: to 2⁻³⁰ of the lesser of `u` and `1 - u` by proof, to 2⁻³⁴
-    /// of it in all tests.
+    /// There it is the exposure that is exact, not the tick: to 2⁻³⁴ of the lesser of `u` and `1 - u` in all tests, and what is
+    /// measured of it to 2⁻³⁰ by proof.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.

@@ -11,10 +11,10 @@
 //! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations.
 //!
 //! After `FREE` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
-//! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted, unless more is asked
-//! for than measuring gives. That the step stays between them is not proven (docs/proofs.md, "The end of a search"). No
-//! search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place that was
-//! measured, without a proof.
+//! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted. That it stays between
+//! them is not proven: where next to no light falls, what is missing may be noise alone (docs/proofs.md, "The end of a
+//! search"). No search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place
+//! that was measured, without a proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
@@ -37,8 +37,8 @@ const PAIRS_BELOW: f32 = 1.0 / 8192.0;
 const LEAST_STEP: i32 = -2 << 23;
 const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
-/// What rounding makes of the first two Taylor coefficients, as a share of their terms, around the end that faces the
-/// side; around other anchors it is more ([`Anchor::rounding`]).
+/// What rounding makes of the first two Taylor coefficients, as a share of their terms, around the end of the ramp from
+/// which the pairs count; around other anchors it is more ([`Anchor::rounding`]).
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
@@ -161,8 +161,8 @@ pub(crate) const fn left<const N: usize>(
     first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, and the evaluations that took: within the error `wanted`, of which a
-/// quarter is for measuring; within `accepted` if the last step is less than an ulp of its place, since there is no
+/// The place where `series` reaches `target`, and the evaluations that took: within the error `wanted`, and what
+/// measuring adds; within `accepted` if the last step is less than an ulp of its place, since there is no
 /// better answer then.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
@@ -229,8 +229,9 @@ pub(crate) const fn solve<const N: usize>(
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { accepted } else { wanted };
-        // Exit: the bound accepts the step. A quarter of the error is left for measuring (proofs/solve.py, at its end,
-        // by the constant of proofs/markov.py).
+        // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is proven to take 2⁻³⁰
+        // at most (proofs/solve.py, at its end, by the constant of proofs/markov.py): enough for errors of 2⁻²⁸ and
+        // more, while a tick's is finer.
         if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             return (Pair::sum(p, way), evaluations);
         }

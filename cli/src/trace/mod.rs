@@ -1,4 +1,4 @@
-//! A measured trace: [`open`] takes a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
+//! A measured trace: [`open()`] takes a file to a [`Trace`], and [`pulses`] finds its pulses and its noise.
 //! Whatever is wrong with it on the way is a [`Refusal`] or a [`Warning`].
 
 mod asked;
