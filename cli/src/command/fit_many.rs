@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::fit::{Args, measure};
 use super::output::{print, write_whole};
-use crate::fit::{Fit, Measured, plus_minus};
+use crate::fit::{Fit, From, Measured, plus_minus};
 use crate::speeds::columns;
 use crate::unit::short;
 
@@ -98,6 +98,9 @@ fn row(Speed { name, nominal, fit }: &Speed) -> [String; 7] {
         nominal.map_or("-".into(), stops),
         spread,
         fit.frames.count.to_string(),
-        fit.chosen.title().into(),
+        match fit.from {
+            From::Model => fit.chosen.title().into(),
+            From::Trace => "none: by the trace".into(),
+        },
     ]
 }

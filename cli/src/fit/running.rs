@@ -19,6 +19,8 @@ struct Running {
     /// Where each sample ends, and the openness times the time up to there.
     sums: Vec<(f64, f64)>,
     start: f64,
+    /// Where there is light before the curve: from when.
+    early: Option<f64>,
     /// The level of full light, and its standard error.
     level: Measured,
     /// The variance of a sum over a unit of time, and for how long the dark was seen.
@@ -44,9 +46,6 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
         value: exposure.value / of_length,
         error: (exposure.error / of_length).hypot(model.efficiency.error),
     };
-    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the exposure.
-    let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
-    let start = Measured { error: model.start.error.hypot(apart), ..model.start };
     let trigger = |u: f64| {
         let value = running.reaches(u * area);
         let (early, late) = (value - running.start, end - value);
@@ -55,7 +54,15 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
         let amount = (walk + tilt).sqrt().hypot(rounding);
         Measured { value, error: amount / least_open(&integral, value) }
     };
-    Some(Results { exposure, efficiency, start, triggers: fractions(n).map(trigger).collect() })
+    let triggers: Vec<Measured> = fractions(n).map(trigger).collect();
+    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the exposure; but
+    // nothing is triggered before the shutter opens.
+    let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
+    let earliest = triggers.first().map_or(f64::INFINITY, |first| first.value);
+    let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
+    let error = model.start.error.hypot(apart).hypot(model.start.value - value);
+    let start = Measured { value, error };
+    Some(Results { exposure, efficiency, start, triggers })
 }
 
 impl Running {
@@ -91,7 +98,8 @@ impl Running {
         let level = Self::level(fits, &opened, base, walk.power)?;
         let dark = dark.len() as f64 * fits.step;
         let start = fits.samples.get(from)?.from;
-        Some(Self { sums, start, level, walk: walk.power, dark })
+        let early = (from < parts.pulse.start).then_some(start);
+        Some(Self { sums, start, early, level, walk: walk.power, dark })
     }
 
     /// Full light, by the stretch of the pulse that is flattest: what a shutter does before it rests does not count.

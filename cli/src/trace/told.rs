@@ -494,7 +494,7 @@ impl fmt::Display for Warning {
                 unit::short(100.0 * share, 2),
                 time(*after),
                 if *by_trace {
-                    "the trace's own, and the scene's curve is not"
+                    "the trace's own, and no curve stands for them"
                 } else {
                     "the model's, and off by more than their errors say"
                 }
