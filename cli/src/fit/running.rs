@@ -11,6 +11,8 @@ use crate::trace::median;
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
 const FLAT: f64 = 0.2;
 const PARTS: usize = 8;
+/// Stretches that scatter so many times as much as the flattest are flat as well.
+const ALIKE: f64 = 2.0;
 /// A block in the dark that is so many times as large as the usual ones is light.
 const IS_LIGHT: f64 = 5.0;
 
@@ -124,14 +126,23 @@ impl Running {
             (level > 0.6).then_some((scatter, level))
         };
         let count = ((1.0 - FLAT) / (0.5 * part)) as usize;
-        let flattest = (0..=count).filter_map(stretch).min_by(|a, b| a.0.total_cmp(&b.0));
+        let stretches: Vec<(f64, f64)> = (0..=count).filter_map(stretch).collect();
+        let least = stretches.iter().map(|(scatter, _)| *scatter).fold(f64::INFINITY, f64::min);
+        // Which of those that are nearly as flat is the flattest is chance: their mean counts, and is known no better than they
+        // agree.
+        let alike: Vec<f64> =
+            stretches.iter().filter(|s| s.0 <= ALIKE * least).map(|(_, level)| *level).collect();
         let middle = mean(-0.25, 0.25)?;
-        let (scatter, value) = flattest.unwrap_or((0.0, middle));
+        let (scatter, value) = match alike.len() {
+            0 => (0.0, middle),
+            n => (least, alike.iter().sum::<f64>() / n as f64),
+        };
+        let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
         let usual = walk / part * (PARTS - 1) as f64;
         // Where even that is not flat, it is no rest.
         let uneven = ((scatter - usual).max(0.0) / PARTS as f64).sqrt();
-        let error =
-            (walk / FLAT).sqrt().hypot(uneven).hypot(0.2 * (value - middle)).hypot(fits.rounding);
+        let noise = (walk / FLAT).sqrt().hypot(fits.rounding);
+        let error = noise.hypot(uneven).hypot(apart).hypot(0.2 * (value - middle));
         (value > 0.0).then_some(Measured { value, error })
     }
 
