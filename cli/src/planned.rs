@@ -11,14 +11,14 @@ use crate::unit::Unit;
 #[derive(Clone)]
 pub enum Planned {
     /// By its curve.
-    Curve(Plan),
+    Curve(Box<Plan>),
     /// By its trigger times, without a curve.
     Times(Times),
 }
 
 impl From<Plan> for Planned {
     fn from(plan: Plan) -> Self {
-        Self::Curve(plan)
+        Self::Curve(Box::new(plan))
     }
 }
 
@@ -45,8 +45,8 @@ impl Planned {
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         match times::place(text) {
-            Some(_) => Times::parse(text).map(Self::Times),
-            None => Plan::parse(text).map(Self::Curve),
+            Some(_) => Times::parse(text).map(Self::from),
+            None => Plan::parse(text).map(Self::from),
         }
     }
 
@@ -91,6 +91,7 @@ impl Planned {
     }
 
     /// In seconds, up to what is to be seen of it.
+    #[cfg(feature = "terminal")]
     pub(crate) fn length(&self) -> f64 {
         match self {
             Self::Curve(plan) => plan.length(),

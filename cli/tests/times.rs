@@ -254,7 +254,7 @@ fn what_is_wrong_with_given_times_is_refused_at_its_place() {
             "delay: 0 or more is required; an edge cannot trigger what comes before it".into(),
         ),
     ] {
-        let fault = Times::parse(&text).err().expect(&reason);
+        let fault = Times::parse(&text).expect_err(&reason);
         assert_eq!(fault.reason, reason, "{text}");
         let at = fault.at.map(|at| text[..at].matches('\n').count() + 1);
         assert_eq!(at, line, "{reason}");
