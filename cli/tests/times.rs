@@ -25,8 +25,17 @@ fn folder(name: &str) -> PathBuf {
 
 /// A trace in ms of blades that bounce: between two dips they are open. It starts long after time 0 where `zero` is far.
 fn bounces(path: &Path, zero: f64) {
-    let open = |t: f64| ((t - 2.0) / 1.0).min((9.0 - t) / 1.0).clamp(0.0, 1.0);
     let dip = |t: f64, at: f64| 0.35 * (-((t - at) / 0.15).powi(2)).exp();
+    traced(path, zero, |t| openness(t) * (1.0 - dip(t, 3.3) - 0.5 * dip(t, 4.0)));
+}
+
+/// Opens from 2 to 3 ms, and closes from 8 to 9.
+fn openness(t: f64) -> f64 {
+    (t - 2.0).min(9.0 - t).clamp(0.0, 1.0)
+}
+
+/// A trace of 12 ms, with noise.
+fn traced(path: &Path, zero: f64, light: impl Fn(f64) -> f64) {
     let mut state = 7u32;
     let mut noise = || {
         let mut unit = || {
@@ -37,7 +46,7 @@ fn bounces(path: &Path, zero: f64) {
     };
     let rows = (0..2400).map(|i| {
         let t = 0.005 * f64::from(i);
-        let v = 0.1 + 2.0 * open(t) * (1.0 - dip(t, 3.3) - 0.5 * dip(t, 4.0)) + 0.006 * noise();
+        let v = 0.1 + 2.0 * light(t) + 0.006 * noise();
         format!("{:.3},{v:.5}\n", zero + t)
     });
     fs::write(path, format!("time (ms),light\n{}", rows.collect::<String>())).unwrap();
@@ -94,6 +103,23 @@ fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
         };
         assert!(triggers.iter().zip(models).map(apart).fold(0.0, f64::max) > 10.0);
     }
+}
+
+/// A blade that lets light through before it opens for good: ticks count from the first of it.
+#[test]
+fn light_before_the_opening_is_triggered_too() {
+    let folder = folder("early");
+    let (trace, scene) = (folder.join("early.csv"), folder.join("early.toml"));
+    traced(&trace, 0.0, |t| openness(t).max(0.2 * f64::from((0.9..1.3).contains(&t))));
+    let (json, text) = fitted(&trace, &scene, &["--triggers", "200"]);
+    let times = Times::parse(&text).unwrap();
+    // 0.08 ms of 6.08, in full light.
+    let early = times.triggers.iter().filter(|trigger| trigger.time < 1.4e-3).count();
+    assert!((2..=3).contains(&early), "{early}");
+    let opens = json["opens_s"].as_f64().unwrap();
+    // The dark is searched in twelfths, here of 0.4 ms.
+    assert!((0.5e-3..=0.91e-3).contains(&opens), "{opens}");
+    assert!((times.open_start - opens).abs() < 1e-9);
 }
 
 #[test]
