@@ -1,6 +1,9 @@
 //! From the edge of a camera's sync to the start of opening.
 
-use crate::scene::{Fault, Scene};
+use toml::Spanned;
+
+use crate::scene::{Fault, Number, seconds};
+use crate::unit::Unit;
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.
@@ -13,16 +16,21 @@ pub struct Delay {
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
-const LAST: f64 = (1u32 << 31) as f64;
+pub(crate) const LAST: f64 = (1u32 << 31) as f64;
 
 impl Delay {
-    /// The delay that a scene has, if it has one, where the shutter is closed so many ticks after it opens.
+    /// The delay that a scene has in this unit, if it has one, where the frame ends so many ticks after the shutter opens.
     ///
     /// # Errors
     /// A delay below 0, and one after which the frame ends too late.
-    pub(crate) fn new(scene: &Scene, timer_hz: u32, end: f64) -> Result<Option<Self>, Fault> {
-        let Some(place) = &scene.delay else { return Ok(None) };
-        let seconds = scene.seconds("delay", place)?;
+    pub(crate) fn new(
+        delay: Option<&Spanned<Number>>,
+        unit: Unit,
+        timer_hz: u32,
+        end: f64,
+    ) -> Result<Option<Self>, Fault> {
+        let Some(place) = delay else { return Ok(None) };
+        let seconds = seconds(unit, "delay", place)?;
         if seconds < 0.0 {
             let reason =
                 "delay: 0 or more is required; an edge cannot trigger what comes before it";

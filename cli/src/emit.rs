@@ -9,21 +9,20 @@ mod name;
 mod pico;
 mod rust;
 
-use crate::facts::lines;
 use crate::lamp::Lamp;
-use crate::plan::Plan;
+use crate::planned::Planned;
 
 /// A form that a plan can be emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Form {
-    /// A module with the curve and its ticks
+    /// A module with the curve, if there is one, and the ticks
     Rust,
     /// A header with the ticks, in C99 and C++11
     C,
     /// A row for each trigger
     Csv,
-    /// The curve's facts and an object for each trigger
+    /// The curve's facts, if there is a curve, and an object for each trigger
     Json,
     /// The lines that boards/pico takes
     Pico,
@@ -32,15 +31,15 @@ pub enum Form {
 /// The plan of the scene `name` in this form.
 ///
 /// ```
-/// use shutter::{emit, plan::Plan};
-/// let plan = Plan::parse(include_str!("../scenes/box.toml")).expect("a good scene");
+/// use shutter::{emit, planned::Planned};
+/// let plan = Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
 /// let csv = emit::emit(emit::Form::Csv, "box", &plan).expect("a form for any plan");
 /// assert!(csv.starts_with("index,u,time_s,ticks,gap_ticks\n0,0.05,0.000005,125,\n"));
 /// ```
 ///
 /// # Errors
 /// A plan that the Pico cannot fire.
-pub fn emit(form: Form, name: &str, plan: &Plan) -> Result<String, String> {
+pub fn emit(form: Form, name: &str, plan: &Planned) -> Result<String, String> {
     match form {
         Form::Rust => Ok(rust::module(name, plan)),
         Form::C => Ok(c::header(name, plan)),
@@ -54,8 +53,8 @@ pub fn emit(form: Form, name: &str, plan: &Plan) -> Result<String, String> {
 /// after the other.
 ///
 /// ```
-/// use shutter::{emit, plan::Plan};
-/// let plan = || Plan::parse(include_str!("../scenes/box.toml")).expect("a good scene");
+/// use shutter::{emit, planned::Planned};
+/// let plan = || Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
 /// let speeds = [("fast".to_string(), plan()), ("slow".to_string(), plan())];
 /// let header = emit::several(emit::Form::C, "camera", &speeds).expect("they share a timer");
 /// assert!(header.contains("static const camera_speed camera_speeds[CAMERA_SPEEDS] = {"));
@@ -63,7 +62,7 @@ pub fn emit(form: Form, name: &str, plan: &Plan) -> Result<String, String> {
 ///
 /// # Errors
 /// Plans that do not go together, and a form that takes only one.
-pub fn several(form: Form, name: &str, plans: &[(String, Plan)]) -> Result<String, String> {
+pub fn several(form: Form, name: &str, plans: &[(String, Planned)]) -> Result<String, String> {
     match form {
         Form::Rust => alike(plans).map(|()| rust::modules(name, plans)),
         Form::C => alike(plans).map(|()| c::headers(name, plans)),
@@ -74,16 +73,16 @@ pub fn several(form: Form, name: &str, plans: &[(String, Plan)]) -> Result<Strin
 }
 
 /// What an array's elements must have in common: the timer, what they tell, and names of their own.
-fn alike(plans: &[(String, Plan)]) -> Result<(), String> {
+fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
-        if plan.timer_hz != one.timer_hz {
-            let [a, b] = [one.timer_hz, plan.timer_hz];
+        let [a, b] = [one.timer_hz(), plan.timer_hz()];
+        if a != b {
             return Err(format!(
                 "timer_hz: {a} in {first}, {b} in {name}; an array is for one timer"
             ));
         }
-        let (has, lacks) = match (one.delay.is_some(), plan.delay.is_some()) {
+        let (has, lacks) = match (one.delay().is_some(), plan.delay().is_some()) {
             (true, false) => (first, name),
             (false, true) => (name, first),
             _ => (name, name),
@@ -109,8 +108,8 @@ fn alike(plans: &[(String, Plan)]) -> Result<(), String> {
 }
 
 /// From where the ticks count, for both languages.
-fn base(plan: &Plan, delay: &str) -> String {
-    match plan.delay {
+fn base(plan: &Planned, delay: &str) -> String {
+    match plan.delay() {
         Some(_) => format!(
             "Ticks count from the start of opening, which comes {delay} after the edge of the camera's sync; add both \
              to the timer's count at the edge, wrapping."
@@ -126,9 +125,9 @@ fn base(plan: &Plan, delay: &str) -> String {
 const MADE_BY: &str = concat!("Made by `shutter plan` ", env!("CARGO_PKG_VERSION"));
 
 /// The facts, a line each, as a comment.
-fn comment(start: &str, name: &str, plan: &Plan) -> String {
+fn comment(start: &str, name: &str, plan: &Planned) -> String {
     let mut text = format!("{start}{MADE_BY}.\n{}\n", start.trim_end());
-    for (what, fact) in lines(name, plan) {
+    for (what, fact) in plan.facts(name) {
         text += &format!("{start}{what:11}  {}\n", name::shown(&fact));
     }
     text
@@ -148,10 +147,14 @@ fn rows(items: impl Iterator<Item = String>) -> String {
     if row.is_empty() { text } else { text + &format!("   {row}\n") }
 }
 
-fn has_pulses(plan: &Plan) -> bool {
-    plan.lamp != Lamp::Triggered
+fn has_pulses(plan: &Planned) -> bool {
+    plan.plan().is_some_and(|plan| plan.lamp != Lamp::Triggered)
 }
 
-fn pulses(plan: &Plan) -> impl Iterator<Item = (u32, u32)> {
-    plan.triggers.iter().filter_map(|trigger| trigger.pulse)
+fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
+    plan.rows().into_iter().map(|row| row.ticks.to_string())
+}
+
+fn pulses(plan: &Planned) -> impl Iterator<Item = (u32, u32)> {
+    plan.rows().into_iter().filter_map(|row| row.pulse)
 }

@@ -2,9 +2,11 @@
 
 use shutter_curve::ShutterCurve;
 
+use crate::delay::Delay;
 use crate::lamp::Lamp;
 use crate::plan::Plan;
-use crate::unit::{count, short};
+use crate::times::Times;
+use crate::unit::{Unit, count, short};
 
 /// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +118,7 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
     }
     lines.push(("timer", format!("{} Hz", plan.timer_hz)));
-    lines.push(("delay", delay(plan)));
+    lines.push(("delay", delay(plan.delay, unit)));
     lines.push(("gap", gap(plan)));
     lines.extend(lamp(plan));
     let keep = if plan.most == 1 {
@@ -135,6 +137,26 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     lines
 }
 
+/// The same of trigger times without a curve, where there is less to say.
+pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
+    let (unit, triggers) = (times.unit(), &times.triggers);
+    let mut lines = vec![
+        ("scene", name.to_string()),
+        ("shutter", "no curve: trigger times as measured".into()),
+        ("opens", format!("at {}, from where ticks count", unit.show(times.open_start))),
+    ];
+    lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
+    let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
+    lines.extend([
+        ("timer", format!("{} Hz", times.timer_hz)),
+        ("delay", delay(times.delay, unit)),
+        ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap))),
+        ("set-up", FLASHES.into()),
+        ("triggers", triggers.len().to_string()),
+    ]);
+    lines
+}
+
 /// What the gap is to be, and what it is.
 fn gap(plan: &Plan) -> String {
     let mut gap = format!("at least {}", plan.unit().show(plan.min_gap));
@@ -145,23 +167,31 @@ fn gap(plan: &Plan) -> String {
         if let Some(ticks) = dark.min() {
             gap += &format!("; the least is {}", count(ticks, "tick"));
         }
-    } else if let Some(ticks) = plan.gaps().min() {
-        gap += &format!("; the closest two come {} apart", count(ticks, "tick"));
+    } else {
+        gap += &closest(plan.gaps().min());
     }
     gap
 }
 
+fn closest(gap: Option<u32>) -> String {
+    let told = |ticks| format!("; the closest two come {} apart", count(ticks, "tick"));
+    gap.map_or(String::new(), told)
+}
+
 /// From where the ticks count.
-fn delay(plan: &Plan) -> String {
-    let Some(delay) = plan.delay else {
+fn delay(delay: Option<Delay>, unit: Unit) -> String {
+    let Some(delay) = delay else {
         return "none known: ticks count from the start of opening, not from a sync".into();
     };
     format!(
         "{} from the sync's edge to the start of opening: {}",
-        plan.unit().show(delay.seconds),
+        unit.show(delay.seconds),
         count(delay.ticks, "tick")
     )
 }
+
+/// The set-up of flashes without a length.
+const FLASHES: &str = "emulated: equal flashes while the camera's own shutter stays open";
 
 /// What the lamp does, and for which set-up that is.
 fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
@@ -181,7 +211,7 @@ fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
         }
     };
     let set_up = match plan.lamp {
-        Lamp::Triggered => "emulated: equal flashes while the camera's own shutter stays open",
+        Lamp::Triggered => FLASHES,
         Lamp::Equal { .. } => "emulated: equal pulses while the camera's own shutter stays open",
         Lamp::Doses { .. } => "the shutter is in the light's path; a lamp steady while it is on",
     };

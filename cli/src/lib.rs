@@ -15,6 +15,7 @@ pub mod lamp;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod plan;
+pub mod planned;
 #[cfg(feature = "terminal")]
 pub mod report;
 mod rows;
@@ -23,5 +24,6 @@ pub mod set_up;
 pub mod shape;
 #[cfg(feature = "terminal")]
 pub mod speeds;
+pub mod times;
 pub mod trace;
 pub mod unit;

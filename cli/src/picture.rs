@@ -3,6 +3,7 @@
 mod drawing;
 mod set_ups;
 pub mod style;
+mod times;
 mod trace;
 
 use std::error::Error;
@@ -12,6 +13,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
+use crate::planned::Planned;
 use crate::unit::{Unit, short};
 use drawing::{
     Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, is_near, lit, pen,
@@ -32,7 +34,11 @@ const TICK: f64 = 0.04;
 ///
 /// # Errors
 /// Where it cannot be drawn.
-pub fn svg(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
+pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
+    let plan = match planned {
+        Planned::Curve(plan) => plan,
+        Planned::Times(times) => return times::svg(name, times),
+    };
     let title = format!("Openness and exposure of the shutter {name} over time, with its triggers");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);

@@ -4,7 +4,7 @@ use shutter_curve::{ScheduleError, ShutterCurve};
 
 use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
-use crate::scene::{Fault, Scene};
+use crate::scene::{Fault, Scene, min_gap, positive};
 use crate::shape::Shape;
 use crate::unit::{Unit, count};
 
@@ -25,6 +25,7 @@ pub struct Trigger {
 }
 
 /// A scene that can be played.
+#[derive(Clone)]
 pub struct Plan {
     /// The curve's numbers.
     pub shape: Shape,
@@ -84,7 +85,7 @@ impl Plan {
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let end = (end * f64::from(timer_hz)).round();
-        let delay = Delay::new(scene, timer_hz, end)?;
+        let delay = Delay::new(scene.delay.as_ref(), scene.unit(), timer_hz, end)?;
         let frames = Frames { curve, timer_hz, end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
@@ -151,21 +152,11 @@ struct Asked {
 
 impl Asked {
     fn new(scene: &Scene, timer_hz: u32) -> Result<Self, Fault> {
-        let min_gap = scene.seconds("min_gap", &scene.min_gap)?;
-        if min_gap < 0.0 {
-            return Err(Fault::at(&scene.min_gap, "min_gap: 0 or more is required"));
-        }
-        let positive = |key, value| {
-            let Some(value) = value else { return Ok(None) };
-            let seconds = scene.seconds(key, value)?;
-            if seconds > 0.0 {
-                return Ok(Some(seconds));
-            }
-            Err(Fault::at(value, format!("{key}: more than 0 is required")))
-        };
-        let nominal = positive("nominal", scene.nominal.as_ref())?;
-        let pulse = positive("pulse", scene.pulse.as_ref())?;
-        let min_pulse = positive("min_pulse", scene.min_pulse.as_ref())?;
+        let unit = scene.unit();
+        let min_gap = min_gap(unit, &scene.min_gap)?;
+        let nominal = positive(unit, "nominal", scene.nominal.as_ref())?;
+        let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
+        let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
         let lamp = match (&scene.pulse, &scene.duty) {
             (Some(_), Some(duty)) => {
                 let reason = "duty and pulse: a scene has one of them (pulse where the curve is \
@@ -331,7 +322,8 @@ impl Problem {
     }
 }
 
-fn required(ticks: u64) -> String {
+/// So many ticks, as what is required.
+pub(crate) fn required(ticks: u64) -> String {
     match ticks {
         1 => "1 is required".into(),
         _ => format!("{ticks} are required"),
@@ -343,7 +335,7 @@ fn ticks(ticks: i64) -> String {
 }
 
 /// How far the thing `i` and the next one are apart.
-fn apart(things: &str, i: usize, gap: i64) -> String {
+pub(crate) fn apart(things: &str, i: usize, gap: i64) -> String {
     match gap {
         ..0 => format!("{things} {i} and {} overlap by {}", i + 1, ticks(gap)),
         _ => format!("{things} {i} and {} come {} apart", i + 1, ticks(gap)),
@@ -361,7 +353,7 @@ fn rate(error: ScheduleError) -> String {
 }
 
 /// The fewest ticks that last as long as `gap`.
-fn whole_ticks(gap: f64, timer_hz: u32) -> u64 {
+pub(crate) fn whole_ticks(gap: f64, timer_hz: u32) -> u64 {
     let hz = f64::from(timer_hz);
     // Compared in seconds: gap and quotient are both the nearest to what is meant, so a gap written as
     // a decimal fraction that is a whole number of ticks counts as one.

@@ -5,10 +5,10 @@ use std::iter::once;
 
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
-use crate::facts;
-use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
+use crate::planned::{Planned, Row};
 use crate::rows::hidden_rows;
+use crate::times::Times;
 use crate::unit::{Unit, decimals, short};
 
 /// With more triggers than this, a full line at each would hide the curve.
@@ -17,24 +17,47 @@ const MOST_LINES: usize = 36;
 const DOTS: (u32, u32) = (143, 39);
 
 /// The plan of the scene `name`, for a terminal.
-pub fn text(name: &str, plan: &Plan) -> String {
+pub fn text(name: &str, plan: &Planned) -> String {
     let mut text = String::new();
     write_text(&mut text, name, plan).expect("a string takes all");
     text
 }
 
-fn write_text(out: &mut String, name: &str, plan: &Plan) -> fmt::Result {
-    let unit = plan.unit();
-    for (name, fact) in facts::lines(name, plan) {
+fn write_text(out: &mut String, name: &str, planned: &Planned) -> fmt::Result {
+    for (name, fact) in planned.facts(name) {
         writeln!(out, "{name:11}  {fact}")?;
     }
-    let curve = &plan.curve;
+    match planned {
+        Planned::Curve(plan) => write_curve(out, plan)?,
+        Planned::Times(times) => write_times(out, times)?,
+    }
+    writeln!(out)?;
+    table(out, planned)
+}
+
+fn write_curve(out: &mut String, plan: &Plan) -> fmt::Result {
+    let (unit, curve) = (plan.unit(), &plan.curve);
     writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
     out.push_str(&drawing(plan, unit, |t| curve.opening(t)));
     writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
     out.push_str(&drawing(plan, unit, |t| curve.cdf(t)));
-    writeln!(out)?;
-    table(out, plan, unit)
+    Ok(())
+}
+
+/// The triggers on a line of time.
+fn write_times(out: &mut String, times: &Times) -> fmt::Result {
+    const CELLS: usize = DOTS.0 as usize / 2;
+    let unit = times.unit();
+    let mut line = ['─'; CELLS];
+    for trigger in &times.triggers {
+        let part = (trigger.time - times.open_start) / times.length();
+        line[(part * (CELLS - 1) as f64).round() as usize] = '┼';
+    }
+    let ends = [times.open_start, times.open_start + times.length()];
+    let [first, last] = ends.map(|time| short(unit.of(time), 5));
+    writeln!(out, "\ntriggers over time ({})", unit.name())?;
+    writeln!(out, "{}", String::from_iter(line))?;
+    writeln!(out, "{first}{last:>width$}", width = CELLS.saturating_sub(first.len()))
 }
 
 /// The function `f` of time with a line up to it at each trigger.
@@ -67,48 +90,56 @@ fn drawing(plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> String {
     chart.to_string()
 }
 
-fn table(out: &mut String, plan: &Plan, unit: Unit) -> fmt::Result {
+fn table(out: &mut String, plan: &Planned) -> fmt::Result {
+    let (unit, rows) = (plan.unit(), plan.rows());
     // A digit more than tells one tick from the next, as far as f32 has them.
-    let tick = unit.of(plan.seconds(1));
+    let tick = unit.of(1.0 / f64::from(plan.timer_hz()));
     let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
-    let has_pulses = plan.lamp != Lamp::Triggered;
+    let has_pulses = rows.iter().any(|row| row.pulse.is_some());
     let pulse = |on: &dyn Display, off: &dyn Display| match has_pulses {
         true => format!("  {on:>10}  {off:>10}"),
         false => String::new(),
     };
     let time = format!("time ({})", unit.name());
     // By the timer's count at the sync's edge, where that is known.
-    let edge = |ticks: &dyn Display| match plan.delay {
+    let edge = |ticks: &dyn Display| match plan.delay() {
         Some(_) => format!("  {ticks:>10}"),
         None => String::new(),
+    };
+    // What a curve tells.
+    let share = |u: &dyn Display| match plan {
+        Planned::Curve(_) => format!("  {u:>7}"),
+        Planned::Times(_) => String::new(),
     };
     // Between pulses, the gap is darkness.
     let gap = if has_pulses { "apart" } else { "gap" };
     let gap = format!("{gap} ({})", unit.name());
     writeln!(
         out,
-        "    #        u  {time:>13}       ticks{}{}  {gap:>13}",
+        "    #{}  {time:>13}       ticks{}{}  {gap:>13}",
+        share(&"u"),
         edge(&"from edge"),
         pulse(&"on", &"off")
     )?;
-    let hidden = hidden_rows(plan.triggers.len());
+    let hidden = hidden_rows(rows.len());
     let mut last: Option<f64> = None;
-    for (i, trigger) in plan.triggers.iter().enumerate() {
+    for (i, row) in rows.iter().enumerate() {
         if i == hidden.start {
             writeln!(out, "  ...  {} more", hidden.len())?;
         }
         // Rounded as it is printed, so that a gap is the difference of what stands there.
         let rounding = 10f64.powi(places as i32);
-        let time = (unit.of(trigger.time) * rounding).round() / rounding;
+        let time = (unit.of(row.time) * rounding).round() / rounding;
         let gap = last.replace(time).map_or("-".into(), |last| format!("{:.places$}", time - last));
         if hidden.contains(&i) {
             continue;
         }
-        let Trigger { u, ticks, pulse: times, .. } = trigger;
+        let Row { u, ticks, pulse: times, .. } = row;
         let (on, off) = times.unwrap_or_default();
         let pulse = pulse(&on, &off);
         let edge = edge(&plan.from_edge(*ticks).unwrap_or_default());
-        writeln!(out, "{i:5}  {u:.5}  {time:13.places$}  {ticks:10}{edge}{pulse}  {gap:>13}")?;
+        let share = share(&format_args!("{:.5}", u.unwrap_or_default()));
+        writeln!(out, "{i:5}{share}  {time:13.places$}  {ticks:10}{edge}{pulse}  {gap:>13}")?;
     }
     Ok(())
 }

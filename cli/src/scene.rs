@@ -1,10 +1,12 @@
 //! A scene: what stands in its text, and where it is wrong.
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use shutter_curve::CurveError;
 use toml::Spanned;
 
 use crate::shape::Shape;
+use crate::times;
 use crate::unit::{Unit, short};
 
 /// A scene as it is written; each value knows its place in the text.
@@ -178,8 +180,18 @@ impl Fault {
 /// The scene that `text` describes.
 ///
 /// # Errors
-/// What is no TOML, and keys that are missing or unknown or have the wrong type.
+/// What is no TOML, keys that are missing or unknown or have the wrong type, and a scene without a curve.
 pub fn parse(text: &str) -> Result<Scene, Fault> {
+    if let Some(at) = times::place(text) {
+        let reason = "trigger_times: this scene has times as they were measured, and a curve is required here; \
+                      `shutter plan` takes it";
+        return Err(Fault { at: Some(at), reason: reason.into(), notes: Vec::new() });
+    }
+    read(text)
+}
+
+/// What a text has by its keys.
+pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     toml::from_str(text).map_err(|error| {
         let reason = error.message().to_string();
         // What is missing is on no line; its span is the whole table.
@@ -211,7 +223,7 @@ impl Scene {
         let keys = ["open_start", "open_end", "close_start", "close_end"];
         let mut seconds = [0.0; 4];
         for ((key, value), seconds) in keys.into_iter().zip(self.times()).zip(&mut seconds) {
-            *seconds = self.seconds(key, value)?;
+            *seconds = self::seconds(self.unit(), key, value)?;
         }
         let times = seconds.map(|time| time as f32);
         let length = (seconds[3] - seconds[0]).abs();
@@ -234,12 +246,6 @@ impl Scene {
         }
         let inner = self.shutteropening.as_ref().map(eight).transpose()?;
         Ok(Shape { times, inner })
-    }
-
-    /// A time in seconds, known to be finite.
-    pub(crate) fn seconds(&self, key: &str, time: &Spanned<Number>) -> Result<f64, Fault> {
-        let time = finite(key, time, time.get_ref().get())?;
-        Ok(self.unit().seconds(time))
     }
 
     fn times(&self) -> [&Spanned<Number>; 4] {
@@ -274,6 +280,34 @@ impl Scene {
         }
         fault
     }
+}
+
+/// A time in seconds, known to be finite.
+pub(crate) fn seconds(unit: Unit, key: &str, time: &Spanned<Number>) -> Result<f64, Fault> {
+    Ok(unit.seconds(finite(key, time, time.get_ref().get())?))
+}
+
+/// A time in seconds that has to be more than 0, if there is one.
+pub(crate) fn positive(
+    unit: Unit,
+    key: &str,
+    time: Option<&Spanned<Number>>,
+) -> Result<Option<f64>, Fault> {
+    let Some(place) = time else { return Ok(None) };
+    let seconds = seconds(unit, key, place)?;
+    if seconds > 0.0 {
+        return Ok(Some(seconds));
+    }
+    Err(Fault::at(place, format!("{key}: more than 0 is required")))
+}
+
+/// The least gap, in seconds.
+pub(crate) fn min_gap(unit: Unit, time: &Spanned<Number>) -> Result<f64, Fault> {
+    let seconds = seconds(unit, "min_gap", time)?;
+    if seconds < 0.0 {
+        return Err(Fault::at(time, "min_gap: 0 or more is required"));
+    }
+    Ok(seconds)
 }
 
 fn finite<T>(key: &str, place: &Spanned<T>, x: f64) -> Result<f64, Fault> {

@@ -1,25 +1,33 @@
 //! Several plans as a table: the speeds of a shutter.
 
 use crate::facts::Facts;
-use crate::plan::Plan;
+use crate::planned::Planned;
 use crate::unit::short;
 
 /// A row for each plan, under the names of what stands in it.
-pub fn text(plans: &[(String, Plan)]) -> String {
-    let row = |(name, plan): &(String, Plan)| {
-        let (facts, unit) = (Facts::new(plan), plan.unit());
+pub fn text(plans: &[(String, Planned)]) -> String {
+    let row = |(name, planned): &(String, Planned)| {
+        let unit = planned.unit();
+        // Times without a curve tell of no exposure.
+        let by_curve = planned.plan().map(|plan| (plan, Facts::new(plan)));
+        let facts = by_curve.as_ref().map(|(_, facts)| facts);
         let optional =
             |seconds: Option<f64>| seconds.map_or("-".into(), |seconds| unit.show(seconds));
-        let delta = facts.delta_ev.map_or("-".into(), |delta| format!("{delta:+.2}"));
+        let delta = facts.and_then(|facts| facts.delta_ev);
+        let efficiency = facts.map(|facts| format!("{} %", short(100.0 * facts.efficiency, 3)));
+        let triggers = planned.rows().len();
         let name: String = name.chars().filter(|c| !c.is_control()).collect();
         [
             name,
-            optional(plan.nominal),
-            unit.show(facts.exposure),
-            delta,
-            format!("{} %", short(100.0 * facts.efficiency, 3)),
-            optional(plan.delay.map(|delay| delay.seconds)),
-            format!("{} of {}", plan.triggers.len(), plan.most),
+            optional(planned.nominal()),
+            optional(facts.map(|facts| facts.exposure)),
+            delta.map_or("-".into(), |delta| format!("{delta:+.2}")),
+            efficiency.unwrap_or("-".into()),
+            optional(planned.delay().map(|delay| delay.seconds)),
+            match by_curve {
+                Some((plan, _)) => format!("{triggers} of {}", plan.most),
+                None => format!("{triggers} as measured"),
+            },
         ]
     };
     let header = ["scene", "nominal", "exposure TV", "ΔEV", "efficiency", "delay", "triggers"];

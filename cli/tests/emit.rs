@@ -7,12 +7,19 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use serde::Deserialize;
-use shutter::emit::{Form, several};
+use shutter::emit::Form;
 use shutter::plan::{Plan, Trigger};
+use shutter::planned::Planned;
 
 /// The plan in a form that takes any.
 fn emit(form: Form, name: &str, plan: &Plan) -> String {
-    shutter::emit::emit(form, name, plan).unwrap()
+    shutter::emit::emit(form, name, &plan.clone().into()).unwrap()
+}
+
+fn several(form: Form, name: &str, plans: &[(String, Plan)]) -> Result<String, String> {
+    let plans: Vec<_> =
+        plans.iter().map(|(name, plan)| (name.clone(), plan.clone().into())).collect();
+    shutter::emit::several(form, name, &plans)
 }
 
 const CLI: &str = env!("CARGO_MANIFEST_DIR");
@@ -329,7 +336,7 @@ fn speeds_are_rows_and_objects() {
 fn the_lines_for_the_pico_are_those_of_the_scene() {
     let plan = |keys: &str| {
         let text = include_str!("../scenes/measured.toml").replace("delay = 4.2470169", keys);
-        shutter::emit::emit(Form::Pico, "measured", &Plan::parse(&text).unwrap())
+        shutter::emit::emit(Form::Pico, "measured", &Planned::parse(&text).unwrap())
     };
     let curve = "curve 0.0042470167 0.006873907 0.010958795 0.0129576195 0.1227014 0.0005208 0.1941086 0.9329666 \
                  0.8523011 0.9329666 0.9066354 0.0005208";
@@ -343,7 +350,7 @@ fn the_lines_for_the_pico_are_those_of_the_scene() {
         assert_eq!(plan(keys).unwrap(), first.clone() + last);
     }
     let none = include_str!("../scenes/measured.toml").replace("min_gap = 0.1", "min_gap = 0");
-    let none = shutter::emit::emit(Form::Pico, "x", &Plan::parse(&none).unwrap()).unwrap();
+    let none = shutter::emit::emit(Form::Pico, "x", &Planned::parse(&none).unwrap()).unwrap();
     assert!(none.ends_with("\ngap 0ns\n"), "{none}");
     assert!(
         plan("delay = 0.09\npulse = 0.2")
@@ -354,8 +361,93 @@ fn the_lines_for_the_pico_are_those_of_the_scene() {
     let far = plan("delay = 17_200").unwrap_err();
     assert!(far.contains("17 s"), "{far}");
     let many = include_str!("../scenes/strobe.toml").to_string() + "delay = 0\n";
-    let many = shutter::emit::emit(Form::Pico, "strobe", &Plan::parse(&many).unwrap()).unwrap_err();
+    let many =
+        shutter::emit::emit(Form::Pico, "strobe", &Planned::parse(&many).unwrap()).unwrap_err();
     assert!(many.contains("up to 64 pulses a frame, and the scene has 100"), "{many}");
+}
+
+/// Trigger times without a curve, with a delay, and a speed that has one.
+fn measured() -> (Planned, Planned) {
+    let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\ntimer_hz = 1_000_000\nmin_gap = 0.1\n\
+                 delay = 4.247\n";
+    let curve = "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\n\
+                 timer_hz = 1_000_000\nmin_gap = 0\ndelay = 4\n";
+    (Planned::parse(times).unwrap(), Planned::parse(curve).unwrap())
+}
+
+const MEASURED: [u32; 3] = [1000, 1500, 2100];
+
+#[test]
+fn times_without_a_curve_compile_as_rust_and_claim_none() {
+    let folder = folder("rust_times");
+    let (times, curve) = measured();
+    let alone = shutter::emit::emit(Form::Rust, "bounce", &times).unwrap();
+    assert!(!alone.contains("shutter_curve") && !alone.contains("SHUTTER"), "{alone}");
+    assert!(alone.contains("no curve: trigger times as measured"), "{alone}");
+    let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
+    let both = shutter::emit::several(Form::Rust, "camera", &speeds).unwrap();
+    fs::write(folder.join("bounce.rs"), alone).unwrap();
+    fs::write(folder.join("camera.rs"), both).unwrap();
+    let main = r#"mod bounce; mod camera;
+        fn main() {
+            println!("{} {} {:?}", bounce::TIMER_HZ, bounce::DELAY_TICKS, bounce::TICKS);
+            for speed in &camera::SPEEDS { println!("{} {} {:?}", speed.name, speed.delay_ticks, speed.ticks); }
+            assert_eq!(camera::good::SHUTTER.exposure(), 0.004);
+        }"#;
+    fs::write(folder.join("main.rs"), main).unwrap();
+    rustc(&folder, &["-D", "warnings", "--extern", the_crate(), "main.rs"]);
+    let expected = format!(
+        "1000000 4247 {MEASURED:?}\nbounce 4247 {MEASURED:?}\ngood 4000 [1000, 2000, 3000, 4000]\n"
+    );
+    assert_eq!(output(&mut Command::new(folder.join("main"))), expected);
+}
+
+#[test]
+fn times_without_a_curve_compile_as_c_beside_a_curve() {
+    let folder = folder("c_times");
+    let (times, curve) = measured();
+    let alone = shutter::emit::emit(Form::C, "bounce", &times).unwrap();
+    let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
+    let both = shutter::emit::several(Form::C, "camera", &speeds).unwrap();
+    fs::write(folder.join("bounce.h"), alone).unwrap();
+    fs::write(folder.join("camera.h"), both).unwrap();
+    let main = format!(
+        "#include \"bounce.h\"\n#include \"camera.h\"\n#include <stdio.h>\nint main(void) {{\n{}\
+         printf(\"%lu\\n\", (unsigned long)BOUNCE_DELAY_TICKS);
+         for (unsigned s = 0; s < CAMERA_SPEEDS; s++)
+             for (unsigned i = 0; i < camera_speeds[s].triggers; i++)
+                 printf(\"%lu\\n\", (unsigned long)camera_speeds[s].ticks[i]);
+         return 0;\n}}\n",
+        print_c("bounce", "BOUNCE", false)
+    );
+    let ticks: String = MEASURED.iter().map(|tick| format!("{tick}\n")).collect();
+    let expected = format!("1000000\n{ticks}4247\n{ticks}1000\n2000\n3000\n4000\n");
+    assert_eq!(compiled(&folder, &main), expected);
+}
+
+#[test]
+fn times_without_a_curve_are_rows_and_objects_and_no_lines_for_the_pico() {
+    let (times, curve) = measured();
+    let csv = shutter::emit::emit(Form::Csv, "bounce", &times).unwrap();
+    let rows = "index,time_s,ticks,gap_ticks,from_edge_ticks\n0,0.0020004,1000,,5247\n\
+                1,0.0025,1500,500,5747\n2,0.0031,2100,600,6347\n";
+    assert_eq!(csv, rows);
+    let json = shutter::emit::emit(Form::Json, "bounce", &times).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let first = serde_json::json!({ "index": 0, "time_s": 0.0020004, "ticks": 1000, "from_edge_ticks": 5247 });
+    assert_eq!(json["triggers"][0], first);
+    let keys: Vec<_> = json.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["delay_s", "delay_ticks", "scene", "timer_hz", "triggers"]);
+    let refused = shutter::emit::emit(Form::Pico, "bounce", &times).unwrap_err();
+    assert_eq!(
+        refused,
+        "the board plans its frames by a curve, and the scene has trigger times without one"
+    );
+    // Beside a curve the column is there, and empty.
+    let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
+    let csv = shutter::emit::several(Form::Csv, "camera", &speeds).unwrap();
+    assert!(csv.contains("\nbounce,0,,0.0020004,1000,,5247\n"), "{csv}");
+    assert!(csv.contains("\ngood,0,0.125,"), "{csv}");
 }
 
 /// A row of CSV, or a trigger of JSON.

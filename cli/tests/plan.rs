@@ -105,7 +105,7 @@ fn a_form_is_all_that_is_printed() {
         {
             let run = run([&scene, Path::new("--emit"), Path::new(name)]);
             assert_eq!((run.code, run.err.as_str()), (0, ""), "{scene_name}");
-            assert_eq!(run.out, emit(form, scene_name, &plan).unwrap());
+            assert_eq!(run.out, emit(form, scene_name, &plan.clone().into()).unwrap());
         }
     }
     let run = run([Path::new("--emit"), Path::new("pascal")]);

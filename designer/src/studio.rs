@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
 use shutter::fit::{self, Options, Zero};
 use shutter::plan::Plan;
+use shutter::planned::Planned;
 use shutter::scene;
 use shutter::trace;
 use shutter::unit::Unit;
@@ -48,7 +49,8 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<String, Wrong> {
         "pico" => Form::Pico,
         _ => return Err(format!("there is no form {form}").into()),
     };
-    Ok(emit::emit(form, name, &plan(name, scene)?)?)
+    let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
+    Ok(emit::emit(form, name, &planned)?)
 }
 
 /// The scene, if it can be planned.
@@ -56,10 +58,6 @@ fn checked(name: &str, text: &str) -> Result<scene::Scene, Wrong> {
     let scene = scene::parse(text).map_err(|fault| fault.locate(name, text))?;
     Plan::new(&scene).map_err(|fault| fault.locate(name, text))?;
     Ok(scene)
-}
-
-fn plan(name: &str, text: &str) -> Result<Plan, Wrong> {
-    Ok(Plan::parse(text).map_err(|fault| fault.locate(name, text))?)
 }
 
 /// A trace, and the scene that fits it.
@@ -97,7 +95,8 @@ fn fitted(
     drop(text);
     let fit =
         fit::fit(&trace, &Options::default(), progress).map_err(|refusal| refusal.to_string())?;
-    let scene = fit.scene(name, Zero::Open).map_err(|refusal| refusal.to_string())?;
+    // The page shows a curve, be it one that does not explain the trace: a warning says so.
+    let scene = fit.curve_scene(name, Zero::Open).map_err(|refusal| refusal.to_string())?;
     warnings.extend(fit.warnings.iter().cloned());
     let best = fit.best();
     let (signal, start) = (&best.signal, best.signal.curve.start);

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use super::fit::{Args, measure};
 use super::output::{print, write_whole};
-use crate::fit::{Fit, Measured, plus_minus};
+use crate::fit::{Fit, From, Measured, plus_minus};
 use crate::speeds::columns;
-use crate::unit::short;
+use crate::unit::{count, short};
 
 /// A trace with what came of it.
 struct Speed {
@@ -22,8 +22,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     }
     let paths: Vec<&PathBuf> = std::iter::once(&args.trace).chain(&args.others).collect();
     if !args.nominal.is_empty() && args.nominal.len() != paths.len() {
-        let (speeds, traces) = (args.nominal.len(), paths.len());
-        return Err(format!("--nominal: {speeds} speeds for {traces} traces"));
+        let speeds = count(args.nominal.len() as u64, "speed");
+        let traces = count(paths.len() as u64, "trace");
+        return Err(format!("--nominal: {speeds} for {traces}"));
     }
     let (mut speeds, mut told, mut scenes) = (Vec::new(), String::new(), Vec::new());
     for (i, path) in paths.into_iter().enumerate() {
@@ -98,6 +99,9 @@ fn row(Speed { name, nominal, fit }: &Speed) -> [String; 7] {
         nominal.map_or("-".into(), stops),
         spread,
         fit.frames.count.to_string(),
-        fit.chosen.title().into(),
+        match fit.from {
+            From::Model => fit.chosen.title().into(),
+            From::Trace => "none: by the trace".into(),
+        },
     ]
 }

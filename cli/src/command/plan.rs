@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::output::{print, svg_path, write_whole};
 use crate::emit::Form;
-use crate::plan::Plan;
+use crate::planned::Planned;
 use crate::{emit, picture, report, speeds};
 
 /// The scene without a file, and the name it goes by.
@@ -42,9 +42,9 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
     }
 }
 
-type Draw = fn(&str, &Plan) -> Result<String, Box<dyn Error>>;
+type Draw = fn(&str, &Planned) -> Result<String, Box<dyn Error>>;
 
-fn one(args: &Args, name: String, plan: Plan, out: &mut dyn Write) -> Result<(), String> {
+fn one(args: &Args, name: String, plan: Planned, out: &mut dyn Write) -> Result<(), String> {
     let name = args.name.clone().unwrap_or(name);
     let text = match args.emit {
         Some(form) => emit::emit(form, &name, &plan)?,
@@ -57,8 +57,15 @@ fn one(args: &Args, name: String, plan: Plan, out: &mut dyn Write) -> Result<(),
         None => Ok(()),
     };
     draw(&args.out, picture::svg)?;
-    draw(&args.set_ups, picture::set_ups)?;
+    draw(&args.set_ups, set_ups)?;
     print(out, &text)
+}
+
+/// The picture of both set-ups, whose doses come from a curve.
+fn set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
+    let curve =
+        plan.plan().ok_or("the set-ups are told apart by a curve, and the scene has none")?;
+    picture::set_ups(name, curve)
 }
 
 fn several(args: &Args, paths: &[PathBuf], out: &mut dyn Write) -> Result<(), String> {
@@ -79,12 +86,12 @@ fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into()
 }
 
-fn read(path: &Path) -> Result<Plan, String> {
+fn read(path: &Path) -> Result<Planned, String> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|e| format!("{file}: {e}"))?;
     checked(&file, &text)
 }
 
-fn checked(file: &str, text: &str) -> Result<Plan, String> {
-    Plan::parse(text).map_err(|fault| fault.locate(file, text))
+fn checked(file: &str, text: &str) -> Result<Planned, String> {
+    Planned::parse(text).map_err(|fault| fault.locate(file, text))
 }

@@ -1,12 +1,13 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows};
-use crate::plan::Plan;
+use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows, ticks};
+use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
-pub fn header(scene: &str, plan: &Plan) -> String {
+pub fn header(scene: &str, plan: &Planned) -> String {
     let (lower, upper) = names(scene);
-    let n = plan.triggers.len();
+    let ticks = ticks(plan);
+    let n = ticks.len();
     let mut body = format!(
         "#include <stdint.h>
 
@@ -14,17 +15,16 @@ pub fn header(scene: &str, plan: &Plan) -> String {
 #define {upper}_TIMER_HZ UINT32_C({})
 #define {upper}_TRIGGERS {n}
 ",
-        plan.timer_hz
+        plan.timer_hz()
     );
-    if let Some(delay) = plan.delay {
+    if let Some(delay) = plan.delay() {
         body += &format!(
             "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT32_C({})\n",
             delay.ticks
         );
     }
-    let ticks = rows(plan.triggers.iter().map(|trigger| trigger.ticks.to_string()));
     let base = base(plan, &format!("{upper}_DELAY_TICKS"));
-    body += &array(&format!("When to trigger. {base}"), &lower, "ticks", &upper, &ticks);
+    body += &array(&format!("When to trigger. {base}"), &lower, "ticks", &upper, &rows(ticks));
     if has_pulses(plan) {
         for (edge, which) in ["on", "off"].into_iter().zip(0..) {
             let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
@@ -36,16 +36,16 @@ pub fn header(scene: &str, plan: &Plan) -> String {
 }
 
 /// The headers of several plans as one, and an array of them.
-pub fn headers(called: &str, plans: &[(String, Plan)]) -> String {
+pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let (lower, upper) = names(called);
     let mut body = format!(
         "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n\n",
-        one.timer_hz,
+        one.timer_hz(),
         plans.len()
     );
     body += "typedef struct {\n    const char *name;\n    uint32_t triggers;\n";
-    if one.delay.is_some() {
+    if one.delay().is_some() {
         body += "    /* From the edge of the camera's sync to the start of opening. */\n    uint32_t delay_ticks;\n";
     }
     body += "    /* So many as there are triggers, counted from the start of opening. */\n    const uint32_t *ticks;\n";
@@ -57,7 +57,7 @@ pub fn headers(called: &str, plans: &[(String, Plan)]) -> String {
     );
     for (scene, plan) in plans {
         let (lower, upper) = names(scene);
-        let delay = plan.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
+        let delay = plan.delay().map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
         let pulses = match has_pulses(plan) {
             true => format!(", {lower}_on, {lower}_off"),
             false => String::new(),

@@ -3,15 +3,16 @@
 use serde::Serialize;
 
 use crate::facts::Facts;
-use crate::plan::{Plan, Trigger};
+use crate::plan::Plan;
+use crate::planned::{Planned, Row};
 
 /// A plan's object.
-pub fn object(scene: &str, plan: &Plan) -> String {
+pub fn object(scene: &str, plan: &Planned) -> String {
     text(&Document::new(scene, plan))
 }
 
 /// An array of the objects of several plans.
-pub fn array(plans: &[(String, Plan)]) -> String {
+pub fn array(plans: &[(String, Planned)]) -> String {
     text(&plans.iter().map(|(scene, plan)| Document::new(scene, plan)).collect::<Vec<_>>())
 }
 
@@ -27,6 +28,14 @@ struct Document<'a> {
     delay_s: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     delay_ticks: Option<u32>,
+    #[serde(flatten)]
+    curve: Option<Curve>,
+    triggers: Vec<Item>,
+}
+
+/// What a curve tells.
+#[derive(Serialize)]
+struct Curve {
     opening_s: f32,
     open_s: f32,
     closing_s: f32,
@@ -36,14 +45,14 @@ struct Document<'a> {
     direct_triggers: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     delta_ev: Option<f32>,
-    triggers: Vec<Item>,
 }
 
 #[derive(Serialize)]
 struct Item {
     index: usize,
-    u: f32,
-    time_s: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    u: Option<f32>,
+    time_s: f64,
     ticks: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     from_edge_ticks: Option<u32>,
@@ -58,18 +67,27 @@ struct Edges {
 }
 
 impl<'a> Document<'a> {
-    fn new(scene: &'a str, plan: &Plan) -> Self {
-        let facts = Facts::new(plan);
-        let item = |(index, trigger): (usize, &Trigger)| {
-            let &Trigger { u, time, ticks, pulse } = trigger;
+    fn new(scene: &'a str, plan: &Planned) -> Self {
+        let item = |(index, row): (usize, Row)| {
+            let Row { u, time, ticks, pulse } = row;
             let pulse = pulse.map(|(on_ticks, off_ticks)| Edges { on_ticks, off_ticks });
             Item { index, u, time_s: time, ticks, from_edge_ticks: plan.from_edge(ticks), pulse }
         };
         Self {
             scene,
-            timer_hz: plan.timer_hz,
-            delay_s: plan.delay.map(|delay| delay.seconds),
-            delay_ticks: plan.delay.map(|delay| delay.ticks),
+            timer_hz: plan.timer_hz(),
+            delay_s: plan.delay().map(|delay| delay.seconds),
+            delay_ticks: plan.delay().map(|delay| delay.ticks),
+            curve: plan.plan().map(Curve::new),
+            triggers: plan.rows().into_iter().enumerate().map(item).collect(),
+        }
+    }
+}
+
+impl Curve {
+    fn new(plan: &Plan) -> Self {
+        let facts = Facts::new(plan);
+        Self {
             opening_s: facts.opening as f32,
             open_s: facts.open as f32,
             closing_s: facts.closing as f32,
@@ -78,7 +96,6 @@ impl<'a> Document<'a> {
             efficiency: plan.curve.efficiency(),
             direct_triggers: facts.direct_triggers,
             delta_ev: facts.delta_ev.map(|delta| delta as f32),
-            triggers: plan.triggers.iter().enumerate().map(item).collect(),
         }
     }
 }

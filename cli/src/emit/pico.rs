@@ -1,7 +1,7 @@
 //! A plan as the lines that the strobe controller in boards/pico takes. It plans the frame itself, by its own clock.
 
 use crate::lamp::Lamp;
-use crate::plan::Plan;
+use crate::planned::Planned;
 use crate::shape::Shape;
 
 /// The board's clock: a tick takes 8 ns.
@@ -14,8 +14,14 @@ const LONGEST: f64 = (1u64 << 32) as f64;
 /// The lines, in an order in which each can be planned, whatever the board was set to.
 ///
 /// # Errors
-/// A plan without a delay, and one that the board cannot fire.
-pub fn lines(plan: &Plan) -> Result<String, String> {
+/// Times without a curve, a plan without a delay, and one that the board cannot fire.
+pub fn lines(planned: &Planned) -> Result<String, String> {
+    let Some(plan) = planned.plan() else {
+        return Err(
+            "the board plans its frames by a curve, and the scene has trigger times without one"
+                .into(),
+        );
+    };
     let n = plan.triggers.len();
     let Some(delay) = plan.delay else {
         return Err("the board counts from the edge of the camera's sync, and the scene has no \

@@ -1,26 +1,33 @@
 //! A plan as a module of Rust.
 
-use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows};
-use crate::plan::Plan;
+use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows, ticks};
+use crate::planned::Planned;
 use crate::shape::Shape;
 
 /// Said of each item: a firmware need not use them all.
 const ALLOW: &str = "#[allow(dead_code)]";
 
 /// The file of a module that is called as the scene is.
-pub fn module(scene: &str, plan: &Plan) -> String {
+pub fn module(scene: &str, plan: &Planned) -> String {
     comment("// ", scene, plan) + "\n" + &items(plan)
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
-pub fn modules(called: &str, plans: &[(String, Plan)]) -> String {
+pub fn modules(called: &str, plans: &[(String, Planned)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
+    // A speed that was measured, and is no curve, leaves the others without theirs.
+    let has_curves = plans.iter().all(|(_, plan)| plan.plan().is_some());
+    let (import, shutter) = match has_curves {
+        true => (
+            "use shutter_curve::ShutterCurve;\n\n",
+            "    /// The shutter, its times in seconds.\n    pub shutter: &'static ShutterCurve,\n",
+        ),
+        false => ("", ""),
+    };
     let mut text = format!(
         "// {MADE_BY}: {}, a shutter of {} speeds.
 
-use shutter_curve::ShutterCurve;
-
-/// The timer's rate.
+{import}/// The timer's rate.
 {ALLOW}
 pub const TIMER_HZ: u32 = {};
 
@@ -29,14 +36,12 @@ pub const TIMER_HZ: u32 = {};
 pub struct Speed {{
     /// The scene's name.
     pub name: &'static str,
-    /// The shutter, its times in seconds.
-    pub shutter: &'static ShutterCurve,
-",
+{shutter}",
         name::shown(called),
         plans.len(),
-        one.timer_hz
+        one.timer_hz()
     );
-    if one.delay.is_some() {
+    if one.delay().is_some() {
         text += "    /// From the edge of the camera's sync to the start of opening.\n    pub delay_ticks: u32,\n";
     }
     text += "    /// When to trigger, counted from the start of opening.\n    pub ticks: &'static [u32],\n";
@@ -49,10 +54,11 @@ pub struct Speed {{
     );
     for (scene, plan) in plans {
         let module = name::module(scene);
-        let delay = plan.delay.map_or("", |_| "        delay_ticks: {}::DELAY_TICKS,\n");
+        let delay = plan.delay().map_or("", |_| "        delay_ticks: {}::DELAY_TICKS,\n");
+        let shutter = if has_curves { "        shutter: &{}::SHUTTER,\n" } else { "" };
         let pulses = if has_pulses(plan) { "        pulses: &{}::PULSES,\n" } else { "" };
         let fields = format!(
-            "    Speed {{\n        name: {:?},\n        shutter: &{{}}::SHUTTER,\n{delay}        ticks: &{{}}::TICKS,\n{pulses}    }},\n",
+            "    Speed {{\n        name: {:?},\n{shutter}{delay}        ticks: &{{}}::TICKS,\n{pulses}    }},\n",
             name::shown(scene)
         );
         text += &fields.replace("{}", &module);
@@ -72,23 +78,30 @@ pub struct Speed {{
 }
 
 /// The items of a plan's module.
-fn items(plan: &Plan) -> String {
-    let n = plan.triggers.len();
-    let mut text = format!(
-        "use shutter_curve::{{ShutterCurve, valid}};
+fn items(plan: &Planned) -> String {
+    let ticks = ticks(plan);
+    let n = ticks.len();
+    let shutter = plan.plan().map(|plan| {
+        format!(
+            "use shutter_curve::{{ShutterCurve, valid}};
 
 /// The shutter, its times in seconds.
 {ALLOW}
 pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
 
-/// The timer's rate.
+",
+            constructor(&plan.shape)
+        )
+    });
+    let mut text = format!(
+        "{}/// The timer's rate.
 {ALLOW}
 pub const TIMER_HZ: u32 = {};
 ",
-        constructor(&plan.shape),
-        plan.timer_hz,
+        shutter.unwrap_or_default(),
+        plan.timer_hz(),
     );
-    if let Some(delay) = plan.delay {
+    if let Some(delay) = plan.delay() {
         text += &format!(
             "\n/// From the edge of the camera's sync to the start of opening.\n{ALLOW}\npub const DELAY_TICKS: u32 = {};\n",
             delay.ticks
@@ -97,7 +110,7 @@ pub const TIMER_HZ: u32 = {};
     text += &format!(
         "\n/// When to trigger. {}\n{ALLOW}\npub const TICKS: [u32; {n}] = [\n{}];\n",
         base(plan, "[`DELAY_TICKS`]"),
-        rows(plan.triggers.iter().map(|trigger| trigger.ticks.to_string())),
+        rows(ticks),
     );
     if has_pulses(plan) {
         text += &format!(

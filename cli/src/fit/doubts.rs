@@ -11,9 +11,11 @@ use crate::trace::{Frame, Warning};
 pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
     // The sampling interval in seconds.
     let step = fits.step * fits.units.pulse();
+    // What a capacitor bends may pass for a hum.
+    let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
     let doubts = [
         clipped(fit).or_else(|| saturated(fit, fits)),
-        hum(fit),
+        if is_bent { None } else { hum(fit) },
         flicker(fit),
         cut_tail(fit, fits),
         drift(fit),

@@ -80,7 +80,7 @@ fn columns(reading: &Reading) -> Columns<'_> {
 
 /// The fit of the trace `name`, with all warnings about it, as JSON.
 pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
-    let [opens_s, open_s, closes_s, closed_s] = fit.best().signal.curve.times();
+    let [_, open_s, closes_s, closed_s] = fit.best().signal.curve.times();
     let told = |warning: &Warning| Told { code: warning.code(), text: warning.to_string() };
     let json = Json {
         trace: name,
@@ -90,7 +90,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
         exposure_error_s: fit.exposure.error,
         efficiency: fit.efficiency.value,
         efficiency_error: fit.efficiency.error,
-        opens_s,
+        opens_s: fit.opens,
         open_s,
         closes_s,
         closed_s,

@@ -88,6 +88,7 @@ pub fn fit(
         reason,
         exposure: results.exposure,
         efficiency: results.efficiency,
+        opens: results.start.value,
         delay: delay::delay(options.sync, results.start, &pulses.frames[..asked])?,
         triggers: results.triggers,
         from,

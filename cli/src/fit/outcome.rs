@@ -167,11 +167,13 @@ pub struct Fit {
     pub exposure: Measured,
     /// The exposure by the time from the start of opening to the end of closing.
     pub efficiency: Measured,
+    /// When the shutter starts to open, in seconds: with the curve, or with light that comes before it.
+    pub opens: f64,
     /// From the edge of the camera's sync to the start of opening, in seconds, where the edge's time was given.
     pub delay: Option<Measured>,
     /// The times in seconds by which (i + 1/2)/n of the exposure is collected.
     pub triggers: Vec<Measured>,
-    /// What these three are taken from.
+    /// What these are taken from.
     pub from: From,
     /// The chosen model's own, wherever those are taken from.
     pub model_exposure: Measured,

@@ -9,7 +9,7 @@ use super::outcome::{Fit, From, Reason, Test, Tolerance};
 use super::signal::Kind;
 use super::speed;
 use crate::rows::hidden_rows;
-use crate::trace::sampling_interval;
+use crate::trace::{from_opening, sampling_interval};
 use crate::unit::{Unit, count, decimals, short, trimmed};
 
 /// No number has more decimals, however small its error is.
@@ -118,11 +118,10 @@ fn judgement(fit: &Fit) -> String {
     if explained {
         return "the model explains the trace".into();
     }
-    let (unit, after) = (fit.unit(), at - fit.best().signal.curve.start);
     format!(
-        "structure that the model has not: {} % of the light,\n             {} after opening ({} standard deviations)",
-        short(100.0 * share, 2),
-        format_args!("{} {}", short(unit.of(after), 3), unit.name()),
+        "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
+        short(100.0 * share.abs(), 2),
+        from_opening(at - fit.best().signal.curve.start),
         short(sigma, 2)
     )
 }

@@ -11,6 +11,8 @@ use crate::trace::median;
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
 const FLAT: f64 = 0.2;
 const PARTS: usize = 8;
+/// Stretches that scatter so many times as much as the flattest are flat as well.
+const ALIKE: f64 = 2.0;
 /// A block in the dark that is so many times as large as the usual ones is light.
 const IS_LIGHT: f64 = 5.0;
 
@@ -19,6 +21,8 @@ struct Running {
     /// Where each sample ends, and the openness times the time up to there.
     sums: Vec<(f64, f64)>,
     start: f64,
+    /// Where there is light before the curve: from when.
+    early: Option<f64>,
     /// The level of full light, and its standard error.
     level: Measured,
     /// The variance of a sum over a unit of time, and for how long the dark was seen.
@@ -44,9 +48,6 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
         value: exposure.value / of_length,
         error: (exposure.error / of_length).hypot(model.efficiency.error),
     };
-    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the exposure.
-    let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
-    let start = Measured { error: model.start.error.hypot(apart), ..model.start };
     let trigger = |u: f64| {
         let value = running.reaches(u * area);
         let (early, late) = (value - running.start, end - value);
@@ -55,7 +56,15 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
         let amount = (walk + tilt).sqrt().hypot(rounding);
         Measured { value, error: amount / least_open(&integral, value) }
     };
-    Some(Results { exposure, efficiency, start, triggers: fractions(n).map(trigger).collect() })
+    let triggers: Vec<Measured> = fractions(n).map(trigger).collect();
+    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the exposure; but
+    // nothing is triggered before the shutter opens.
+    let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
+    let earliest = triggers.first().map_or(f64::INFINITY, |first| first.value);
+    let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
+    let error = model.start.error.hypot(apart).hypot(model.start.value - value);
+    let start = Measured { value, error };
+    Some(Results { exposure, efficiency, start, triggers })
 }
 
 impl Running {
@@ -91,7 +100,8 @@ impl Running {
         let level = Self::level(fits, &opened, base, walk.power)?;
         let dark = dark.len() as f64 * fits.step;
         let start = fits.samples.get(from)?.from;
-        Some(Self { sums, start, level, walk: walk.power, dark })
+        let early = (from < parts.pulse.start).then_some(start);
+        Some(Self { sums, start, early, level, walk: walk.power, dark })
     }
 
     /// Full light, by the stretch of the pulse that is flattest: what a shutter does before it rests does not count.
@@ -116,14 +126,23 @@ impl Running {
             (level > 0.6).then_some((scatter, level))
         };
         let count = ((1.0 - FLAT) / (0.5 * part)) as usize;
-        let flattest = (0..=count).filter_map(stretch).min_by(|a, b| a.0.total_cmp(&b.0));
+        let stretches: Vec<(f64, f64)> = (0..=count).filter_map(stretch).collect();
+        let least = stretches.iter().map(|(scatter, _)| *scatter).fold(f64::INFINITY, f64::min);
+        // Which of those that are nearly as flat is the flattest is chance: their mean counts, and is known no better than they
+        // agree.
+        let alike: Vec<f64> =
+            stretches.iter().filter(|s| s.0 <= ALIKE * least).map(|(_, level)| *level).collect();
         let middle = mean(-0.25, 0.25)?;
-        let (scatter, value) = flattest.unwrap_or((0.0, middle));
+        let (scatter, value) = match alike.len() {
+            0 => (0.0, middle),
+            n => (least, alike.iter().sum::<f64>() / n as f64),
+        };
+        let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
         let usual = walk / part * (PARTS - 1) as f64;
         // Where even that is not flat, it is no rest.
         let uneven = ((scatter - usual).max(0.0) / PARTS as f64).sqrt();
-        let error =
-            (walk / FLAT).sqrt().hypot(uneven).hypot(0.2 * (value - middle)).hypot(fits.rounding);
+        let noise = (walk / FLAT).sqrt().hypot(fits.rounding);
+        let error = noise.hypot(uneven).hypot(apart).hypot(0.2 * (value - middle));
         (value > 0.0).then_some(Measured { value, error })
     }
 

@@ -2,12 +2,12 @@
 
 use super::curve::Curve;
 use super::delay;
-use super::errors::Measured;
-use super::outcome::{Fit, From};
+use super::outcome::{Fit, From, Reason};
 use super::ramp::STRAIGHT;
 use super::report::{because, efficiency, exposure};
 use super::signal::Kind;
 use crate::plan::Plan;
+use crate::planned::Planned;
 use crate::trace::Refusal;
 use crate::unit::{Unit, decimals, trimmed};
 
@@ -39,11 +39,27 @@ const DIGITS: i32 = 8;
 const TICKS: f64 = 100.0;
 
 impl Fit {
-    /// The fit as a scene; `name` tells in a comment where it came from.
+    /// The fit as a scene; `name` tells in a comment where it came from. Where the results are the trace's own, the scene has
+    /// their trigger times and no curve, unless a model was asked for.
     ///
     /// # Errors
     /// Where no scene can be made of it that can be planned.
     pub fn scene(&self, name: &str, zero: Zero) -> Result<Scene, Refusal> {
+        if self.from == From::Model || self.reason == Reason::Asked {
+            return self.curve_scene(name, zero);
+        }
+        let text = self.write_times(name, zero);
+        match Planned::parse(&text) {
+            Ok(_) => Ok(Scene { text, zero }),
+            Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
+        }
+    }
+
+    /// The scene of the chosen model's curve, whether it explains the trace or not.
+    ///
+    /// # Errors
+    /// Where no scene can be made of it that can be planned.
+    pub fn curve_scene(&self, name: &str, zero: Zero) -> Result<Scene, Refusal> {
         let curve = self.best().signal.curve;
         let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
         let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
@@ -54,7 +70,7 @@ impl Fit {
         let mut refused = String::new();
         // Rounding may push an extreme curve beyond what the crate accepts: a little nearer to a straight line it holds.
         for nearer in std::iter::once(0.0).chain((0..10).map(|i| 1e-7 * 4f64.powi(i))) {
-            let text = self.write(name, &pulled(&curve, nearer));
+            let text = self.write_curve(name, &pulled(&curve, nearer));
             match Plan::parse(&text) {
                 Ok(_) => return Ok(Scene { text, zero }),
                 Err(fault) => refused = fault.reason,
@@ -63,26 +79,15 @@ impl Fit {
         Err(Refusal::NoScene { reason: refused })
     }
 
-    fn write(&self, name: &str, curve: &Curve) -> String {
+    fn write_curve(&self, name: &str, curve: &Curve) -> String {
         let unit = Unit::fit(curve.length());
-        let name: String = name.chars().map(|c| if c.is_control() { '?' } else { c }).collect();
-        let n = self.triggers.len();
-        let mut text = format!("# Fitted to {name}: {}, {}.\n", self.chosen.title(), because(self));
-        if let Some(reading) = &self.reading {
-            let reading = reading.to_string().replace(|c: char| c.is_control(), "?");
-            text += &format!("# Read: {reading}.\n");
-        }
-        text += &format!(
-            "# Exposure {}, efficiency {}, standard errors behind ±.\n",
-            exposure(self),
-            efficiency(self),
-        );
+        let (title, because) = (self.chosen.title(), because(self));
+        let mut text = format!("# Fitted to {}: {title}, {because}.\n", shown(name));
         if self.from == From::Trace {
-            text += &self.trace_triggers(curve);
+            text += "# This curve does not explain the trace, and its triggers are not the trace's own, which `shutter \
+                     fit` without --model writes.\n";
         }
-        for warning in &self.warnings {
-            text += &format!("# Warning: {warning}.\n");
-        }
+        text += &self.comments();
         text += &format!("unit = \"{}\"\n", unit.name());
         let places = decimals(unit.of(curve.length()), DIGITS);
         let keys = ["open_start", "open_end", "close_start", "close_end"];
@@ -95,31 +100,70 @@ impl Fit {
             text += &format!("shutteropening = [{numbers}]\n");
         }
         text += &delay::line(self, unit, places);
-        let hz = timer_hz(self.exposure.value / self.peak / n as f64, curve.length());
-        text += &format!("triggers = {n}\ntimer_hz = {hz} # your timer's\n");
-        text +=
-            &format!("min_gap = 0 # {}, what your lamp needs between two flashes\n", unit.name());
+        text += &format!("triggers = {}\n", self.triggers.len());
+        text + &timer(unit, self.exposure.value / self.peak / self.triggers.len() as f64, curve)
+    }
+
+    /// The trace's own triggers.
+    fn write_times(&self, name: &str, zero: Zero) -> String {
+        let curve = &self.best().signal.curve;
+        let unit = Unit::fit(curve.length());
+        let places = decimals(unit.of(curve.length()), DIGITS);
+        let zero = match zero {
+            Zero::Trace => 0.0,
+            Zero::Open => self.opens,
+        };
+        let time = |seconds: f64| trimmed(unit.of(seconds - zero), places);
+        let model = self.chosen.name();
+        let mut text = format!(
+            "# Measured in {}: no model explains the trace, so these are its own trigger times, without a curve.\n\
+             # `--model {model}` writes the curve that comes nearest.\n",
+            shown(name),
+        );
+        text += &self.comments();
+        text += &format!("unit = \"{}\"\nopen_start = {}\n", unit.name(), time(self.opens));
+        text += "trigger_times = [\n";
+        let times: Vec<f64> = self.triggers.iter().map(|trigger| trigger.value).collect();
+        for few in times.chunks(8) {
+            let few: Vec<String> = few.iter().map(|seconds| time(*seconds)).collect();
+            text += &format!("    {},\n", few.join(", "));
+        }
+        text += "]\n";
+        text += &delay::line(self, unit, places);
+        let gap = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        text + &timer(unit, gap.min(curve.length()), curve)
+    }
+
+    /// What was read, and what came of it.
+    fn comments(&self) -> String {
+        let mut text = String::new();
+        if let Some(reading) = &self.reading {
+            text += &format!("# Read: {}.\n", shown(&reading.to_string()));
+        }
+        text += &format!(
+            "# Exposure {}, efficiency {}, standard errors behind ±.\n",
+            exposure(self),
+            efficiency(self),
+        );
+        for warning in &self.warnings {
+            text += &format!("# Warning: {warning}.\n");
+        }
         text
     }
 }
 
-impl Fit {
-    /// The triggers of the trace, as times after the scene's time 0. A curve cannot say them: they are a comment.
-    fn trace_triggers(&self, curve: &Curve) -> String {
-        let unit = Unit::fit(curve.length());
-        let zero = self.best().signal.curve.start - curve.start;
-        let places = decimals(unit.of(curve.length()), DIGITS);
-        let shown = |m: &Measured| trimmed(unit.of(m.value - zero), places);
-        let times: Vec<String> = self.triggers.iter().map(shown).collect();
-        let mut text = String::from(
-            "# The curve below does not explain the trace. The trace's own triggers, in the unit below:\n\
-             # trace_triggers = [\n",
-        );
-        for few in times.chunks(8) {
-            text += &format!("#   {},\n", few.join(", "));
-        }
-        text + "# ]\n"
-    }
+/// On one line.
+fn shown(text: &str) -> String {
+    text.replace(|c: char| c.is_control(), "?")
+}
+
+/// The lines that are not measured: a timer that tells triggers apart that come so close, and a gap.
+fn timer(unit: Unit, gap: f64, curve: &Curve) -> String {
+    let hz = timer_hz(gap, curve.length());
+    let unit = unit.name();
+    format!(
+        "timer_hz = {hz} # your timer's\nmin_gap = 0 # {unit}, what your lamp needs between two flashes\n"
+    )
 }
 
 /// The curve with its control numbers so far on the way to a straight line's.

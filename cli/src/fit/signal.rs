@@ -33,6 +33,16 @@ impl Kind {
         }
     }
 
+    /// As `--model` has it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Trapezoid => "trapezoid",
+            Self::Symmetric => "symmetric",
+            Self::Free => "free",
+        }
+    }
+
     /// How many numbers describe its curve.
     pub const fn parameters(self) -> usize {
         match self {

@@ -24,4 +24,5 @@ pub use read::{open, read};
 pub use reading::{Clock, Reading, Recording, Told};
 pub use samples::Trace;
 pub(crate) use samples::{median, sampling_interval};
+pub(crate) use told::from_opening;
 pub use told::{Refusal, Warning};

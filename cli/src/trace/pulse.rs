@@ -31,6 +31,9 @@ const FASTEST: f64 = 0.011;
 /// So far below the dark, as a share of the light, neither drift nor hum take a signal.
 const UNDERSHOOT: f64 = 0.1;
 
+/// The least of many samples strays so many standard deviations of the noise from their mean.
+const STRAY: f64 = 5.0;
+
 /// Which way light moves the signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
@@ -279,8 +282,9 @@ impl Smooth {
 
     /// Light moves a signal one way only, unless a capacitor takes the mean away.
     fn undershoot(&self, light: f64) -> Option<Warning> {
-        let share = (self.dark - range(&self.values).0) / light;
-        (share > UNDERSHOOT).then_some(Warning::Undershoot { share })
+        let below = self.dark - range(&self.values).0;
+        let is_more_than_noise = below - STRAY * self.noise > UNDERSHOOT * light;
+        is_more_than_noise.then_some(Warning::Undershoot { share: below / light })
     }
 
     /// Are both ends in the dark?

@@ -456,9 +456,10 @@ impl fmt::Display for Warning {
             ),
             Self::Clipped { share, at } => write!(
                 out,
-                "clipped: {:.0} % of the pulse's samples stop at {at}; the exposure comes out too long (some 4 % where 28 % \
-                 are clipped); lower the gain",
-                100.0 * share
+                "clipped: {:.0} % of the pulse's samples stop at {}; full light is above that, so the exposure comes out too \
+                 long, by some percent; lower the gain",
+                100.0 * share,
+                unit::short(*at, 4)
             ),
             Self::Hum { hertz, amplitude } => write!(
                 out,
@@ -489,12 +490,12 @@ impl fmt::Display for Warning {
             ),
             Self::Misfit { share, after, by_trace } => write!(
                 out,
-                "the trace has structure that the model has not: {} % of the light, {} after opening; exposure and \
-                 triggers are {}; look at --picture",
-                unit::short(100.0 * share, 2),
-                time(*after),
+                "the trace has structure that the model has not: {} % of the light, {}; exposure and triggers are {}; look \
+                 at --picture",
+                unit::short(100.0 * share.abs(), 2),
+                from_opening(*after),
                 if *by_trace {
-                    "the trace's own, and the scene's curve is not"
+                    "the trace's own, and no curve stands for them"
                 } else {
                     "the model's, and off by more than their errors say"
                 }
@@ -508,6 +509,12 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+/// A time that counts from the start of opening.
+pub fn from_opening(seconds: f64) -> String {
+    let way = if seconds < 0.0 { "before" } else { "after" };
+    format!("{} {way} opening", time(seconds.abs()))
 }
 
 /// A time in the unit that suits it, to two digits.

@@ -18,7 +18,7 @@ pub fn steps() -> Vec<Value> {
     let fit = fit(&trace, &options, &mut |_| ()).unwrap();
     let scene = fit.scene("leaf.csv", Zero::Trace).unwrap().text;
     let plan = Plan::parse(&scene).unwrap();
-    let lines = emit(Form::Pico, "leaf", &plan).unwrap();
+    let lines = emit(Form::Pico, "leaf", &plan.clone().into()).unwrap();
     // Whatever the answers are: all of them are `ok`, and the last one counts.
     let mut send = serde_json::json!({ "send": lines.as_bytes(), "answers": vec!["ok"; lines.lines().count()] });
     send["oneByOne"] = true.into();

@@ -1,0 +1,56 @@
+//! Trigger times without a curve as an SVG: a mark for each on an axis of time.
+
+use std::error::Error;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::drawing::{Axis, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
+use super::style::{self, INK, VERMILION};
+use crate::times::Times;
+use crate::unit::{count, decimals, trimmed};
+
+const SIZE: (i32, i32) = (900, 240);
+const HEADING: i32 = 70;
+
+/// The triggers of the scene `name`.
+pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
+    let unit = times.unit();
+    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length()));
+    // The sync is shown where it does not make the triggers small.
+    let edge = times.delay.map(|delay| start - unit.of(delay.seconds));
+    let edge = edge.filter(|edge| start - edge < end - start);
+    let first = edge.unwrap_or(start);
+    let room = 0.03 * (end - first);
+    let title = format!("The triggers of the shutter {name} over time, as measured");
+    picture(SIZE, &title, |page| {
+        let (heading, rest) = page.split_vertically(HEADING * SCALE);
+        let triggers = count(times.triggers.len() as u64, "trigger");
+        let middle = SIZE.0 * SCALE / 2;
+        heading.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
+        let facts = format!("no curve: {triggers} as measured");
+        heading.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+        let (time, places) = (format!("time ({})", unit.name()), decimals(end - start, 3));
+        let across = Axis {
+            range: first - room..end + room,
+            name: Some(&time),
+            label: &|t| trimmed(*t, places),
+        };
+        let up = Axis { range: 0.0..1.2, name: None, label: &|_| String::new() };
+        let mut graph = axes(&rest, across, up, 20)?;
+        let marks = times.triggers.iter().map(|trigger| unit.of(trigger.time));
+        graph.draw_series(
+            marks.clone().map(|t| PathElement::new([(t, 0.0), (t, 1.0)], pen(VERMILION, 1.2))),
+        )?;
+        if times.triggers.len() <= MOST_MARKS {
+            graph.draw_series(marks.map(|t| dot((t, 1.0))))?;
+        }
+        for (t, words) in edge.map(|t| (t, "sync")).into_iter().chain([(start, "opens")]) {
+            graph.draw_series([PathElement::new([(t, 0.0), (t, 1.0)], pen(INK, 1.2))])?;
+            let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
+            let place = EmptyElement::at((t, 1.0));
+            graph.draw_series([place + Text::new(words, (6 * SCALE, -4 * SCALE), label)])?;
+        }
+        Ok(())
+    })
+}

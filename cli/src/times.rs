@@ -1,0 +1,158 @@
+//! Trigger times as they were measured, in place of a curve: a scene's `trigger_times`, checked.
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::delay::{Delay, LAST};
+use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
+use crate::scene::{self, Count, Fault, Number};
+use crate::unit::Unit;
+
+/// The key that tells such a scene from one with a curve.
+const KEY: &str = "trigger_times";
+
+/// The scene as it is written; each value knows its place in the text.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Scene {
+    /// Of all times; seconds without.
+    unit: Option<Unit>,
+    open_start: Spanned<Number>,
+    trigger_times: Spanned<Vec<Spanned<Number>>>,
+    timer_hz: Spanned<Count>,
+    min_gap: Spanned<Number>,
+    nominal: Option<Spanned<Number>>,
+    delay: Option<Spanned<Number>>,
+}
+
+/// A trigger that was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Given {
+    /// Its time in seconds, as it was given.
+    pub time: f64,
+    /// The timer's ticks after the shutter starts to open, rounded to the nearest.
+    pub ticks: u32,
+}
+
+/// Triggers that can be played.
+#[derive(Clone, Debug)]
+pub struct Times {
+    /// When the shutter starts to open, in seconds: ticks count from there.
+    pub open_start: f64,
+    /// The timer's ticks in a second.
+    pub timer_hz: u32,
+    /// From the edge of the camera's sync to the start of opening, if the scene tells.
+    pub delay: Option<Delay>,
+    /// Between two triggers, at least so many seconds, as the scene asks.
+    pub min_gap: f64,
+    /// The exposure that the shutter's maker names, in seconds.
+    pub nominal: Option<f64>,
+    /// In order.
+    pub triggers: Vec<Given>,
+    unit: Option<Unit>,
+}
+
+/// Where such a text has its trigger times, if it has them.
+pub(crate) fn place(text: &str) -> Option<usize> {
+    let table = DeTable::parse(text).ok()?.into_inner();
+    table.into_iter().find(|(key, _)| key.get_ref() == KEY).map(|(key, _)| key.span().start)
+}
+
+/// Why a key that goes with a curve has no meaning beside trigger times.
+fn of_a_curve(key: &str) -> Option<&'static str> {
+    Some(match key {
+        "open_end" | "close_start" | "close_end" | "shutteropening" => {
+            "it is a curve's, and the triggers of this scene are given by their times"
+        }
+        "triggers" => "their number is that of trigger_times",
+        "pulse" | "duty" | "min_pulse" => {
+            "pulses are checked against a curve, and a scene with trigger_times has none"
+        }
+        _ => return None,
+    })
+}
+
+impl Times {
+    /// The triggers of the scene that `text` describes.
+    ///
+    /// ```
+    /// let times = shutter::times::Times::parse(
+    ///     "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3.5, 6]\ntimer_hz = 1000\nmin_gap = 1\n",
+    /// ).expect("a good scene");
+    /// assert!(times.triggers.iter().map(|trigger| trigger.ticks).eq([1, 3, 5]));
+    /// ```
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scene, and where in the text.
+    pub fn parse(text: &str) -> Result<Self, Fault> {
+        let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
+        for key in table.keys() {
+            if let Some(why) = of_a_curve(key.get_ref()) {
+                return Err(Fault::at(key, format!("{}: {why}", key.get_ref())));
+            }
+        }
+        Self::new(&scene::read(text)?)
+    }
+
+    fn new(scene: &Scene) -> Result<Self, Fault> {
+        let unit = scene.unit.unwrap_or(Unit::Second);
+        let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
+        let timer_hz = scene.timer_hz.get_ref().get();
+        if timer_hz == 0 {
+            return Err(Fault::at(&scene.timer_hz, "timer_hz: the tick rate is 0"));
+        }
+        let min_gap = scene::min_gap(unit, &scene.min_gap)?;
+        let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
+        let triggers = triggers(scene, unit, open_start, whole_ticks(min_gap, timer_hz).max(1))?;
+        let end = triggers.last().map_or(0.0, |last| last.ticks.into());
+        let delay = Delay::new(scene.delay.as_ref(), unit, timer_hz, end)?;
+        Ok(Self { open_start, timer_hz, delay, min_gap, nominal, triggers, unit: scene.unit })
+    }
+
+    /// From the start of opening to the last trigger, in seconds; a tick at least.
+    pub fn length(&self) -> f64 {
+        let last = self.triggers.last().map_or(0.0, |last| last.time - self.open_start);
+        last.max(1.0 / f64::from(self.timer_hz))
+    }
+
+    /// The scene's unit, or the one that suits its times.
+    pub fn unit(&self) -> Unit {
+        self.unit.unwrap_or_else(|| Unit::fit(self.length()))
+    }
+}
+
+/// The times in ticks, known to be in order and at least so many apart.
+fn triggers(scene: &Scene, unit: Unit, start: f64, gap: u64) -> Result<Vec<Given>, Fault> {
+    let hz = f64::from(scene.timer_hz.get_ref().get());
+    let times = scene.trigger_times.get_ref();
+    if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
+        let reason = format!("{KEY}: 1 to {MOST_TRIGGERS} can be planned, not {}", times.len());
+        return Err(Fault::at(&scene.trigger_times, reason));
+    }
+    let mut triggers: Vec<Given> = Vec::new();
+    for (i, place) in times.iter().enumerate() {
+        let fault = |reason: String| Err(Fault::at(place, format!("{KEY}: {reason}")));
+        let time = scene::seconds(unit, KEY, place)?;
+        let ticks = ((time - start) * hz).round();
+        if time < start {
+            return fault(format!("trigger {i} comes before open_start, from where ticks count"));
+        }
+        if ticks > LAST {
+            return fault(format!(
+                "trigger {i} comes more than 2^31 ticks after open_start; count from nearer to it, or take a slower timer"
+            ));
+        }
+        if let Some(last) = triggers.last() {
+            let by = ticks as i64 - i64::from(last.ticks);
+            if time < last.time {
+                return fault(format!("trigger {i} comes before trigger {}", i - 1));
+            }
+            if by < i64::try_from(gap).unwrap_or(i64::MAX) {
+                return fault(format!("{}, and {}", apart("triggers", i - 1, by), required(gap)));
+            }
+        }
+        triggers.push(Given { time, ticks: ticks as u32 });
+    }
+    Ok(triggers)
+}
