@@ -16,9 +16,9 @@ const LITTLE: f32 = 0.25;
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
 /// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
 /// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
-/// middle adds 2⁻²⁷·⁶ at most. Together this is 2⁻²⁶·⁸ (`proofs/cdf.py`).
+/// middle adds 2⁻²⁷·⁶ at most. Together that is less than this (`proofs/cdf.py`).
 // docs/proofs.md: `cdf` never steps back
-const NEAR_MIDDLE: f32 = 2.5 / (1 << 28) as f32;
+const NEAR_MIDDLE: f32 = 2.375 / (1 << 28) as f32;
 
 /// Where a time lies on the curve.
 enum At {
