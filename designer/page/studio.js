@@ -9,7 +9,7 @@ const queues = new Map();
 function ask(question, payload, progress) {
   return new Promise((resolve) => {
     if (!worker) {
-      worker = new Worker('worker.js', { type: 'module' });
+      worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
       worker.onmessage = ({ data }) => {
         if ('progress' in data) return asked?.progress?.(data.progress);
         // What failed may have left anything behind: the next question gets a new worker.

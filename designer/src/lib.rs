@@ -14,4 +14,4 @@ mod view;
 
 #[cfg(feature = "studio")]
 pub use studio::ask;
-pub use view::view;
+pub use view::{allowed, view};

@@ -39,16 +39,24 @@ pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> 
     }
 }
 
-fn emitted(name: &str, scene: &str, form: &str) -> Result<String, Wrong> {
-    let form = match form {
-        "rust" => Form::Rust,
-        "c" => Form::C,
-        "csv" => Form::Csv,
-        "json" => Form::Json,
-        "pico" => Form::Pico,
+/// A plan in one of the forms, and what its file is called.
+#[derive(Serialize)]
+struct Emitted {
+    text: String,
+    file: String,
+}
+
+fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
+    let (form, file) = match form {
+        // The file's name is the module's.
+        "rust" => (Form::Rust, emit::module(name) + ".rs"),
+        "c" => (Form::C, emit::identifier(name) + ".h"),
+        "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
+        "json" => (Form::Json, emit::identifier(name) + ".json"),
+        "pico" => (Form::Pico, emit::identifier(name) + ".txt"),
         _ => return Err(format!("there is no form {form}").into()),
     };
-    Ok(emit::emit(form, name, &plan(name, scene)?)?)
+    Ok(Emitted { text: emit::emit(form, name, &plan(name, scene)?)?, file })
 }
 
 /// The scene, if it can be planned.
