@@ -56,7 +56,12 @@ export function slide(scene, i, [t, y], steps, isGood) {
   const good = (t, y) => isGood(moved(scene, i, t, y));
   if (good(t, y)) return moved(scene, i, t, y);
   const alongT = (y) => reach(t0, t, steps[0], (t) => good(t, y));
-  const alongY = (t) => reach(y0, y, steps[1], (y) => good(t, y));
+  // The crate forgives a rounding beyond 0 or 1: no one means it.
+  const alongY = (t) => {
+    const far = reach(y0, y, steps[1], (y) => good(t, y));
+    const within = Math.min(Math.max(far, 0), 1);
+    return Math.abs(far - within) < 0.01 && good(t, within) ? within : far;
+  };
   if (i < 4) return moved(scene, i, alongT(y), y);
   const [t1, y2] = [alongT(y0), alongY(t0)];
   const far = ([tx, yx]) => Math.hypot((tx - t) / steps[0], (yx - y) / steps[1]);

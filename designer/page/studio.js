@@ -55,4 +55,4 @@ export function cancel(reason = 'stopped') {
 
 export const emit = (scene, form) => queued('emit', { ask: 'emit', name: scene.name, scene: toml(scene), form });
 export const parse = (name, text) => queued('scene', { ask: 'scene', name, scene: text });
-export const fit = (name, file, progress) => queued('fit', { ask: 'fit', name }, file, progress);
+export const fit = (name, asked, file, progress) => queued('fit', { ask: 'fit', name, asked }, file, progress);

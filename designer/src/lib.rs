@@ -11,6 +11,8 @@ mod cost;
 #[cfg(feature = "studio")]
 mod studio;
 mod view;
+#[cfg(feature = "studio")]
+mod words;
 
 #[cfg(feature = "studio")]
 pub use studio::ask;

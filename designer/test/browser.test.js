@@ -187,6 +187,178 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
   }
 });
 
+/** All that a person sees of the scene, to the bit. */
+const seen = () => page.evaluate(() => ({
+  numbers: [...document.querySelectorAll('#numbers input, #numbers select')].map((it) => [it.id, it.type === 'checkbox' ? it.checked : it.value]),
+  curve: document.querySelector('#graph path.curve').getAttribute('d'),
+  handles: [...document.querySelectorAll('.handle')].map((it) => it.getAttribute('transform')),
+  pressed: [...document.querySelectorAll('[aria-pressed=true]')].map((it) => it.dataset.name),
+  other: document.querySelector('#graph path.other').getAttribute('d'),
+  link: document.getElementById('link').disabled,
+}));
+
+test('two hundred actions are undone to the bit, and redone', async () => {
+  await open();
+  const [first, toml] = [await seen(), await copied('toml')];
+  const counts = await page.evaluate(async () => {
+    let seed = 7;
+    const random = (n) => (seed = (seed * 48271) % 2147483647) % n;
+    const $ = (id) => document.getElementById(id);
+    const pick = (list) => list[random(list.length)];
+    const input = (id, value) => {
+      $(id).focus();
+      $(id).value = value;
+      $(id).dispatchEvent(new Event('input', { bubbles: true }));
+      $(id).blur();
+    };
+    const drag = () => {
+      const handle = pick([...document.querySelectorAll('.handle')].filter((it) => it.style.display !== 'none'));
+      handle.setPointerCapture = () => {};
+      const { x, y, width, height } = handle.lastChild.getBoundingClientRect();
+      const send = (type, dx, dy) => handle.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, clientX: x + width / 2 + dx, clientY: y + height / 2 + dy }));
+      const [dx, dy] = [random(160) - 80, random(120) - 60];
+      send('pointerdown', 0, 0);
+      send('pointermove', dx / 2, dy / 2);
+      send('pointermove', dx, dy);
+      send('pointerup', dx, dy);
+    };
+    const actions = {
+      drag, preset: () => pick([...document.querySelectorAll('#presets button')]).click(),
+      unit: () => input('unit', pick(['s', 'ms', 'µs', 'ns'])), lamp: () => input('lamp', pick(['', 'pulse', 'duty'])),
+      straight: () => $('straight').click(), name: () => input('name', `n${random(1000)}`),
+      key: () => pick([...document.querySelectorAll('.handle')]).dispatchEvent(new KeyboardEvent('keydown', { key: pick(['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp']), bubbles: true })),
+      number: () => input(pick(['triggers', 'open_end', 'close_start', 't1', 'y2', 'nominal', 'min_gap', 'timer_hz']), pick(['1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '1e6'])),
+    };
+    const done = {};
+    for (let i = 0; i < 200; i++) {
+      const name = pick(Object.keys(actions));
+      actions[name]();
+      done[name] = (done[name] ?? 0) + 1;
+    }
+    return done;
+  });
+  assert.ok(Object.keys(counts).length === 8, JSON.stringify(counts));
+  const press = (key, shift) => page.evaluate(([key, shiftKey]) => {
+    let steps = 0;
+    const button = () => document.getElementById(shiftKey ? 'redo' : 'undo');
+    for (; !button().disabled && steps < 1000; steps++) dispatchEvent(new KeyboardEvent('keydown', { key, shiftKey, ctrlKey: true }));
+    return steps;
+  }, [key, shift]);
+  await press('z', false);
+  const undone = await press('Z', true);
+  const last = await seen();
+  assert.ok(undone > 120, `${undone} steps`);
+  assert.notDeepEqual(last, first);
+  assert.equal(await press('z', false), undone);
+  assert.deepEqual(await seen(), first);
+  assert.equal(await copied('toml'), toml);
+  await press('Z', true);
+  assert.deepEqual(await seen(), last);
+});
+
+test('Back and Forward, the buttons and the keys go the same steps', async () => {
+  await open();
+  const states = [await seen()];
+  const paused = () => page.waitForTimeout(180);
+  const done = async () => {
+    await paused();
+    states.push(await seen());
+  };
+  await page.click('#presets [data-name="leaf"]');
+  await done();
+  await drag('open_end', 20, 0);
+  await page.mouse.up();
+  await done();
+  await page.fill('#triggers', '7');
+  await page.locator('#triggers').blur();
+  await done();
+  await page.selectOption('#unit', 's');
+  await done();
+  for (const k of [3, 2]) {
+    await page.goBack();
+    await paused();
+    assert.deepEqual(await seen(), states[k], `back to ${k}`);
+  }
+  await page.click('#undo');
+  assert.deepEqual(await seen(), states[1]);
+  await page.keyboard.press('Control+y');
+  assert.deepEqual(await seen(), states[2]);
+  await paused();
+  await page.goForward();
+  await paused();
+  assert.deepEqual(await seen(), states[3]);
+  await page.keyboard.press('Control+Shift+z');
+  assert.deepEqual(await seen(), states[4]);
+  await paused();
+  // What is undone and done otherwise cannot be redone.
+  await page.click('#undo');
+  await page.fill('#triggers', '9');
+  assert.ok(await page.isDisabled('#redo'));
+  // A link that somebody types into this page is a step as well.
+  await page.evaluate(() => (location.hash = location.hash.replace('triggers=9', 'triggers=5')));
+  await page.waitForFunction(() => document.getElementById('triggers').value === '5');
+  await page.locator('#triggers').blur();
+  await page.click('#undo');
+  assert.equal(await page.inputValue('#triggers'), '9');
+});
+
+test('nothing is lost by looking', async () => {
+  await open();
+  await page.fill('#t1', '0.07');
+  await page.check('#straight');
+  assert.notEqual(await page.inputValue('#t1'), '0.07');
+  await page.uncheck('#straight');
+  assert.equal(await page.inputValue('#t1'), '0.07');
+  await page.selectOption('#lamp', 'duty');
+  await page.fill('#duty', '0.21');
+  await page.fill('#min_pulse', '0.01');
+  await page.selectOption('#lamp', 'pulse');
+  await page.fill('#pulse', '0.0625');
+  await page.selectOption('#lamp', '');
+  await page.selectOption('#unit', 'µs');
+  await page.selectOption('#lamp', 'pulse');
+  assert.equal(await page.inputValue('#pulse'), '62.5');
+  await page.selectOption('#lamp', 'duty');
+  assert.deepEqual([await page.inputValue('#duty'), await page.inputValue('#min_pulse')], ['0.21', '10']);
+});
+
+test('numbers are read as people write them, and a separator of thousands is refused', async () => {
+  await open();
+  for (const [id, text, value, echo] of [
+    ['min_gap', '0,25', 0.25, '= 0.25'], ['min_gap', '0.125', 0.125, ''], ['min_gap', '0,125', 0.125, '= 0.125'], ['open_start', '−0,5', -0.5, '= -0.5'],
+    ['open_start', '-.5e0', -0.5, '= -0.5'], ['timer_hz', '1e6', 1_000_000, '= 1000000'], ['min_gap', '0', 0, ''],
+  ]) {
+    await page.fill(`#${id}`, text);
+    assert.ok(await page.isHidden('#problem'), `${text}: ${await page.textContent('#problem')}`);
+    assert.equal(await page.textContent('#echo'), echo, text);
+    const toml = await copied('toml');
+    assert.equal(Number(toml.match(new RegExp(`^${id} = (.*)$`, 'm'))[1]), value, text);
+    await page.locator(`#${id}`).blur();
+  }
+  const before = await copied('toml');
+  for (const [id, text, words] of [
+    ['min_gap', '1,500', '“1,500” may be 1.5 or 1500'], ['timer_hz', '1.000', '“1.000” may be 1 or 1000'], ['min_gap', '1.000,5', 'write 1000.5'],
+    ['timer_hz', '1,000,000', 'write 1000000'], ['timer_hz', '1 500', 'write 1500'], ['timer_hz', '1\u202f500', 'write 1500'], ['open_end', '12’000', 'write 12000'],
+    ['open_end', '1,234.5', 'write 1234.5'], ['open_end', '2ms', 'is no number'],
+  ]) {
+    const was = await page.inputValue(`#${id}`);
+    await page.fill(`#${id}`, text);
+    assert.ok((await page.textContent('#problem')).includes(words), `${text}: ${await page.textContent('#problem')}`);
+    assert.equal(await page.getAttribute(`#${id}`, 'aria-invalid'), 'true');
+    assert.ok(await page.isDisabled('#copy'));
+    assert.ok(await page.isDisabled('#link'));
+    await page.fill(`#${id}`, was);
+  }
+  assert.equal(await copied('toml'), before);
+});
+
+test('at 1024 pixels no number is cut', async () => {
+  await open('#name=long&unit=µs&times=-1234.5678,1262.68902,4671.17877,8710.60274&inner=0.1227014,0.0005208,0.1941086,0.9329666,0.75,0.91,0.87,0.001&triggers=10000&timer_hz=4294967295&min_gap=0.0012345&nominal=12345.678&pulse=0.012345&delay=123456.78'.replace('4294967295', '100000000'), { width: 1024, height: 2800 });
+  const cut = await page.$$eval('#numbers input:not([type])', (all) => all.filter((it) => it.offsetWidth && it.scrollWidth > it.clientWidth).map((it) => `${it.id} ${it.value}`));
+  assert.deepEqual(cut, []);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1024);
+});
+
 test('each copied form compiles or parses', async () => {
   await open();
   const crate = join(scratch, 'crate');
@@ -334,21 +506,37 @@ function trace() {
 
 test('a dropped trace is fitted as the program fits it', async () => {
   await open();
+  const before = await copied('toml');
   await drop('bench.csv', trace());
   await page.waitForSelector('#trace dl');
   const [file, scene] = [join(scratch, 'bench.csv'), join(scratch, 'bench.toml')];
   writeFileSync(file, trace());
-  shutter('fit', file, '--zero', 'open', '--out', scene);
-  assert.deepEqual(JSON.parse(await copied('json')), JSON.parse(shutter('plan', scene, '--emit', 'json')));
+  const report = JSON.parse(shutter('fit', file, '--zero', 'open', '--triggers', '12', '--report', 'json', '--out', scene));
+  // The fit's times and ramps, the page's triggers.
+  const numbers = (text, keys) => Object.fromEntries(keys.map((key) => [key, (text.match(new RegExp(`^${key} = (.*?)( #.*)?$`, 'm')) ?? [])[1]]));
+  const shape = ['unit', 'open_start', 'open_end', 'close_start', 'close_end', 'shutteropening'];
+  const others = ['triggers', 'timer_hz', 'min_gap', 'nominal', 'pulse', 'duty'];
+  assert.deepEqual(numbers(await copied('toml'), shape), numbers(readFileSync(scene, 'utf8'), shape));
+  assert.deepEqual(numbers(await copied('toml'), others), numbers(before, others));
   assert.match(await page.textContent('#trace'), /straight ramps/);
+  assert.match(await page.textContent('#trace'), /explains the trace/);
   assert.match(await page.textContent('#trace'), /residual/);
+  // The triggers and their errors are the program's.
+  const told = (await page.textContent('#trace details pre')).trim().split('\n').slice(1).map((line) => line.split(/ +/).filter((x) => x !== '±').map(Number));
+  report.triggers.forEach(({ time_s, error_s }, i) => {
+    assert.ok(Math.abs(told[i][1] - 1e3 * (time_s - report.opens_s)) < 1e-5, `trigger ${i}`);
+    assert.ok(Math.abs(told[i][2] / (1e3 * error_s) - 1) < 0.06, `error ${i}`);
+  });
+  assert.equal((await page.getAttribute('#graph path.errors', 'd')).split('H').length - 1, 12);
   assert.ok((await page.getAttribute('#graph path.trace', 'd')).length > 1000);
   assert.ok(Math.abs(Number(await page.inputValue('#open_end')) - 2) < 0.05);
   // The example that is there to be tried.
   await page.click('#example');
   await page.waitForFunction(() => /leaf\.csv/.test(document.getElementById('trace').textContent) && document.querySelector('#trace dl'));
-  shutter('fit', join(ROOT, 'cli', 'traces', 'leaf.csv'), '--zero', 'open', '--out', scene);
-  assert.deepEqual(JSON.parse(await copied('json')).triggers, JSON.parse(shutter('plan', scene, '--emit', 'json')).triggers);
+  shutter('fit', join(ROOT, 'cli', 'traces', 'leaf.csv'), '--zero', 'open', '--triggers', '12', '--out', scene);
+  assert.deepEqual(numbers(await copied('toml'), shape), numbers(readFileSync(scene, 'utf8'), shape));
+  // A name is not a preset.
+  assert.equal(await page.locator('#presets [aria-pressed=true]').count(), 0);
   await page.click('#trace button:text-is("Remove the trace")');
   assert.equal(await page.getAttribute('#graph path.trace', 'd'), '');
 });
@@ -361,6 +549,7 @@ test('a dropped scene is opened, and a broken one refused with its line', async 
   await drop('mine.toml', 'open_start = 0\nopen_end = "soon"\n');
   await page.waitForSelector('#trace .wrong');
   assert.match(await page.textContent('#trace'), /mine:2: a number is required/);
+  assert.equal(await page.inputValue('#name'), 'mine');
   assert.equal((await ticks()).length, 20);
 });
 
@@ -386,13 +575,13 @@ test('broken and huge traces get a message, and the page goes on', async () => {
   }
   // 50 MB: of no numbers, and of numbers without a pulse.
   await drop('huge.csv', () => 'volt;garbage;;;'.repeat(3_500_000));
-  await refused(/huge\.csv: /);
+  await refused(/pulse|row of numbers|line/);
   await drop('huge.csv', () => Array.from({ length: 50 }, (_, k) => Array.from({ length: 60_000 }, (_, i) => `${(k * 60_000 + i)}e-6,0.${100000 + ((i * 7919) % 1000)}`).join('\n')).join('\n'));
   // Meanwhile the page works.
   await page.fill('#triggers', '13');
   assert.equal((await ticks()).length, 13);
   await page.fill('#triggers', '12');
-  await refused(/huge\.csv: /);
+  await refused(/pulse|row of numbers|line/);
   await drop('huge.csv', () => new Uint8Array(300 << 20));
   await refused(/300 MB: cut the trace/);
   assert.equal(await copied('json'), before);
