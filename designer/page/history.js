@@ -48,6 +48,8 @@ export function go(by) {
 
 function mirror() {
   clearTimeout(timer);
+  // The browser is on its way to an entry: what is written now would be lost.
+  if (expected !== undefined) return;
   const wait = last + PAUSE - performance.now();
   if (wait > 0) timer = setTimeout(enter, wait);
   else enter();
@@ -63,6 +65,8 @@ function enter() {
   if (from >= 0 && to >= 0 && from !== to) {
     expected = step.id;
     history.go(to - from);
+    // A browser may leave out what it takes for a trick.
+    setTimeout(() => expected === step.id && arrive(), 1000);
   } else if (from === to && to >= 0) write('replaceState');
   else {
     // The first one has the entry that the page was opened with; one that is gone back to takes what entry there is.
@@ -73,12 +77,16 @@ function enter() {
   }
 }
 
+function arrive() {
+  expected = undefined;
+  mirror();
+}
+
 function popped({ state }) {
-  const isOurs = expected !== undefined;
+  if (expected !== undefined && state?.id !== undefined) return arrive();
   expected = undefined;
   const to = steps.findIndex((step) => step.id === state?.id);
   if (to < 0) return arrived();
-  if (isOurs && to !== at) return mirror();
   if (to === at) return;
   seal();
   at = to;

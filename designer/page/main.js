@@ -83,8 +83,13 @@ function buttons() {
   $('redo').disabled = !steps.canGo(1);
 }
 
+// A field that is being typed in would keep its words.
+function leaveField() {
+  if (document.activeElement?.matches('#numbers input')) document.activeElement.blur();
+}
+
 function show(next) {
-  document.activeElement?.matches?.('#numbers input') && document.activeElement.blur();
+  leaveField();
   document.body.classList.remove('void');
   state = next;
   draw(next);
@@ -195,13 +200,14 @@ function onDrag(next, isDone, key) {
 }
 
 function openPreset({ name, scene }) {
-  document.activeElement?.matches?.('#numbers input') && document.activeElement.blur();
+  leaveField();
   take.told('');
   page.change({ scene: fromScene(name, scene), trace: null });
 }
 
 /** Opens what the address says, as a new state. */
 function openAddress(keep) {
+  leaveField();
   try {
     const opened = fromAddress(location.hash);
     const next = { ...opened, trace: null };
