@@ -18,7 +18,7 @@ for file in index.html sw.js; do
 done
 # What is kept for when there is no network.
 files=$(cd "$to.new/$version" && printf "'%s', " *)
-sed -i.bak "s|^const FILES = \[\].*|const FILES = [${files%, }];|" "$to.new/sw.js"
+sed -i.bak "s|^const FILES = \[\]|const FILES = [${files%, }]|" "$to.new/sw.js"
 rm "$to.new"/*.bak
 rm -rf "$to"
 mv "$to.new" "$to"

@@ -40,9 +40,9 @@ export class Graph {
     const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
-    this.framed = svg('rect', {}, svg('clipPath', { id: 'frame' }, defs));
+    this.framed = svg('rect', {}, svg('clipPath', { id: 'plot' }, defs));
     this.grid = svg('g', { class: 'grid', 'aria-hidden': true }, root);
-    const inside = svg('g', { 'clip-path': 'url(#frame)', 'aria-hidden': true }, root);
+    const inside = svg('g', { 'clip-path': 'url(#plot)', 'aria-hidden': true }, root);
     const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': 'url(#below)' }) }, inside);
     this.paths = {
       even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'), other: layer('other'),

@@ -14,7 +14,9 @@ export class Handles {
   /** On a graph; `change(scene, isDone, key)` is told of each move. */
   constructor(graph, change) {
     Object.assign(this, { graph, change });
-    this.groups = HANDLES.map((name, i) => this.make(name, i));
+    this.groups = [];
+    // In the order of the picture, which is Tab's.
+    for (const i of [0, 4, 5, 1, 2, 6, 7, 3]) this.groups[i] = this.make(HANDLES[i], i);
   }
 
   make(name, i) {

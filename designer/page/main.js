@@ -194,9 +194,22 @@ function onInput({ target }) {
   page.change({ scene: next }, id);
 }
 
+// While a handle is dragged nothing else on the page moves.
+let frozen = [];
+function freeze() {
+  frozen = [...document.querySelectorAll('.card, #facts > div, #gap > p, .direct, .note, figure')];
+  const heights = frozen.map((it) => it.offsetHeight);
+  frozen.forEach((it, i) => Object.assign(it.style, { height: `${heights[i]}px`, overflow: 'hidden' }));
+}
+
 function onDrag(next, isDone, key) {
-  if (isDone) page.change({ scene: next }, key);
-  else draw({ ...screen, scene: next });
+  if (!isDone) {
+    if (!frozen.length) freeze();
+    return draw({ ...screen, scene: next });
+  }
+  for (const it of frozen) Object.assign(it.style, { height: '', overflow: '' });
+  frozen = [];
+  page.change({ scene: next }, key);
 }
 
 function openPreset({ name, scene }) {

@@ -3,7 +3,7 @@
 const VERSION = '@version@';
 const FILES = []; // pack.sh lists them
 /** Longer nobody waits for the network where the page is kept. */
-const PATIENCE = 3000;
+const PATIENCE = 4000;
 
 addEventListener('install', (event) => {
   event.waitUntil(keep());

@@ -3,7 +3,8 @@
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -360,6 +361,108 @@ test('at 1024 pixels no number is cut', async () => {
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1024);
 });
 
+test('a handle keeps within what is allowed: it slides along the border, and nothing else moves', async () => {
+  await open('', { width: 1360, height: 900 });
+  await page.evaluate(() => {
+    globalThis.shifts = [];
+    new PerformanceObserver((list) => {
+      for (const { value, sources } of list.getEntries()) shifts.push([value, ...sources.map(({ node }) => node?.id || node?.className || node?.parentElement?.outerHTML.slice(0, 80) || '?')]);
+    }).observe({ type: 'layout-shift', buffered: true });
+  });
+  await handle('open_start').scrollIntoViewIfNeeded();
+  await page.waitForTimeout(300);
+  await page.evaluate(() => (shifts.length = 0));
+  for (const preset of ['soft', 'projector']) {
+    await page.click(`#presets [data-name="${preset}"]`);
+    await page.waitForTimeout(100);
+    await page.evaluate(() => (shifts.length = 0));
+    for (const name of ['open_start', 't1', 't2', 'open_end', 'close_start', 't5', 't6', 'close_end']) {
+      const [x, y] = await middle(name);
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      for (const [dx, dy] of [[-60, -40], [-900, 5], [3, -700], [900, 600], [40, 900], [-300, -300], [7, -9]]) {
+        await page.mouse.move(x + dx, y + dy);
+        const state = await page.evaluate((name) => {
+          // It is never outside the graph.
+          const [box, at] = [document.getElementById('graph'), document.querySelector(`#handle-${name} > :last-child`)].map((it) => it.getBoundingClientRect());
+          const isInside = at.left >= box.left && at.right <= box.right && at.top >= box.top && at.bottom <= box.bottom;
+          return { isInside, copy: document.getElementById('copy').disabled, problem: document.getElementById('problem').hidden, alerts: document.querySelectorAll('[role=alert]:not([hidden]):not(#missing)').length };
+        }, name);
+        assert.deepEqual(state, { isInside: true, copy: false, problem: true, alerts: 0 }, `${preset}: ${name} by ${dx}, ${dy}`);
+      }
+      assert.deepEqual(await page.evaluate(() => shifts), [], `${preset}: ${name}`);
+      await page.keyboard.press('Escape');
+      await page.mouse.up();
+      await page.evaluate(() => (shifts.length = 0));
+    }
+  }
+  // Openness is 0 at least, not a rounding below.
+  await page.click('#presets [data-name="leaf"]');
+  await drag('t1', 0, 300);
+  await page.mouse.up();
+  assert.equal(await page.inputValue('#y1'), '0');
+  // Along the border: held above 1 and moved to the side, it follows to the side.
+  const t2 = Number(await page.inputValue('#t2'));
+  await drag('t2', -30, -300);
+  await page.mouse.up();
+  assert.ok(Number(await page.inputValue('#t2')) < t2 - 0.02, 'it has slid');
+  assert.ok(Number(await page.inputValue('#y2')) > 0.95);
+  assert.deepEqual(await planned('json', 'leaf'), await copied('json'));
+});
+
+test('handles in one place can each be taken', async () => {
+  await open();
+  await page.click('#presets [data-name="projector"]');
+  assert.equal(await page.inputValue('#open_end'), await page.inputValue('#close_start'));
+  // A triangle opens into a trapezoid, to either side.
+  await drag('open_end', -60, 0);
+  await page.mouse.up();
+  assert.ok(Number(await page.inputValue('#open_end')) < 45, await page.inputValue('#open_end'));
+  assert.equal(await page.inputValue('#close_start'), '50');
+  await page.click('#undo');
+  await drag('open_end', 60, 0);
+  await page.mouse.up();
+  assert.ok(Number(await page.inputValue('#close_start')) > 55);
+  assert.equal(await page.inputValue('#open_end'), '50');
+});
+
+test('what is under the pointer is read out', async () => {
+  await open();
+  const [x, y] = await middle('open_end');
+  await page.mouse.move(x, y + 40);
+  assert.match(await page.textContent('#readout'), /^2\.5\d* ms · (100|99\.\d+) % open · 1[67]\.?\d* % collected · trigger 2: tick \d+$/);
+  const { x: left, width } = await page.locator('#graph').boundingBox();
+  await page.mouse.move(left + width / 2 + 14, y + 40);
+  assert.match(await page.textContent('#readout'), /^(4\.9|5\.0)\d* ms · 100 % open · (49|50)/);
+  await page.mouse.move(5, 5);
+  assert.equal(await page.textContent('#readout'), '');
+});
+
+test('keys move a handle as a slider, with a range', async () => {
+  await open();
+  await page.focus('#handle-open_end');
+  const at = (name) => page.evaluate((name) => ['min', 'now', 'max'].map((part) => Number(document.getElementById(`handle-${name}`).getAttribute(`aria-value${part}`))), name);
+  assert.deepEqual(await at('open_end'), [0, 2.5, 7.5]);
+  await page.keyboard.press('End');
+  assert.deepEqual(await at('open_end'), [0, 7.5, 7.5]);
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual(await at('open_end'), [0, 7.5, 7.5]);
+  await page.keyboard.press('Home');
+  assert.deepEqual(await at('open_end'), [0, 0, 7.5]);
+  await page.keyboard.press('PageUp');
+  assert.deepEqual(await at('open_end'), [0, 1, 7.5]);
+  await page.keyboard.press('PageDown');
+  assert.deepEqual(await at('open_end'), [0, 0, 7.5]);
+  assert.match(await page.textContent('#readout'), /^0(\.0+)? ms/);
+  for (const name of ['open_start', 't1', 't2', 't5', 't6', 'close_end']) {
+    await page.focus(`#handle-${name}`);
+    for (const key of ['End', 'Home', 'PageUp', 'ArrowUp', 'ArrowDown', 'Shift+ArrowLeft']) await page.keyboard.press(key);
+    const [min, now, max] = await at(name);
+    assert.ok(min <= now && now <= max && min < max, `${name}: ${[min, now, max]}`);
+    assert.ok(await page.isHidden('#problem'));
+  }
+});
+
 test('each copied form compiles or parses', async () => {
   await open();
   const crate = join(scratch, 'crate');
@@ -640,6 +743,224 @@ test('without a network it goes on, and opens again', async () => {
   } finally {
     await browser.setOffline(false);
   }
+});
+
+test('a link is of the curve on the screen when it is clicked, and none of a wrong one', async () => {
+  await open();
+  const link = async (change) => {
+    await page.evaluate((change) => {
+      document.querySelector(change).click();
+      document.getElementById('link').click();
+    }, change);
+    await page.waitForFunction(() => /link/.test(document.getElementById('told').textContent));
+    await page.waitForTimeout(60);
+    return clipboard();
+  };
+  await page.click('#link');
+  assert.match(await link('#presets [data-name="box"]'), /#name=box&/);
+  assert.match(await link('#presets [data-name="strobe"]'), /#name=strobe&/);
+  await page.fill('#close_start', '-9');
+  for (const id of ['link', 'frame', 'svg', 'png', 'copy', 'save']) assert.ok(await page.isDisabled(`#${id}`), id);
+});
+
+test('a link that holds no curve does not show the shutter before', async () => {
+  await open();
+  assert.ok(await page.isVisible('#graph svg'));
+  await page.evaluate(() => (location.hash = '#times=1'));
+  await page.waitForSelector('body.void');
+  for (const id of ['graph svg', 'code', 'facts', 'speed']) assert.ok(await page.isHidden(`#${id}`), id);
+  assert.match(await page.textContent('#problem'), /^The link holds no curve: times: 4 numbers are required/);
+  assert.ok(await page.isDisabled('#link'));
+  await page.click('#undo');
+  assert.ok(await page.isVisible('#graph svg'));
+  assert.equal(await page.inputValue('#name'), 'soft');
+});
+
+test('two curves are compared, and the link has both', async () => {
+  await open();
+  await page.click('#compare');
+  await page.click('#presets [data-name="liquid-crystal"]');
+  const other = await page.getAttribute('#graph path.other', 'd');
+  assert.match(other, /^M.*C/);
+  assert.ok(await page.isVisible('.other-key'));
+  await page.click('#link');
+  await page.waitForFunction(() => /link/.test(document.getElementById('told').textContent));
+  const link = await clipboard();
+  await page.close();
+  await open(link.slice(url.length));
+  assert.equal(await page.getAttribute('#graph path.other', 'd'), other);
+  await page.click('#compare');
+  assert.equal(await page.getAttribute('#graph path.other', 'd'), '');
+});
+
+test('a frame shows the curve in another page', async () => {
+  await open();
+  await page.click('#presets [data-name="leaf"]');
+  await page.click('#frame');
+  await page.waitForFunction(() => /HTML/.test(document.getElementById('told').textContent));
+  const html = await clipboard();
+  await page.goto(`${url}sw.js`);
+  await page.setContent(`<!doctype html><title>Elsewhere</title>${html}`);
+  const frame = page.frameLocator('iframe');
+  await frame.locator('body[data-ready]').waitFor();
+  assert.ok(await frame.locator('#graph path.curve').first().isVisible());
+  assert.equal(await frame.locator('#name').inputValue(), 'leaf');
+  for (const id of ['presets', 'numbers', 'code', 'trace']) assert.ok(await frame.locator(`#${id}`).isHidden(), id);
+});
+
+test('names of files are names of modules', async () => {
+  await open();
+  for (const [preset, form, file] of [['liquid-crystal', 'rust', 'liquid_crystal.rs'], ['box', 'rust', 'box_.rs'], ['liquid-crystal', 'c', 'liquid_crystal.h'], ['box', 'csv', 'box.csv'], ['box', 'toml', 'box.toml']]) {
+    await page.click(`#presets [data-name="${preset}"]`);
+    await page.click(`#form-${form}`);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+    assert.equal(download.suggestedFilename(), file);
+  }
+});
+
+test('a picture is saved as a PNG', async () => {
+  await open();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#png')]);
+  assert.equal(download.suggestedFilename(), 'soft.png');
+  const png = readFileSync(await download.path());
+  assert.equal(png.subarray(1, 4).toString(), 'PNG');
+  const colours = await page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = data;
+    await image.decode();
+    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data: bytes } = context.getImageData(0, 0, image.width, image.height);
+    const found = new Set();
+    for (let i = 0; i < bytes.length; i += 4) found.add(`${bytes[i]} ${bytes[i + 1]} ${bytes[i + 2]}`);
+    return [image.width > 1000, ...['255 255 255', '0 114 178', '213 94 0', '164 211 240'].map((colour) => found.has(colour))];
+  }, `data:image/png;base64,${png.toString('base64')}`);
+  assert.deepEqual(colours, [true, true, true, true, true], 'its paper, curve, triggers and shares');
+});
+
+/** A static host under a path, whose browsers may keep all it sends for ten minutes. */
+async function host(folder) {
+  const state = { hangs: false, missing: null };
+  const types = { html: 'text/html', js: 'text/javascript', css: 'text/css', wasm: 'application/wasm', svg: 'image/svg+xml', csv: 'text/csv' };
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url, 'http://x').pathname).replace(/^\/a\/path\//, '').replace(/^$/, 'index.html');
+    const file = join(folder, path);
+
+    if (state.hangs) return;
+    if (!existsSync(file) || state.missing?.test(path)) return response.writeHead(404).end();
+    response.writeHead(200, { 'Content-Type': types[path.split('.').pop()], 'Cache-Control': 'max-age=600' }).end(readFileSync(file));
+  });
+  server.listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  return Object.assign(state, { url: `http://127.0.0.1:${server.address().port}/a/path/`, end: () => (server.closeAllConnections(), server.close()) });
+}
+
+/** A browser of its own, without what others have kept. */
+async function visit(run, options = {}) {
+  const other = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--headless', '--no-sandbox', '--disable-gpu'] });
+  try {
+    await run(await (await other.newContext(options)).newPage());
+  } finally {
+    await other.close();
+  }
+}
+
+test('on a host with max-age=600 a new version is whole, under any path; without the host the last one is', async () => {
+  const [site, files] = [join(scratch, 'site'), join(scratch, 'files')];
+  cpSync(join(ROOT, 'designer', 'dist'), site, { recursive: true });
+  const [version] = readdirSync(site).filter((name) => !name.includes('.'));
+  assert.match(version, /^[0-9a-f]{12}$/, 'its name is its content');
+  const pack = () => execFileSync(join(ROOT, 'designer', 'pack.sh'), [files, site]);
+  cpSync(join(site, version), files, { recursive: true });
+  for (const name of ['index.html', 'sw.js']) {
+    writeFileSync(join(files, name), readFileSync(join(site, name), 'utf8').replaceAll(version, '@version@').replace(/FILES = \[.*\]/, 'FILES = []'));
+  }
+  pack();
+  assert.deepEqual(readdirSync(site).sort(), [version, 'index.html', 'sw.js'], 'the same content has the same name');
+  // The next version: the page's text and its script belong together.
+  const renew = () => {
+    const edit = (name, from, to) => {
+      const text = readFileSync(join(files, name), 'utf8');
+      assert.ok(text.includes(from), name);
+      writeFileSync(join(files, name), text.replace(from, to));
+    };
+    edit('index.html', '<h1>Curve designer', '<h1>New designer');
+    edit('main.js', "document.body.dataset.ready = ''", "document.body.dataset.ready = 'new'");
+    pack();
+  };
+  const server = await host(site);
+  try {
+    const whole = async (page) => {
+      await page.waitForSelector('body[data-ready]');
+      return page.evaluate(() => [document.querySelector('h1').textContent, document.body.dataset.ready, document.querySelector('#graph path.curve').getAttribute('d').length > 50]);
+    };
+    const [old, renewed] = [['Curve designer', '', true], ['New designer', 'new', true]];
+    const isEither = (found) => [old, renewed].some((it) => JSON.stringify(it) === JSON.stringify(found));
+    // What is kept whole is a version, and nothing else is kept.
+    const isKept = async (page, isOld) => {
+      for (let i = 0; i < 200; i++, await page.waitForTimeout(100)) {
+        const names = await page.evaluate(() => caches.keys());
+        if (names.length !== 1 || (names[0] === version) !== isOld) continue;
+        if ((await page.evaluate(async (name) => (await (await caches.open(name)).keys()).length, names[0])) === readdirSync(files).length - 1) return;
+      }
+      assert.fail('it is not kept');
+    };
+    await visit(async (page) => {
+      await page.goto(server.url);
+      assert.deepEqual(await whole(page), old);
+      await page.evaluate(() => navigator.serviceWorker.ready);
+      await isKept(page, true);
+      await visit(async (bare) => {
+        // One without the worker, which has kept the old version's files as the host lets it.
+        await bare.goto(server.url);
+        await whole(bare);
+        renew();
+        await bare.goto('about:blank');
+        await bare.goto(server.url);
+        const found = await whole(bare);
+        assert.ok(isEither(found), String(found));
+      }, { serviceWorkers: 'block' });
+      // A machine that is busy may find the network slow, and show what is kept once more.
+      let found;
+      for (let i = 0; i < 5 && found?.[1] !== 'new'; i++) {
+        await page.goto('about:blank');
+        await page.goto(server.url);
+        found = await whole(page);
+        assert.ok(isEither(found), String(found));
+      }
+      assert.deepEqual(found, renewed);
+      await isKept(page, false);
+      // A host that takes the connection and says nothing.
+      server.hangs = true;
+      await page.goto('about:blank');
+      await page.goto(server.url);
+      assert.deepEqual(await whole(page), renewed);
+    });
+  } finally {
+    server.end();
+  }
+});
+
+test('where a script or the WebAssembly is missing, the page says so', async () => {
+  const server = await host(join(ROOT, 'designer', 'dist'));
+  try {
+    for (const missing of [/engine\.wasm$/, /main\.js$/, /scene\.js$/]) {
+      server.missing = missing;
+      await visit(async (page) => {
+        await page.goto(server.url);
+        if (missing.test('engine.wasm')) await page.waitForSelector('#missing.now');
+        else await page.evaluate(() => document.getAnimations().forEach((animation) => animation.finish()));
+        assert.ok(await page.isVisible('#missing'), String(missing));
+        assert.match(await page.textContent('#missing'), /^The page is not whole/);
+      });
+    }
+  } finally {
+    server.end();
+  }
+  await open();
+  await page.evaluate(() => document.getAnimations().forEach((animation) => animation.finish()));
+  assert.ok(await page.isHidden('#missing'));
 });
 
 test('the picture is saved as an SVG', async () => {
