@@ -63,10 +63,14 @@ function enter() {
   const [from, to] = [history.state?.id, step.id].map((id) => entries.findIndex((entry) => entry.id === id));
   const write = (how) => history[how]({ id: step.id }, '', address(step.state));
   if (from >= 0 && to >= 0 && from !== to) {
-    expected = step.id;
     history.go(to - from);
-    // A browser may leave out what it takes for a trick.
-    setTimeout(() => expected === step.id && arrive(), 1000);
+    const asked = (expected = { id: step.id });
+    // A browser may leave out what it takes for a trick. To ask again could lead out of the page.
+    setTimeout(() => {
+      if (expected !== asked) return;
+      for (const step of steps) step.isEntered = false;
+      arrive();
+    }, 5000);
   } else if (from === to && to >= 0) write('replaceState');
   else {
     // The first one has the entry that the page was opened with; one that is gone back to takes what entry there is.
