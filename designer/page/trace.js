@@ -196,7 +196,7 @@ function form({ asked, measured: { names, read }, fit }, again) {
   }
   choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])], asked.unit ?? '', (unit) => ({ unit: unit || null, rate: null }));
   number('samples a second', 'rate', asked.rate ?? (read?.rate ? short(read.rate, 7) : ''), 'by the times');
-  choice('light', 'rises', [['', fit ? `by itself: ${fit.falls ? 'lowers' : 'raises'} it` : 'by itself'], ['true', 'raises the signal'], ['false', 'lowers the signal']],
+  choice('in light the signal', 'rises', [['', fit ? `${fit.falls ? 'falls' : 'rises'}, by itself` : 'as it seems'], ['true', 'rises'], ['false', 'falls']],
     asked.rises ?? '', (value) => ({ rises: value ? value === 'true' : null }));
   number('signal of full light', 'full', asked.full, 'the peak');
   if (fit?.pulses > 1 || asked.frame) {

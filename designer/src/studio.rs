@@ -154,7 +154,7 @@ fn measured(
     let read = recording.as_ref().ok().map(|recording| Read::new(&recording.reading));
     let fit = recording
         .and_then(|recording| fitted(name, recording, asked, progress))
-        .map_err(|refusal| words::refusal(&refusal));
+        .map_err(|refusal| words::refusal(&refusal, asked.rises.is_some()));
     Ok(Measured { names: preview.names, rows: preview.rows, read, fit })
 }
 

@@ -11,8 +11,8 @@ pub struct Told {
     mend: Option<&'static str>,
 }
 
-/// Why there is no fit.
-pub fn refusal(refusal: &Refusal) -> Told {
+/// Why there is no fit; was it said which way light moves the signal?
+pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
     use Refusal as R;
     let (mend, text) = match refusal {
         R::NoTimes => (
@@ -33,6 +33,10 @@ pub fn refusal(refusal: &Refusal) -> Told {
         R::BrokenRows { count, rows, line, reason } => (
             "signal",
             format!("line {line}: {reason}; {count} of {rows} rows are like that: are these the right columns?"),
+        ),
+        R::NoPulse { .. } if has_way => (
+            "rises",
+            "no pulse: nothing stands out of the noise this way; does light move the signal the other way?".into(),
         ),
         R::NoPulse { contrast } => (
             "signal",
@@ -132,7 +136,8 @@ mod tests {
             R::Undetermined,
             R::NoScene { reason: text() },
         ] {
-            is_plain(refusal(&told));
+            is_plain(refusal(&told, false));
+            is_plain(refusal(&told, true));
         }
         for told in [
             W::BrokenRows { count: 2, line: 3, reason: text() },

@@ -686,6 +686,84 @@ test('a dropped trace is fitted as the program fits it', async () => {
   assert.equal(await page.getAttribute('#graph path.trace', 'd'), '');
 });
 
+test('a fit leaves what is not of the shutter, and is a step; what is wrong with a trace can be mended where it is told', async () => {
+  await open();
+  const value = (id) => page.inputValue(`#${id}`);
+  const trace = () => page.getAttribute('#graph path.trace', 'd');
+  const control = (name) => page.locator(`#trace [name=${name}]`);
+  const rows = (unit, value, header = '') => header + Array.from({ length: 800 }, (_, i) => {
+    const f = i < 200 || i > 560 ? 0 : i < 280 ? (i - 200) / 80 : i < 440 ? 1 : (560 - i) / 120;
+    return [...(unit ? [(i * unit).toPrecision(6)] : []), value(f + 0.01 * Math.sin(i * i)).toFixed(4)].join(',');
+  }).join('\n');
+  await page.selectOption('#lamp', 'pulse');
+  await page.fill('#pulse', '0.011');
+  await page.fill('#min_gap', '0.02');
+  await page.locator('#min_gap').blur();
+  const before = await seen();
+  // Times without a unit: seconds, until somebody says otherwise.
+  await drop('bench.csv', rows(0.01, (f) => 0.1 + 2 * f, 't,v\n'));
+  await page.waitForSelector('#trace .warnings li');
+  assert.match(await page.textContent('#trace .warnings'), /does not say in which unit/);
+  assert.deepEqual(await page.$$eval('#trace .preview tr', (all) => all.slice(0, 3).map((row) => [...row.children].map((it) => it.textContent))),
+    [['line', 't time', 'v light'], ['2', '0.00000', '0.1000'], ['3', '0.0100000', '0.1168']]);
+  assert.ok(Math.abs(Number(await value('open_end')) - 800) < 5, await value('open_end'));
+  await page.click('#trace .warnings button:text-is("Choose the unit")');
+  assert.equal(await page.evaluate(() => document.activeElement.name), 'unit');
+  await control('unit').selectOption('ms');
+  await page.waitForFunction(() => Math.abs(document.getElementById('open_end').value - 0.8) < 0.01);
+  assert.ok(!/does not say/.test(await page.textContent('#trace')));
+  assert.deepEqual([await value('pulse'), await value('min_gap'), await value('triggers'), await value('lamp'), await value('name')], ['0.011', '0.02', '12', 'pulse', 'bench']);
+  assert.match(await page.textContent('#speed'), /^1\/\d+ s for 1\/\d+, [+−]/);
+  // Each is a step; with the first the trace goes as well.
+  await page.click('#undo');
+  assert.ok(Number(await value('open_end')) > 700);
+  await page.click('#undo');
+  assert.deepEqual(await seen(), before);
+  assert.equal(await trace(), '');
+  assert.match(await page.textContent('#trace'), /^Drop the CSV/);
+  await page.click('#redo');
+  await page.waitForSelector('#trace dl');
+  assert.ok((await trace()).length > 1000);
+  // A second file that is none: the first one's trace is said to stay, and can be removed.
+  await drop('notes.csv', 'dear diary,\nnothing happened\n');
+  await page.waitForSelector('#trace .wrong');
+  assert.match(await page.textContent('#trace'), /notes\.csv.*no CSV.*The trace of bench\.csv stays/s);
+  assert.ok((await trace()).length > 1000);
+  await page.click('#trace button:text-is("Remove the trace")');
+  assert.equal(await trace(), '');
+  // No times: the rate mends it.
+  await drop('one.csv', rows(0, (f) => 0.1 + 2 * f));
+  await page.waitForSelector('#trace .wrong');
+  await page.click('#trace .wrong button:text-is("Give the rate")');
+  assert.equal(await page.evaluate(() => document.activeElement.name), 'rate');
+  await page.keyboard.type('100,5e3');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('#trace dl');
+  assert.ok(Math.abs(Number(await value('open_end')) - (80 / 100.5)) < 0.01, await value('open_end'));
+  // Light that lowers the signal; asked to raise it, there is no dark to begin with, and that is mended as well.
+  await drop('down.csv', rows(1e-5, (f) => 3 - 2 * f, 'time (s),dark,light\n').replace(/,(?=[\d.]+$)/gm, ',0.5,'));
+  await page.waitForFunction(() => /down\.csv/.test(document.querySelector('#trace h3')?.textContent) && document.querySelector('#trace dl'));
+  assert.match(await control('rises').locator('option').first().textContent(), /falls/);
+  await control('rises').selectOption('true');
+  await page.waitForSelector('#trace .wrong');
+  await page.click('#trace .wrong button:text-is("Say which way")');
+  await control('rises').selectOption('false');
+  await page.waitForSelector('#trace dl');
+  // A column without a pulse.
+  await control('rises').selectOption('');
+  await page.waitForFunction(() => document.querySelector('#trace dl') && document.querySelector('#trace [name=rises]')?.value === '');
+  await control('signal').selectOption('2');
+  await page.waitForSelector('#trace .wrong');
+  assert.doesNotMatch(await page.textContent('main'), /--[a-z]|shutter fit/);
+  await page.click('#trace .wrong button:text-is("Choose the columns")');
+  await control('signal').selectOption('3');
+  await page.waitForSelector('#trace dl');
+  // A preset is another shutter.
+  await page.click('#presets [data-name="leaf"]');
+  assert.equal(await trace(), '');
+  await page.waitForFunction(() => !document.querySelector('#trace dl'));
+});
+
 test('a dropped scene is opened, and a broken one refused with its line', async () => {
   await open();
   await drop('mine.toml', readFileSync(join(SCENES, 'projector.toml'), 'utf8'));
