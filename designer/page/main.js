@@ -21,6 +21,8 @@ let shown;
 // A number that was typed is none; what is on the screen has a curve.
 let refused = false, hasCurve = false;
 let graph;
+// What plays the exposure, once it was asked to.
+let player;
 
 /** What others ask the page. */
 const page = {
@@ -59,6 +61,7 @@ function draw(next) {
   }
   graph.trace(next.trace?.fit);
   if (shown) graph.show(scene, shown);
+  player?.stop();
   if (next.trace !== traced) {
     traced = next.trace;
     import('./trace.js').then((trace) => trace.show(page));
@@ -316,9 +319,12 @@ async function begin() {
   buttons();
   panels.start();
   // Where motion is not wanted, nothing moves unless it is asked to.
-  const play = async () => shown && (await import('./play.js')).play(graph, shown);
+  const play = async () => {
+    player ??= await import('./play.js');
+    if (shown) player.play(graph, shown);
+  };
   $('play').onclick = play;
-  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(play, 800);
+  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(() => frozen.length || play(), 800);
   const numbers = $('numbers');
   numbers.addEventListener('input', onInput);
   numbers.addEventListener('submit', (event) => event.preventDefault());

@@ -362,8 +362,12 @@ test('at 1024 pixels no number is cut', async () => {
 });
 
 test('a handle keeps within what is allowed: it slides along the border, and nothing else moves', async () => {
-  await open('', { width: 1360, height: 900 });
+  await open('', { width: 1360, height: 1300 });
   await page.evaluate(() => {
+    // So narrow that a digit more is a line more.
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync('#facts dd { width: 110px }');
+    document.adoptedStyleSheets = [sheet];
     globalThis.shifts = [];
     new PerformanceObserver((list) => {
       for (const { value, sources } of list.getEntries()) shifts.push([value, ...sources.map(({ node }) => node?.id || node?.className || node?.parentElement?.outerHTML.slice(0, 80) || '?')]);
@@ -372,7 +376,7 @@ test('a handle keeps within what is allowed: it slides along the border, and not
   await handle('open_start').scrollIntoViewIfNeeded();
   await page.waitForTimeout(300);
   await page.evaluate(() => (shifts.length = 0));
-  for (const preset of ['soft', 'projector']) {
+  for (const preset of ['leaf', 'led']) {
     await page.click(`#presets [data-name="${preset}"]`);
     await page.waitForTimeout(100);
     await page.evaluate(() => (shifts.length = 0));
@@ -380,7 +384,7 @@ test('a handle keeps within what is allowed: it slides along the border, and not
       const [x, y] = await middle(name);
       await page.mouse.move(x, y);
       await page.mouse.down();
-      for (const [dx, dy] of [[-60, -40], [-900, 5], [3, -700], [900, 600], [40, 900], [-300, -300], [7, -9]]) {
+      for (const [dx, dy] of [[-60, -40], [-900, 5], [900, 600], [40, -900], [-300, 900]]) {
         await page.mouse.move(x + dx, y + dy);
         const state = await page.evaluate((name) => {
           // It is never outside the graph.
@@ -390,10 +394,11 @@ test('a handle keeps within what is allowed: it slides along the border, and not
         }, name);
         assert.deepEqual(state, { isInside: true, copy: false, problem: true, alerts: 0 }, `${preset}: ${name} by ${dx}, ${dy}`);
       }
-      assert.deepEqual(await page.evaluate(() => shifts), [], `${preset}: ${name}`);
+      // The curve goes back, and with it the panels. Until a button is let go the browser keeps what it saw to itself.
       await page.keyboard.press('Escape');
       await page.mouse.up();
-      await page.evaluate(() => (shifts.length = 0));
+      await page.waitForTimeout(150);
+      assert.deepEqual(await page.evaluate(() => shifts), [], `${preset}: ${name}`);
     }
   }
   // Openness is 0 at least, not a rounding below.
@@ -559,6 +564,11 @@ test('on a phone nothing overflows, and a finger drags', async () => {
 
 test('a move writes nothing that is not seen', async () => {
   await open(ALL_RAMP, { width: 1360, height: 900 });
+  // It was seen, and is no longer.
+  await page.locator('#ticks').scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelectorAll('#ticks tbody tr').length === 256);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.waitForTimeout(200);
   await handle('t2').scrollIntoViewIfNeeded();
   const [x, y] = await middle('t2');
   await page.mouse.move(x, y);
@@ -598,9 +608,10 @@ test('a move writes nothing that is not seen', async () => {
   console.log(`${most} writes a move`);
   assert.ok(most < 150, JSON.stringify(writes));
   // Once it is seen it is written.
+  const asked = JSON.parse(await copied('json')).triggers.map((trigger) => trigger.ticks);
   await page.locator('#ticks').scrollIntoViewIfNeeded();
-  await page.waitForFunction(() => document.querySelectorAll('#ticks tbody tr').length === 256);
-  assert.deepEqual(await ticks(), JSON.parse(await copied('json')).triggers.map((trigger) => trigger.ticks));
+  await page.waitForFunction((last) => document.querySelector('#ticks tbody tr:last-child').children[3].textContent === last, String(asked.at(-1)));
+  assert.deepEqual(await ticks(), asked);
 });
 
 test('a newcomer sees pictures, words, the speed, and an exposure that plays unless motion is not wanted', async () => {
@@ -823,8 +834,11 @@ test('links of garbage get a message', async () => {
   const garbage = ['#%', '#%E0%A4%A', '#<script>alert(1)</script>', '#times=1', '#times=0,1,2,3', '#' + 'a'.repeat(100_000), '#times=,,,&triggers=&timer_hz=&min_gap=',
     ALL_RAMP.replace('unit=ms', 'unit=parsec'), ALL_RAMP.replaceAll(/=[\d.,]+/g, '=NaN'), ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, 'NaN'),
     ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, '1e308'), ALL_RAMP.replaceAll(/\d+(\.\d+)?/g, '-Infinity'), ALL_RAMP.replace('triggers=256', 'triggers=4294967295')];
-  for (const hash of garbage) {
-    await open(hash);
+  for (const [i, hash] of garbage.entries()) {
+    // As the page's first address, or typed into it.
+    if (i % 4 === 0) await open(hash);
+    else await page.evaluate((hash) => (location.hash = hash), hash);
+    await page.waitForSelector('#problem:not([hidden])');
     assert.ok(await page.isVisible('#problem'), hash.slice(0, 80));
     assert.ok((await page.textContent('#problem')).length > 10, hash.slice(0, 80));
     // Nothing but the link's own curve is shown.
@@ -836,9 +850,8 @@ test('links of garbage get a message', async () => {
     assert.ok(await page.isHidden('#problem'));
     assert.equal((await ticks()).length, 12);
     assert.deepEqual(complaints, []);
-    await page.close();
+    if (i % 4 === 3) await page.close();
   }
-  page = null;
 });
 
 test('the most triggers are shown without a hang', async () => {
@@ -868,6 +881,8 @@ test('a link is of the curve on the screen when it is clicked, and none of a wro
   await open();
   const link = async (change) => {
     await page.evaluate((change) => {
+      // At once after another change, which the address is still to follow.
+      document.querySelector('#presets [data-name="leaf"]').click();
       document.querySelector(change).click();
       document.getElementById('link').click();
     }, change);
