@@ -66,17 +66,22 @@ afterEach(async () => {
 const shutter = (...args) => execFileSync(SHUTTER, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 const clipboard = () => page.evaluate(() => navigator.clipboard.readText());
 
-/** A form as it is copied. */
-async function copied(form) {
-  await page.click(`#form-${form}`);
+/** What an action copies. */
+async function copiedBy(act) {
   await page.evaluate(() => navigator.clipboard.writeText('nothing'));
-  await page.click('#copy');
+  await act();
   for (let i = 0; i < 500; i++) {
     const text = await clipboard();
     if (text !== 'nothing') return text;
     await page.waitForTimeout(20);
   }
-  assert.fail(`${form} was not copied`);
+  assert.fail('nothing was copied');
+}
+
+/** A form as it is copied. */
+async function copied(form) {
+  await page.click(`#form-${form}`);
+  return copiedBy(() => page.click('#copy'));
 }
 
 /** The scene as it is copied, planned by the program. */
@@ -497,8 +502,7 @@ test('a link is a curve', async () => {
   await page.mouse.up();
   await page.fill('#name', 'my "curve" & <b>µ</b>');
   await page.waitForFunction(() => location.hash.includes('my'));
-  await page.click('#link');
-  const [link, json, toml] = [await clipboard(), await copied('json'), await copied('toml')];
+  const [link, json, toml] = [await copiedBy(() => page.click('#link')), await copied('json'), await copied('toml')];
   await page.close();
   await open(link.slice(url.length));
   assert.equal(await copied('json'), json);
@@ -879,18 +883,12 @@ test('without a network it goes on, and opens again', async () => {
 
 test('a link is of the curve on the screen when it is clicked, and none of a wrong one', async () => {
   await open();
-  const link = async (change) => {
-    await page.evaluate((change) => {
-      // At once after another change, which the address is still to follow.
-      document.querySelector('#presets [data-name="leaf"]').click();
-      document.querySelector(change).click();
-      document.getElementById('link').click();
-    }, change);
-    await page.waitForFunction(() => /link/.test(document.getElementById('told').textContent));
-    await page.waitForTimeout(60);
-    return clipboard();
-  };
-  await page.click('#link');
+  const link = (change) => copiedBy(() => page.evaluate((change) => {
+    // At once after another change, which the address is still to follow.
+    document.querySelector('#presets [data-name="leaf"]').click();
+    document.querySelector(change).click();
+    document.getElementById('link').click();
+  }, change));
   assert.match(await link('#presets [data-name="box"]'), /#name=box&/);
   assert.match(await link('#presets [data-name="strobe"]'), /#name=strobe&/);
   await page.fill('#close_start', '-9');
@@ -917,9 +915,7 @@ test('two curves are compared, and the link has both', async () => {
   const other = await page.getAttribute('#graph path.other', 'd');
   assert.match(other, /^M.*C/);
   assert.ok(await page.isVisible('.other-key'));
-  await page.click('#link');
-  await page.waitForFunction(() => /link/.test(document.getElementById('told').textContent));
-  const link = await clipboard();
+  const link = await copiedBy(() => page.click('#link'));
   await page.close();
   await open(link.slice(url.length));
   assert.equal(await page.getAttribute('#graph path.other', 'd'), other);
@@ -930,9 +926,7 @@ test('two curves are compared, and the link has both', async () => {
 test('a frame shows the curve in another page', async () => {
   await open();
   await page.click('#presets [data-name="leaf"]');
-  await page.click('#frame');
-  await page.waitForFunction(() => /HTML/.test(document.getElementById('told').textContent));
-  const html = await clipboard();
+  const html = await copiedBy(() => page.click('#frame'));
   await page.goto(`${url}sw.js`);
   await page.setContent(`<!doctype html><title>Elsewhere</title>${html}`);
   // That file has no icon.
