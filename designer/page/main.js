@@ -27,10 +27,10 @@ let player;
 /** What others ask the page. */
 const page = {
   get screen() { return screen; },
-  /** A change of the state that is one step; steps with the same `key` in a row are one. */
+  /** A change of the state that is one step; steps with the same `key` in a row are one, as of a field that is typed in. */
   change(changes, key) {
     const next = { ...screen, ...changes };
-    const wrong = draw(next);
+    const wrong = draw(next, !key);
     if (!wrong) commit(next, key);
     return wrong;
   },
@@ -46,8 +46,11 @@ function commit(next, key) {
   buttons();
 }
 
-/** Shows a state; what is wrong with it is told beside the numbers, and its curve is the last one that was valid. */
-function draw(next) {
+/**
+ * Shows a state; what is wrong with it is told beside the numbers, and its curve is the last one that was valid. Is a field
+ * that is being typed in written as well?
+ */
+function draw(next, writesAll) {
   const answer = view(next.scene, bar());
   const wrong = answer.Err ?? answer.Ok.plan.Err;
   const { scene } = (screen = next);
@@ -66,7 +69,8 @@ function draw(next) {
     traced = next.trace;
     import('./trace.js').then((trace) => trace.show(page));
   }
-  fields();
+  fields(writesAll);
+  if (writesAll) echo();
   problem(wrong);
   document.body.classList.toggle('stale', Boolean(wrong));
   if (!wrong) panels.show(scene, shown, graph.range.map((t) => t / perSecond(scene.unit)), Boolean(next.trace));
@@ -86,16 +90,10 @@ function buttons() {
   $('redo').disabled = !steps.canGo(1);
 }
 
-// A field that is being typed in would keep its words.
-function leaveField() {
-  if (document.activeElement?.matches('#numbers input')) document.activeElement.blur();
-}
-
 function show(next) {
-  leaveField();
   document.body.classList.remove('void');
   state = next;
-  draw(next);
+  draw(next, true);
 }
 
 /** Undoes or redoes a step; what is half typed or wrong is undone first. */
@@ -136,15 +134,15 @@ function valueOf(id) {
   return i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
 }
 
-// Writes the numbers, but not into the field that is being typed in.
-function fields() {
+// Writes the numbers, into the field that is being typed in only if it has to be.
+function fields(all) {
   const { scene } = screen;
   for (const id of NUMBERS) {
     const value = valueOf(id);
     const words = value === null ? '' : Number.isFinite(value) && INNER.includes(id) ? String(tidy(value, 7)) : String(value);
-    if ($(id).value !== words && document.activeElement !== $(id)) $(id).value = words;
+    if ($(id).value !== words && (all || document.activeElement !== $(id))) $(id).value = words;
   }
-  if (document.activeElement !== $('name')) $('name').value = scene.name;
+  if (all || document.activeElement !== $('name')) $('name').value = scene.name;
   $('unit').value = scene.unit;
   $('straight').checked = !scene.inner;
   const lamp = lampOf(scene);
@@ -208,7 +206,7 @@ function freeze() {
 function onDrag(next, isDone, key) {
   if (!isDone) {
     if (!frozen.length) freeze();
-    return draw({ ...screen, scene: next });
+    return draw({ ...screen, scene: next }, true);
   }
   for (const it of frozen) Object.assign(it.style, { height: '', overflow: '' });
   frozen = [];
@@ -216,19 +214,17 @@ function onDrag(next, isDone, key) {
 }
 
 function openPreset({ name, scene }) {
-  leaveField();
   take.told('');
   page.change({ scene: fromScene(name, scene), trace: null });
 }
 
 /** Opens what the address says, as a new state. */
 function openAddress(keep) {
-  leaveField();
   try {
     const opened = fromAddress(location.hash);
     const next = { ...opened, trace: null };
     take.told('');
-    const wrong = draw(next);
+    const wrong = draw(next, true);
     if (!hasCurve) document.body.classList.add('void');
     if (!wrong) {
       state = next;
