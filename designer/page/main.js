@@ -216,6 +216,8 @@ function onDrag(next, isDone, key) {
 function openPreset({ name, scene }) {
   take.told('');
   page.change({ scene: fromScene(name, scene), trace: null });
+  // What was refused goes as well.
+  if (document.querySelector('#trace .wrong')) import('./trace.js').then((trace) => trace.show(page));
 }
 
 /** Opens what the address says, as a new state. */

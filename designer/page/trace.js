@@ -54,18 +54,18 @@ async function read(page, file, asked) {
 
 function say(page, words, isWrong) {
   const p = element('p', words, { class: isWrong ? 'wrong' : 'empty', role: isWrong ? 'alert' : 'status' });
-  $('trace').replaceChildren(p, ...stays(page));
+  $('trace').replaceChildren(p, ...stays(page), ...(page.screen.trace ? [remove(page)] : []));
   return p;
 }
 
 // What is still on the graph, and is not what was opened last.
 function stays(page) {
   const { trace } = page.screen;
-  return trace ? [element('p', `The trace of ${trace.file.name} stays on the graph.`, { class: 'note' }), remove(page)] : [];
+  return trace ? [element('p', `The trace of ${trace.file.name} stays on the graph.`, { class: 'note' })] : [];
 }
 
 function remove(page) {
-  const button = element('button', 'Remove the trace', { type: 'button' });
+  const button = element('button', page.screen.trace ? 'Remove the trace' : 'Close', { type: 'button' });
   button.onclick = () => {
     newest++;
     if (page.screen.trace) page.change({ trace: null });

@@ -779,6 +779,10 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await page.click('#presets [data-name="leaf"]');
   assert.equal(await trace(), '');
   await page.waitForFunction(() => !document.querySelector('#trace dl'));
+  await drop('notes.csv', 'dear diary,\nnothing happened\n');
+  await page.waitForSelector('#trace .wrong');
+  await page.click('#presets [data-name="soft"]');
+  await page.waitForSelector('#trace .wrong', { state: 'detached' });
 });
 
 test('a dropped scene is opened, and a broken one refused with its line', async () => {
