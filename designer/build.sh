@@ -23,23 +23,19 @@ if [ ! -d "$(rustc --print target-libdir --target "$target")" ] &&
 fi
 
 echo "designer: building the page, in two parts, a minute or two the first time ..." >&2
-rm -rf dist.new
-mkdir dist.new
-cp page/* ../cli/traces/leaf.csv dist.new
-# Comments are for those who read the source.
-sed -i.bak -E '/^ *\/\/ /d' dist.new/*.js
-rm dist.new/*.js.bak
-cargo run --quiet --package designer --bin presets >dist.new/presets.js
+rm -rf dist.files
+mkdir dist.files
+cp page/* ../cli/traces/leaf.csv dist.files
+# Comments and indents are for those who read the source.
+sed -i.bak -E -e '/^ *\/\/ /d' -e '/^ *\/\*\*.*\*\/$/d' -e '/^ *\/\*\*/,/\*\/$/d' -e 's/^ +//' dist.files/*.js
+rm dist.files/*.bak
+cargo run --quiet --package designer --bin presets >dist.files/presets.js
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.
 "${build[@]}"
-cp "$built" dist.new/engine.wasm
+cp "$built" dist.files/engine.wasm
 "${build[@]}" --features studio
-cp "$built" dist.new/studio.wasm
-# What is kept for when there is no network.
-files=$(cd dist.new && printf "'%s', " *)
-sed -i.bak "s|^const FILES = \[\].*|const FILES = [${files%, }];|" dist.new/sw.js
-rm dist.new/sw.js.bak
-rm -rf dist
-mv dist.new dist
+cp "$built" dist.files/studio.wasm
+./pack.sh dist.files dist
+rm -rf dist.files
 echo "designer: built designer/dist" >&2

@@ -9,6 +9,8 @@ mod name;
 mod pico;
 mod rust;
 
+pub use name::{identifier, module};
+
 use crate::lamp::Lamp;
 use crate::planned::Planned;
 

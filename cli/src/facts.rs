@@ -207,6 +207,7 @@ fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
             let (least, most) = (lengths.clone().min(), lengths.max());
             let [least, most] = [least, most].map(|ticks| plan.seconds(ticks.unwrap_or_default()));
             let least = short(unit.of(least), 5);
+            let duty = short(duty.into(), 6);
             Some(format!("{least} to {}, duty {duty}, of equal doses", unit.show(most)))
         }
     };

@@ -230,10 +230,7 @@ impl Scene {
         for (i, value) in self.times().into_iter().enumerate() {
             let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
-                return Err(Fault::at(
-                    value,
-                    format!("{key}: {:e} s is beyond f32 (3.4e38)", seconds[i]),
-                ));
+                return Err(Fault::at(value, format!("{key}: it is beyond f32 (3.4e38 s)")));
             }
             if off > ROUNDING * length {
                 let percent = short(100.0 * off / length, 2);

@@ -104,5 +104,5 @@ pub fn trimmed(x: f64, places: usize) -> String {
 pub fn decimals(x: f64, digits: i32) -> usize {
     let leading = if x == 0.0 { 0.0 } else { x.abs().log10().floor() + 1.0 };
     // No `f64` has more, whatever its least digit.
-    (f64::from(digits) - leading).clamp(0.0, 340.0) as usize
+    ((f64::from(digits) - leading) as usize).min(340)
 }

@@ -377,7 +377,7 @@ fn a_bad_curve_is_an_error() {
     for (key, value, at, reason) in [
         ("open_start", "nan", "open_start", "open_start: a finite number is required"),
         ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
-        ("close_end", "1e39", "close_end", "close_end: 1e39 s is beyond f32 (3.4e38)"),
+        ("close_end", "1e39", "close_end", "close_end: it is beyond f32 (3.4e38 s)"),
         ("open_start", "0.3", "open_end", order),
         ("open_end", "0.8", "close_start", order),
         ("close_end", "0.7", "close_end", order),

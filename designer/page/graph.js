@@ -1,21 +1,12 @@
-// The curve with its handles, the equal shares, the triggers, and below it the cdf.
+// The curve with the equal shares and the triggers, a trace, another curve beside it; below it the share of the exposure.
 
-import { INNER, TIMES, innerOf, perSecond, short, tidy, withTimes } from './scene.js';
+import { Handles } from './handles.js';
+import { perSecond, short, tidy } from './scene.js';
+import { svg } from './svg.js';
 
-const NS = 'http://www.w3.org/2000/svg';
-const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44;
-/** Within so many pixels of what is valid, a handle snaps to it. */
-const MAGNET = 8;
+const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
 /** More triggers than this have no dots, and more than that no shares. */
 const MOST_DOTS = 64, MOST_SHARES = 400;
-const HANDLES = [...TIMES, 't1', 't2', 't5', 't6'];
-
-export function svg(tag, attributes = {}, parent) {
-  const element = document.createElementNS(NS, tag);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  parent?.append(element);
-  return element;
-}
 
 /** Round numbers in a range, some `count` of them. */
 export function rounds(from, to, count) {
@@ -27,128 +18,46 @@ export function rounds(from, to, count) {
   return numbers;
 }
 
-/** The graph in `box`. `change(scene, isDone)` is told where a handle was moved to, and answers whether that is valid. */
+/** The openness of a view at a time in seconds, as the ramps have it: for pictures alone. */
+export function openness({ times: [a, b, c, d], ramps }, t) {
+  if (t <= a || t >= d) return 0;
+  if (t >= b && t <= c) return 1;
+  const ramp = ramps[t < b ? 0 : 1];
+  const at = (p, k) => (1 - p) ** 3 * ramp[0][k] + 3 * p * (1 - p) ** 2 * ramp[1][k] + 3 * p * p * (1 - p) * ramp[2][k] + p ** 3 * ramp[3][k];
+  let [low, high] = [0, 1];
+  for (let i = 0; i < 20; i++) {
+    const p = 0.5 * (low + high);
+    if (at(p, 0) < t) low = p;
+    else high = p;
+  }
+  return at(low, 1);
+}
+
+/** The graph in `box`, which tells of what is under the pointer in `readout`. */
 export class Graph {
-  constructor(box, change) {
-    this.box = box;
-    this.change = change;
+  constructor(box, readout, change) {
+    Object.assign(this, { box, readout });
     const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
-    svg('rect', {}, svg('clipPath', { id: 'frame' }, defs));
+    this.framed = svg('rect', {}, svg('clipPath', { id: 'plot' }, defs));
     this.grid = svg('g', { class: 'grid', 'aria-hidden': true }, root);
-    const layer = (name, attributes) => svg('path', { class: name, 'aria-hidden': true, ...attributes }, root);
+    const inside = svg('g', { 'clip-path': 'url(#plot)', 'aria-hidden': true }, root);
+    const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': 'url(#below)' }) }, inside);
     this.paths = {
-      even: layer('share even', { 'clip-path': 'url(#below)' }),
-      odd: layer('share odd', { 'clip-path': 'url(#below)' }),
-      trace: layer('trace', { 'clip-path': 'url(#frame)' }),
-      lamp: layer('lamp', { 'clip-path': 'url(#frame)' }),
-      stems: layer('stems'),
-      curve: layer('curve'),
-      dots: layer('dots'),
-      cdfStems: layer('stems cdf'),
-      cdf: layer('curve'),
-      cdfDots: layer('dots'),
-      arms: layer('arms'),
+      even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'), other: layer('other'),
+      curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
+      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'), cross: layer('cross'), arms: layer('arms'),
     };
-    this.handles = HANDLES.map((name, i) => this.handle(name, i));
-    this.bubble = Object.assign(document.createElement('p'), { id: 'bubble', hidden: true });
-    this.bubble.setAttribute('role', 'alert');
-    box.append(root, this.bubble);
+    this.handles = new Handles(this, change);
+    box.append(root);
     this.room = box.clientWidth;
     new ResizeObserver(([{ contentRect }]) => {
       this.room = contentRect.width;
       this.draw();
     }).observe(box);
-  }
-
-  handle(name, i) {
-    const isTime = i < 4;
-    const group = svg('g', { class: `handle ${isTime ? 'time' : 'control'}`, tabindex: 0, role: 'slider', id: `handle-${name}` }, this.root);
-    svg('circle', { r: 22, class: 'reach' }, group);
-    svg('circle', { r: 11, class: 'halo' }, group);
-    if (isTime) svg('rect', { x: -6, y: -6, width: 12, height: 12, rx: 2.5 }, group);
-    else svg('circle', { r: 6 }, group);
-    // The page must not scroll with the finger.
-    group.addEventListener('touchstart', (event) => event.preventDefault(), { passive: false });
-    group.addEventListener('pointerdown', (event) => this.grab(event));
-    group.addEventListener('keydown', (event) => this.key(event, i));
-    return group;
-  }
-
-  // Where a handle is: [time in the scene's unit, openness].
-  place(scene, i) {
-    const y = [0, 1, 1, 0];
-    if (i < 4) return [scene.times[i], y[i]];
-    const inner = innerOf(scene);
-    const [t, o] = [inner[2 * (i - 4)], inner[2 * (i - 4) + 1]];
-    return [scene.times[0] + t * (scene.times[3] - scene.times[0]), o];
-  }
-
-  // The scene with handle i at such a place.
-  moved(scene, i, t, y) {
-    const [start, , , end] = scene.times;
-    if (i < 4) return withTimes(scene, scene.times.with(i, t));
-    const inner = [...innerOf(scene)];
-    inner[2 * (i - 4)] = tidy((t - start) / (end - start), 9);
-    inner[2 * (i - 4) + 1] = y;
-    return { ...scene, inner };
-  }
-
-  key(event, i) {
-    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    const { scene } = this;
-    const step = event.shiftKey ? 0.001 : 0.01;
-    const [dt, dy] = i < 4 ? [move[0] || move[1], 0] : move;
-    if (i < 4) {
-      const length = scene.times[3] - scene.times[0];
-      // A step is a round number of the unit.
-      const round = 10 ** Math.floor(Math.log10(length * step) + 0.31);
-      const t = tidy(Math.round(scene.times[i] / round + dt) * round);
-      this.change(this.moved(scene, i, t), true, i);
-    } else {
-      const inner = [...innerOf(scene)];
-      const at = 2 * (i - 4) + (dy ? 1 : 0);
-      inner[at] = tidy(Math.round((inner[at] + (dy || dt) * step) / step) * step, 9);
-      this.change({ ...scene, inner }, true, i);
-    }
-  }
-
-  grab(event) {
-    if (event.button) return;
-    event.preventDefault();
-    const [x, y] = this.pointer(event);
-    // Of those in reach, the nearest.
-    const distance = (i) => {
-      const [t, o] = this.place(this.scene, i);
-      return Math.hypot(this.x(t) - x, this.y(o) - y);
-    };
-    const i = this.handles.map((_, i) => i).reduce((a, b) => (distance(b) < distance(a) ? b : a));
-    const handle = this.handles[i];
-    const [t, o] = this.place(this.scene, i);
-    const [offsetX, offsetY] = [this.x(t) - x, this.y(o) - y];
-    const first = (this.dragged = this.scene);
-    handle.focus({ preventScroll: true, focusVisible: false });
-    handle.setPointerCapture(event.pointerId);
-    handle.classList.add('dragged');
-    let last = first;
-    const move = (event) => {
-      const [x, y] = this.pointer(event);
-      last = this.moved(first, i, ...this.snapped(first, i, x + offsetX, y + offsetY, event.altKey));
-      this.change(last, false, i);
-    };
-    const end = (event) => {
-      for (const [name, listener] of listeners) handle.removeEventListener(name, listener);
-      handle.classList.remove('dragged');
-      this.dragged = null;
-      this.change(event.type === 'pointerup' ? last : first, true, i);
-      this.draw();
-    };
-    const escape = (event) => event.key === 'Escape' && end(event);
-    const listeners = [['pointermove', move], ['pointerup', end], ['pointercancel', end], ['keydown', escape]];
-    for (const [name, listener] of listeners) handle.addEventListener(name, listener);
+    root.addEventListener('pointermove', (event) => !this.dragged && this.readAt(this.t(this.pointer(event)[0])));
+    root.addEventListener('pointerleave', () => this.dragged || this.readAt());
   }
 
   pointer(event) {
@@ -156,54 +65,89 @@ export class Graph {
     return [event.clientX - left, event.clientY - top];
   }
 
-  // A place on the page as round numbers, or those of what is near and valid.
-  snapped(scene, i, x, y, isFree) {
-    const { times } = scene;
-    const perPixel = (this.range[1] - this.range[0]) / this.width;
-    const near = (value, pixels, candidates, round) => {
-      const found = isFree ? undefined : candidates.find((it) => Math.abs(it - value) < MAGNET * pixels);
-      return found ?? tidy(Math.round(value / round) * round, 9);
-    };
-    const ends = i < 4 ? [times[i - 1], times[i + 1]].filter((t) => t !== undefined) : i < 6 ? times.slice(0, 2) : times.slice(2);
-    const t = near(this.t(x), perPixel, ends, 10 ** Math.floor(Math.log10(perPixel)) * 2);
-    const o = near((this.bottom - y) / this.height * (this.high - this.low) + this.low, (this.high - this.low) / this.height, [0, 1], 0.01);
-    return [t, o];
-  }
-
   x = (t) => LEFT + ((t - this.range[0]) / (this.range[1] - this.range[0])) * this.width;
   t = (x) => this.range[0] + ((x - LEFT) / this.width) * (this.range[1] - this.range[0]);
   y = (o) => this.bottom - ((o - this.low) / (this.high - this.low)) * this.height;
   u = (u) => this.cdfBottom - u * this.cdfHeight;
+  get perUnit() {
+    return perSecond(this.scene.unit);
+  }
+  get perPixel() {
+    return (this.range[1] - this.range[0]) / this.width;
+  }
 
-  /** Shows a scene and the view of the last one that is valid, and what is wrong, and the handle that it is about. */
-  show(scene, view, wrong, at) {
-    Object.assign(this, { scene, view, wrong, at });
+  /** Places as they are now, which a drag keeps to while the range follows it. */
+  map() {
+    const { range, width, low, high, height, bottom, perPixel } = this;
+    const perPixelY = (high - low) / height;
+    return {
+      perPixel, perPixelY,
+      x: (t) => LEFT + ((t - range[0]) / (range[1] - range[0])) * width, t: (x) => range[0] + (x - LEFT) * perPixel,
+      y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY,
+    };
+  }
+
+  /** Shows a scene and the view of the last one that is valid. */
+  show(scene, view) {
+    Object.assign(this, { scene, view });
     this.draw();
   }
 
-  /** A trace beneath, as (seconds, openness, residual). */
-  trace(samples) {
-    this.samples = samples;
+  /** A trace as (seconds, openness, residual), and its triggers as (seconds, error). */
+  trace(trace) {
+    if (this.traced === trace) return;
+    this.traced = trace;
     this.draw();
+  }
+
+  /** Another curve's view, beside this one. */
+  compare(other) {
+    this.other = other;
+    this.draw();
+  }
+
+  /** Tells of a time, in the scene's unit; of none what the handles are for. */
+  readAt(t) {
+    const { view, scene } = this;
+    const per = perSecond(scene.unit);
+    const isRead = t !== undefined && view && Number.isFinite(t);
+    this.paths.cross.setAttribute('d', isRead ? `M${this.x(t).toFixed(1)} ${TOP}V${this.cdfBottom}` : '');
+    const words = isRead ? this.words(t / per, per) : '';
+    if (this.readout.textContent !== words) this.readout.textContent = words;
+  }
+
+  words(s, per) {
+    const { view, scene } = this;
+    const { cdf } = view;
+    const k = Math.min(Math.max(cdf.findIndex(([t]) => t >= s), 0) || (s > cdf[0][0] ? cdf.length - 1 : 0), cdf.length - 1);
+    const [[t0, u0], [t1, u1]] = [cdf[Math.max(k - 1, 0)], cdf[k]];
+    const u = t1 > t0 ? u0 + (u1 - u0) * Math.min(Math.max((s - t0) / (t1 - t0), 0), 1) : u1;
+    const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
+    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(100 * openness(view, s), 3)} % open`, `${short(100 * u, 3)} % collected`];
+    const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
+    if (view.plan.Ok) parts.push(`trigger ${near}: tick ${view.plan.Ok.ticks[near]}`);
+    return parts.join(' · ');
   }
 
   fit() {
     const width = Math.max(280, Math.floor(this.room));
-    const height = Math.round(Math.min(520, Math.max(400, width * 0.56)));
-    Object.assign(this, { width: width - LEFT - RIGHT, height: Math.round((height - TOP - BETWEEN - BOTTOM) * 0.62) });
+    const strip = this.traced ? RESIDUAL : 0;
+    const height = Math.round(Math.min(520, Math.max(400, width * 0.56))) + strip;
+    Object.assign(this, { width: width - LEFT - RIGHT, height: Math.round((height - strip - TOP - BETWEEN - BOTTOM) * 0.62) });
     this.bottom = TOP + this.height;
     this.cdfBottom = height - BOTTOM;
-    this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN;
-    if (!this.dragged) {
-      const per = perSecond(this.scene.unit);
-      const [start, , , end] = this.view.times.map((t) => t * per);
-      const heights = this.view.ramps.flat().map(([, y]) => y);
-      this.low = Math.min(-0.1, ...heights.map((y) => y - 0.08));
-      this.high = Math.max(1.12, ...heights.map((y) => y + 0.08));
-      const times = this.view.ramps.flat().map(([t]) => t * per);
-      const room = 0.05 * (end - start);
-      this.range = [Math.min(start, ...times) - room, Math.max(end, ...times) + room];
-    }
+    this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
+    const per = perSecond(this.scene.unit);
+    const points = [this.view, ...(this.other ? [this.other] : [])].flatMap((view) => view.ramps.flat());
+    const [times, heights] = [points.map(([t]) => t * per), points.map(([, y]) => y)];
+    const room = 0.05 * (Math.max(...times) - Math.min(...times));
+    const ends = [Math.min(...times) - room, Math.max(...times) + room];
+    const [low, high] = [Math.min(-0.1, ...heights.map((y) => y - 0.08)), Math.max(1.12, ...heights.map((y) => y + 0.08))];
+    // While a handle is dragged the range follows it, but does not shrink under it.
+    if (this.dragged) {
+      this.range = [Math.min(ends[0], this.range[0]), Math.max(ends[1], this.range[1])];
+      [this.low, this.high] = [Math.min(low, this.low), Math.max(high, this.high)];
+    } else Object.assign(this, { range: ends, low, high });
     const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit}`;
     if (size === this.size) return;
     this.size = size;
@@ -232,34 +176,45 @@ export class Graph {
       line(this.x(t), this.u(1), this.x(t), this.u(0));
       text(this.x(t), this.cdfBottom + 17, short(t, 6), 'middle');
     }
-    text(LEFT, this.u(1) - 8, 'cdf: the share of the exposure collected', 'start', 'title');
+    text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start', 'title');
+    if (this.traced) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start', 'title');
     text(right, height - 8, `time (${this.scene.unit})`, 'end', 'title');
-    const [rect] = this.root.querySelectorAll('#frame rect');
-    for (const [key, value] of Object.entries({ x: LEFT, y: 0, width: this.width, height: this.bottom })) rect.setAttribute(key, value);
+    for (const [key, value] of Object.entries({ x: LEFT - 5, y: 0, width: this.width + 10, height })) this.framed.setAttribute(key, value);
+  }
+
+  // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
+  zoom() {
+    const sizes = this.traced.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
+    const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
+    return Math.max(1, Number(((0.5 * (RESIDUAL - 20)) / most / (this.height / (this.high - this.low))).toPrecision(1)));
   }
 
   draw() {
     if (!this.view || !this.room) return;
     this.fit();
-    const { view, paths } = this;
+    const { view, paths, traced } = this;
     const per = perSecond(this.scene.unit);
     const f = (x) => x.toFixed(1);
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
-    const [opening, closing] = view.ramps.map((ramp) => ramp.map(([t, y]) => `${f(X(t))} ${f(this.y(y))}`));
-    const curve = `L${opening[0]}C${opening.slice(1)}L${closing[0]}C${closing.slice(1)}`;
+    const set = (path, d) => path.getAttribute('d') !== d && path.setAttribute('d', d);
+    const outline = ({ ramps }) => {
+      const [opening, closing] = ramps.map((ramp) => ramp.map(([t, y]) => `${f(X(t))} ${f(this.y(y))}`));
+      return `L${opening[0]}C${opening.slice(1)}L${closing[0]}C${closing.slice(1)}`;
+    };
+    const line = (view) => `M${LEFT} ${zero}H${f(X(view.times[0]))}${outline(view)}L${f(X(view.times[3]))} ${zero}H${LEFT + this.width}`;
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
-    const area = `M${start} ${zero}${curve}L${end} ${zero}`;
-    paths.curve.setAttribute('d', `M${LEFT} ${zero}H${start}${curve}L${end} ${zero}H${LEFT + this.width}`);
-    this.clip.setAttribute('d', area + 'Z');
+    set(paths.curve, line(view));
+    set(paths.other, this.other ? line(this.other) : '');
+    this.clip.setAttribute('d', `M${start} ${zero}${outline(view)}L${end} ${zero}Z`);
 
     const top = f(this.y(this.high));
     const shares = ['', ''];
     if (view.edges.length <= MOST_SHARES) {
       for (let i = 1; i < view.edges.length; i++) shares[i % 2] += `M${f(X(view.edges[i - 1]))} ${top}V${zero}H${f(X(view.edges[i]))}V${top}Z`;
     } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
-    paths.even.setAttribute('d', shares[0]);
-    paths.odd.setAttribute('d', shares[1]);
+    set(paths.even, shares[0]);
+    set(paths.odd, shares[1]);
 
     const hasDots = view.marks.length <= MOST_DOTS;
     const few = view.marks.length > 2000 ? [] : view.marks;
@@ -274,60 +229,31 @@ export class Graph {
         dots[1] += `M${x} ${v}h0`;
       }
     }
-    paths.stems.setAttribute('d', stems[0]);
-    paths.dots.setAttribute('d', dots[0]);
-    paths.cdfStems.setAttribute('d', stems[1]);
-    paths.cdfDots.setAttribute('d', dots[1]);
-    paths.cdf.setAttribute('d', `M${LEFT} ${bottom}H${start}${view.cdf.map(([t, u]) => `L${f(X(t))} ${f(this.u(u))}`).join('')}H${LEFT + this.width}`);
+    set(paths.stems, stems[0]);
+    set(paths.dots, dots[0]);
+    set(paths.cdfStems, stems[1]);
+    set(paths.cdfDots, dots[1]);
+    set(paths.cdf, `M${LEFT} ${bottom}H${start}${view.cdf.map(([t, u]) => `L${f(X(t))} ${f(this.u(u))}`).join('')}H${LEFT + this.width}`);
 
-    const plan = view.plan.Ok;
     const tick = (ticks) => f(X(view.times[0] + ticks / this.scene.timer_hz));
-    const isDimmed = this.scene.duty !== null;
-    const pulses = plan?.pulses ?? [];
+    const pulses = view.plan.Ok?.pulses ?? [];
     const high = f(this.y(1));
-    paths.lamp.setAttribute('d', pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
-    paths.lamp.setAttribute('clip-path', isDimmed ? 'url(#below)' : 'url(#frame)');
-    document.querySelector('.lamp-key').hidden = pulses.length === 0;
-    document.querySelector('.trace-key').hidden = !this.samples;
-    paths.trace.setAttribute('d', this.samples ? 'M' + this.samples.map(([t, o]) => `${f(X(t))} ${f(this.y(o))}`).join('L') : '');
-    this.drawHandles();
-  }
-
-  drawHandles() {
-    const { scene } = this;
-    const places = this.handles.map((_, i) => this.place(scene, i));
-    const isDrawn = places.map((place) => place.every(Number.isFinite));
-    const within = (x) => Math.min(Math.max(x, -1e5), 1e5);
-    const at = places.map(([t, o]) => [within(this.x(t)), within(this.y(o))]);
-    places.forEach(([t, o], i) => {
-      const handle = this.handles[i];
-      handle.style.display = isDrawn[i] ? '' : 'none';
-      if (!isDrawn[i]) return;
-      handle.setAttribute('transform', `translate(${at[i].map((x) => x.toFixed(1))})`);
-      handle.classList.toggle('wrong', i === this.at);
-      const fraction = innerOf(scene)[2 * (i - 4)];
-      const said = i < 4 ? `${short(t)} ${scene.unit}` : `time ${short(fraction)}, openness ${short(o)}`;
-      const label = i < 4 ? HANDLES[i] : `control point ${INNER[2 * (i - 4)]}, ${INNER[2 * (i - 4) + 1]}`;
-      handle.setAttribute('aria-label', label);
-      handle.setAttribute('aria-valuetext', said);
-      handle.setAttribute('aria-valuenow', short(i < 4 ? t : fraction));
-    });
-    const point = (i) => at[i].map((x) => x.toFixed(1));
-    const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
-    this.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${point(a)}L${point(b)}`).join(''));
-
-    const { bubble } = this;
-    const isShown = this.wrong && this.at !== undefined && isDrawn[this.at];
-    bubble.hidden = !isShown;
-    if (!isShown) return;
-    if (bubble.textContent !== this.wrong.reason) bubble.textContent = this.wrong.reason;
-    const [middle, height] = at[this.at];
-    const { room } = this;
-    const half = Math.min(150, room / 2 - 4);
-    const x = Math.min(Math.max(middle, half + 4), room - half - 4);
-    const y = Math.min(Math.max(height, 0), this.cdfBottom - 80);
-    bubble.style.left = `${x}px`;
-    bubble.style.top = `${y + 16}px`;
-    bubble.style.width = `${2 * half}px`;
+    set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
+    if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
+    else paths.lamp.removeAttribute('clip-path');
+    const keys = { lamp: pulses.length, trace: traced, other: this.other };
+    for (const [name, isThere] of Object.entries(keys)) this.box.parentElement.querySelector(`.${name}-key`).hidden = !isThere;
+    const samples = traced?.samples ?? [];
+    const points = (y) => (samples.length ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
+    set(paths.trace, points(([, o]) => this.y(o)));
+    const scale = traced ? (this.zoom() * this.height) / (this.high - this.low) : 0;
+    const half = 0.5 * (RESIDUAL - 20), middle = this.bottom + 20 + half;
+    set(paths.residual, traced ? `${points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half))}M${LEFT} ${middle}H${LEFT + this.width}` : '');
+    set(paths.errors, (traced?.triggers ?? []).map(([t, error]) => {
+      const y = f(this.y(openness(view, t)));
+      return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
+    }).join(''));
+    this.handles.draw();
   }
 }
+

@@ -1,204 +1,250 @@
-// The page: one scene, everything else follows it.
+// The page: one scene, everything else follows it; and one history of all that is done.
 
 import presets from './presets.js';
+import { $, element } from './dom.js';
 import { Graph } from './graph.js';
+import * as steps from './history.js';
+import { parse } from './numbers.js';
 import * as panels from './panels.js';
-import { INNER, OPTIONAL, TIMES, fromHash, fromScene, hash, inUnit, innerOf, perSecond, tidy, withTimes } from './scene.js';
-import * as studio from './studio.js';
+import { INNER, OPTIONAL, TIMES, fromAddress, fromScene, hash, inUnit, innerOf, lampOf, perSecond, straight, tidy, withLamp, withTimes } from './scene.js';
+import { svg } from './svg.js';
 import * as take from './take.js';
 import { load, view } from './view.js';
 
-const $ = (id) => document.getElementById(id);
 const NUMBERS = [...TIMES, ...INNER, 'triggers', 'timer_hz', 'min_gap', ...OPTIONAL];
-/** Longer files are not read. */
-const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
+const WHOLE = ['triggers', 'timer_hz'];
 
-let scene;
-// The last one whose curve is valid, and what is shown of it.
-let valid, shown;
+// What was done last: { scene, other, trace }, the scene being valid, with a plan; and what is on the screen, which may not be.
+let state, screen;
+// The view of the last scene whose curve is valid.
+let shown;
+// A number that was typed is none; what is on the screen has a curve.
+let refused = false, hasCurve = false;
 let graph;
-// Who opened last: an answer that comes late must not overwrite what came after.
-let opened = 0;
+// What plays the exposure, once it was asked to.
+let player;
 
-const bar = () => Number($('bar').value);
+/** What others ask the page. */
+const page = {
+  get screen() { return screen; },
+  /** A change of the state that is one step; steps with the same `key` in a row are one, as of a field that is typed in. */
+  change(changes, key) {
+    const next = { ...screen, ...changes };
+    const wrong = draw(next, !key);
+    if (!wrong) commit(next, key);
+    return wrong;
+  },
+};
 
-/** Makes `next` the scene. Wrong numbers that are typed stay; a handle (by its number `at`) goes back where it is let go. */
-function set(next, { at, isDone = true, isTyped = false } = {}) {
-  const answer = view(next, bar());
-  const wrong = answer.Err ?? null;
-  if (!wrong) [valid, shown] = [next, answer.Ok];
-  const goesBack = wrong && isDone && !isTyped && valid;
-  scene = goesBack ? valid : next;
-  if (!shown) return wrong;
-  const planWrong = shown.plan.Err ?? null;
-  const place = wrong ? (at ?? handleOf(wrong)) : undefined;
-  graph.show(scene, shown, wrong, place);
-  fields();
-  problem(wrong ?? planWrong, goesBack);
-  const stale = (wrong && !goesBack) || planWrong;
-  document.body.classList.toggle('stale', Boolean(stale));
-  if (shown.plan.Ok && !wrong) {
-    panels.show({ ...scene, range: graph.range.map((t) => t / perSecond(scene.unit)), view: { at: openness } }, shown.plan.Ok, shown.marks);
+function commit(next, key) {
+  if (steps.canGo(0) && hash(next.scene, next.other) === hash(state.scene, state.other) && next.trace === state.trace) {
+    state = next;
+    return;
   }
-  take.show(scene, stale);
-  if (isDone && !wrong) remember();
+  state = next;
+  steps.step(state, key);
+  buttons();
+}
+
+/**
+ * Shows a state; what is wrong with it is told beside the numbers, and its curve is the last one that was valid. Is a field
+ * that is being typed in written as well?
+ */
+function draw(next, writesAll) {
+  const answer = view(next.scene, bar());
+  const wrong = answer.Err ?? answer.Ok.plan.Err;
+  const { scene } = (screen = next);
+  refused = false;
+  if (answer.Ok) shown = answer.Ok;
+  hasCurve = Boolean(answer.Ok);
+  if (hasCurve) document.body.classList.remove('void');
+  if (next.other !== compared) {
+    compared = next.other;
+    graph.compare(compared && view(compared, 0.1).Ok);
+  }
+  graph.trace(next.trace?.fit);
+  if (shown) graph.show(scene, shown);
+  player?.stop();
+  if (next.trace !== traced) {
+    traced = next.trace;
+    import('./trace.js').then((trace) => trace.show(page));
+  }
+  fields(writesAll);
+  if (writesAll) echo();
+  problem(wrong);
+  document.body.classList.toggle('stale', Boolean(wrong));
+  if (!wrong) panels.show(scene, shown, graph.range.map((t) => t / perSecond(scene.unit)), Boolean(next.trace));
+  take.show(screen, wrong);
+  buttons();
   return wrong;
 }
 
-// The openness at a time in seconds, as the ramps have it, for the pictures alone.
-function openness(t) {
-  const [a, b, c, d] = shown.times;
-  if (t <= a || t >= d) return 0;
-  if (t >= b && t <= c) return 1;
-  const ramp = shown.ramps[t < b ? 0 : 1];
-  const at = (p, k) => (1 - p) ** 3 * ramp[0][k] + 3 * p * (1 - p) ** 2 * ramp[1][k] + 3 * p * p * (1 - p) * ramp[2][k] + p ** 3 * ramp[3][k];
-  let [low, high] = [0, 1];
-  for (let i = 0; i < 20; i++) {
-    const p = 0.5 * (low + high);
-    if (at(p, 0) < t) low = p;
-    else high = p;
-  }
-  return at(low, 1);
+let compared = null, traced = null;
+
+const bar = () => Number($('bar').value);
+
+const isDraft = () => screen !== state || refused || document.body.classList.contains('void');
+
+function buttons() {
+  $('undo').disabled = !steps.canGo(-1) && !isDraft();
+  $('redo').disabled = !steps.canGo(1);
 }
 
-/** The handle that a fault is about, by its number. */
-function handleOf({ key, ramp }) {
-  if (ramp) return ramp === 'opening' ? 4 : 6;
-  const i = TIMES.indexOf(key);
-  return i < 0 ? undefined : i;
+function show(next) {
+  document.body.classList.remove('void');
+  state = next;
+  draw(next, true);
 }
 
-let remembering;
-function remember() {
-  clearTimeout(remembering);
-  remembering = setTimeout(() => history.replaceState(null, '', hash(scene)), 150);
+/** Undoes or redoes a step; what is half typed or wrong is undone first. */
+function go(by) {
+  if (by < 0 && isDraft()) show(state);
+  else steps.go(by);
 }
 
-function problem(wrong, goesBack) {
-  const words = wrong ? [wrong.reason, ...wrong.notes, ...(goesBack ? ['It is back at the last valid curve.'] : [])].join('\n') : '';
+function problem(wrong, field) {
+  const words = wrong ? [wrong.reason, ...(wrong.notes ?? [])].join('\n') : '';
   const box = $('problem');
   box.hidden = !words;
   if (box.textContent !== words) box.textContent = words;
-  const at = wrong && !goesBack ? (wrong.key === 'shutteropening' || wrong.ramp ? (wrong.ramp === 'closing' ? INNER.slice(4) : INNER.slice(0, 4)) : [wrong.key]) : [];
+  const ramp = wrong?.ramp === 'closing' ? INNER.slice(4) : INNER.slice(0, 4);
+  const at = !wrong ? [] : field ? [field] : wrong.key === 'shutteropening' || wrong.ramp ? ramp : [wrong.key];
+  if (at.some((id) => INNER.includes(id))) $('inner').open = true;
   for (const id of NUMBERS) {
     const isWrong = at.includes(id);
-    if ($(id).hasAttribute('aria-invalid') !== isWrong) {
-      $(id).toggleAttribute('aria-invalid', isWrong);
-      if (isWrong) {
-        $(id).setAttribute('aria-invalid', 'true');
-        $(id).setAttribute('aria-describedby', 'problem');
-      } else $(id).removeAttribute('aria-describedby');
+    if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
+    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
+      if (isWrong) $(id).setAttribute(name, value);
+      else $(id).removeAttribute(name);
     }
   }
 }
 
+// Nothing is shown of a link that holds no curve: least of all the shutter before.
+function blank(words) {
+  document.body.classList.add('void', 'stale');
+  problem({ reason: words });
+  take.show(screen, true);
+  buttons();
+}
+
 function valueOf(id) {
+  const { scene } = screen;
   const i = TIMES.indexOf(id), k = INNER.indexOf(id);
   return i >= 0 ? scene.times[i] : k >= 0 ? innerOf(scene)[k] : scene[id];
 }
 
-// Writes the numbers, but not into the field that is being typed in.
-function fields() {
+// Writes the numbers, into the field that is being typed in only if it has to be.
+function fields(all) {
+  const { scene } = screen;
   for (const id of NUMBERS) {
     const value = valueOf(id);
     const words = value === null ? '' : Number.isFinite(value) && INNER.includes(id) ? String(tidy(value, 7)) : String(value);
-    if ($(id).value !== words && document.activeElement !== $(id)) $(id).value = words;
+    if ($(id).value !== words && (all || document.activeElement !== $(id))) $(id).value = words;
   }
-  if (document.activeElement !== $('name')) $('name').value = scene.name;
+  if (all || document.activeElement !== $('name')) $('name').value = scene.name;
   $('unit').value = scene.unit;
   $('straight').checked = !scene.inner;
-  const lamp = scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : '';
+  const lamp = lampOf(scene);
   $('lamp').value = lamp;
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
-  for (const small of document.querySelectorAll('small.unit')) small.textContent = scene.unit;
-  for (const button of $('presets').children) button.setAttribute('aria-pressed', button.dataset.name === scene.name);
+  for (const small of document.querySelectorAll('small.unit')) if (small.textContent !== scene.unit) small.textContent = scene.unit;
+  const at = hash(scene);
+  for (const button of $('presets').children) {
+    const isPressed = String(button.dataset.hash === at);
+    if (button.getAttribute('aria-pressed') !== isPressed) button.setAttribute('aria-pressed', isPressed);
+  }
 }
 
-/** A number as people type it; nothing typed is `null` where that is allowed. */
-function typed(input) {
-  const text = input.value.trim().replaceAll('_', '').replace(',', '.');
-  if (!text) return input.hasAttribute('data-optional') ? null : NaN;
-  return Number(text);
+// What is read is told beside the field where it is written otherwise.
+function echo(input, value) {
+  const small = $('echo');
+  const words = input && Number.isFinite(value) && String(value) !== input.value.trim() ? `= ${value}` : '';
+  small.textContent = words;
+  small.hidden = !words;
+  if (words) input.parentElement.append(small);
 }
 
 function onInput({ target }) {
   const { id } = target;
-  const i = TIMES.indexOf(id), k = INNER.indexOf(id);
-  if (id === 'name') return set({ ...scene, name: target.value.trim() || 'shutter' }, { isTyped: true });
-  if (id === 'unit') return set(inUnit(scene, target.value));
-  if (id === 'straight') return set({ ...scene, inner: target.checked ? null : innerOf(scene) });
-  if (id === 'lamp') return lamp(target.value);
+  const { scene } = screen;
+  if (id === 'name') return page.change({ scene: { ...scene, name: target.value.trim() || 'shutter' } }, id);
+  if (id === 'unit') return page.change({ scene: inUnit(scene, target.value) });
+  if (id === 'straight') return page.change({ scene: straight(scene, target.checked) });
+  if (id === 'lamp') return page.change({ scene: withLamp(scene, target.value, tidy(((shown.plan.Ok?.exposure ?? 0) * perSecond(scene.unit)) / scene.triggers / 4, 2) || 1) });
   if (!NUMBERS.includes(id)) return;
-  const value = typed(target);
+  let value;
+  try {
+    value = parse(target.value, WHOLE.includes(id));
+  } catch (error) {
+    echo();
+    document.body.classList.add('stale');
+    refused = true;
+    take.show(screen, true);
+    buttons();
+    return problem({ reason: error.message }, id);
+  }
+  echo(target, value);
+  if (Number.isNaN(value) && target.hasAttribute('data-optional')) value = null;
+  const i = TIMES.indexOf(id), k = INNER.indexOf(id);
   let next;
   // A ramp keeps its shape when its time is typed, as when it is dragged.
-  if (i >= 0) next = withTimes(scene.times.every(Number.isFinite) ? scene : valid, scene.times.with(i, value));
+  if (i >= 0) next = withTimes(scene.times.every(Number.isFinite) ? scene : state.scene, scene.times.with(i, value));
   else if (k >= 0) next = { ...scene, inner: innerOf(scene).with(k, value) };
   else next = { ...scene, [id]: value };
-  set(next, { isTyped: true });
+  page.change({ scene: next }, id);
 }
 
-function lamp(kind) {
-  const length = tidy((shown.plan.Ok?.exposure ?? 0) * perSecond(scene.unit) / scene.triggers / 4, 2);
-  const next = { ...scene, pulse: null, duty: null, min_pulse: null };
-  if (kind === 'pulse') next.pulse = scene.pulse ?? (length || 1);
-  if (kind === 'duty') next.duty = 0.3;
-  set(next, { isTyped: true });
+// While a handle is dragged nothing else on the page moves.
+let frozen = [];
+function freeze() {
+  frozen = [...document.querySelectorAll('.card, #facts > div, #gap > p, .direct, .note, figure')];
+  const heights = frozen.map((it) => it.offsetHeight);
+  frozen.forEach((it, i) => Object.assign(it.style, { height: `${heights[i]}px`, overflow: 'hidden' }));
 }
 
-/** Opens a scene that came from elsewhere. */
-function open(next, trace = null) {
-  opened++;
-  graph.trace(trace);
-  document.activeElement?.matches?.('#numbers input') && document.activeElement.blur();
-  take.told('');
-  return set(next, { isTyped: true });
-}
-
-async function bring(file) {
-  const mine = ++opened;
-  const say = (words, isWrong) => {
-    const p = panels.element('p', words, { class: isWrong ? 'wrong' : 'empty', role: isWrong ? 'alert' : 'status' });
-    $('trace').replaceChildren(p);
-    return p;
-  };
-  const refuse = (reason) => mine === opened && say(`${file.name}: ${reason}`, true);
-  if (/\.toml$/i.test(file.name)) {
-    if (file.size > LONGEST_SCENE) return refuse('this is too long for a scene');
-    const name = file.name.replace(/\.toml$/i, '');
-    const answer = await studio.parse(name, await file.text());
-    if (mine !== opened || !answer) return;
-    if (answer.Err) return refuse([answer.Err.reason, ...answer.Err.notes].join('\n'));
-    say(`Opened ${file.name}.`);
-    return open(fromScene(name, answer.Ok));
+function onDrag(next, isDone, key) {
+  if (!isDone) {
+    if (!frozen.length) freeze();
+    return draw({ ...screen, scene: next }, true);
   }
-  if (file.size > LONGEST_TRACE) return refuse(`${file.size >> 20} MB: cut the trace to the pulse`);
-  const p = say(`Reading ${file.name} …`);
-  const stop = panels.element('button', 'Stop', { type: 'button' });
-  stop.onclick = () => studio.cancel();
-  p.append(' ', stop);
-  const answer = await studio.fit(file.name, file, (share) => (p.firstChild.data = `Fitting ${file.name}: ${Math.round(100 * share)} % …`));
-  if (mine !== opened || !answer) return;
-  if (answer.Err) return refuse([answer.Err.reason, ...answer.Err.notes].join('\n'));
-  const name = file.name.replace(/\.\w+$/, '');
-  const parsed = await studio.parse(name, answer.Ok.scene);
-  if (mine !== opened || !parsed) return;
-  if (parsed.Err) return refuse(parsed.Err.reason);
-  open(fromScene(name, parsed.Ok), answer.Ok.samples);
-  panels.fitted(file.name, answer.Ok, () => {
-    graph.trace(null);
-    $('trace').replaceChildren(empty.cloneNode(true));
-  });
+  for (const it of frozen) Object.assign(it.style, { height: '', overflow: '' });
+  frozen = [];
+  page.change({ scene: next }, key);
 }
 
-const empty = $('trace').firstElementChild.cloneNode(true);
+function openPreset({ name, scene }) {
+  take.told('');
+  page.change({ scene: fromScene(name, scene), trace: null });
+  // What was refused goes as well.
+  if (document.querySelector('#trace .wrong')) import('./trace.js').then((trace) => trace.show(page));
+}
+
+/** Opens what the address says, as a new state. */
+function openAddress(keep) {
+  try {
+    const opened = fromAddress(location.hash);
+    const next = { ...opened, trace: null };
+    take.told('');
+    const wrong = draw(next, true);
+    if (!hasCurve) document.body.classList.add('void');
+    if (!wrong) {
+      state = next;
+      keep(next);
+    }
+  } catch (error) {
+    blank(`The link holds no curve: ${error.message}.`);
+  }
+  buttons();
+}
 
 function receive() {
+  const bring = async (file) => file && (await import('./trace.js')).bring(page, await file);
   $('file').onchange = ({ target }) => {
-    if (target.files[0]) bring(target.files[0]);
+    bring(target.files[0]);
     target.value = '';
   };
-  $('example').onclick = async () => bring(new File([await (await fetch('leaf.csv')).blob()], 'leaf.csv'));
+  $('example').onclick = async () => bring(new File([await (await fetch(new URL('leaf.csv', import.meta.url))).blob()], 'leaf.csv'));
   let depth = 0;
   const shows = (by) => ($('drop').hidden = (depth = Math.max(0, depth + by)) === 0);
   addEventListener('dragenter', () => shows(1));
@@ -208,45 +254,95 @@ function receive() {
     event.preventDefault();
     depth = 0;
     shows(0);
-    const [file] = event.dataTransfer.files;
-    if (file) bring(file);
+    bring(event.dataTransfer.files[0]);
   });
 }
 
-function openHash() {
-  if (location.hash.length < 2) return false;
-  try {
-    const wrong = open(fromHash(location.hash));
-    if (wrong) take.told('');
-  } catch (error) {
-    problem({ reason: `The link holds no curve: ${error.message}.`, notes: [] });
+// The picture of a preset: its ramps, 60 by 24.
+function thumbnail(scene) {
+  const [[a, b, c, d], at] = [scene.times, innerOf(scene)];
+  const X = (part) => (4 + 52 * part).toFixed(1), Y = (y) => (21 - 18 * y).toFixed(1);
+  const of = (t) => (t - a) / (d - a);
+  const points = [0, 2, 4, 6].map((k) => `${X(at[k])} ${Y(at[k + 1])}`);
+  return `M0 21H${X(0)}C${points[0]} ${points[1]} ${X(of(b))} ${Y(1)}H${X(of(c))}C${points[2]} ${points[3]} ${X(1)} ${Y(0)}H60`;
+}
+
+function offer() {
+  for (const preset of presets) {
+    const scene = fromScene(preset.name, preset.scene);
+    const button = element('button', undefined, { type: 'button', title: preset.about, 'data-name': preset.name, 'data-hash': hash(scene) });
+    svg('path', { d: thumbnail(scene) }, svg('svg', { viewBox: '0 0 60 24', 'aria-hidden': true }, button));
+    button.append(element('b', preset.name), element('small', preset.caption));
+    button.onclick = () => openPreset(preset);
+    $('presets').append(button);
   }
-  return true;
+}
+
+// The order in which Tab goes is that of the picture, in one column and in two.
+function arrange(isNarrow) {
+  const [left, right] = [document.querySelector('.left'), document.querySelector('.right')];
+  const takes = document.querySelector('.take');
+  if (isNarrow) document.querySelector('.draw').after(takes);
+  else right.prepend(takes);
+  (isNarrow ? right : left).append(...document.querySelectorAll('.late'));
 }
 
 async function begin() {
   try {
     await load();
   } catch (error) {
-    $('hint').textContent = `This page needs WebAssembly, and its own files beside it: ${error.message}`;
-    $('hint').classList.add('wrong');
+    $('missing').textContent = `The page is not whole: ${error.message}. Load it again, in a browser with WebAssembly.`;
+    $('missing').classList.add('now');
     return;
   }
-  graph = new Graph($('graph'), (next, isDone, at) => set(next, { isDone, at }));
-  for (const preset of presets) {
-    const button = panels.element('button', preset.name, { type: 'button', title: preset.about, 'data-name': preset.name });
-    button.onclick = () => open(fromScene(preset.name, preset.scene));
-    $('presets').append(button);
-  }
-  take.start();
-  open(fromScene(presets[0].name, presets[0].scene));
-  openHash();
-  addEventListener('hashchange', openHash);
-  $('numbers').addEventListener('input', onInput);
-  $('numbers').addEventListener('submit', (event) => event.preventDefault());
-  $('numbers').addEventListener('focusout', () => setTimeout(fields));
-  $('bar').addEventListener('input', () => set(scene, { isTyped: true }));
+  graph = new Graph($('graph'), $('readout'), onDrag);
+  const narrow = matchMedia('(max-width: 980px)');
+  narrow.onchange = () => arrange(narrow.matches);
+  arrange(narrow.matches);
+  offer();
+  take.start(page);
+  steps.start({ address: ({ scene, other }) => hash(scene, other), show, arrived: () => openAddress(steps.adopt) });
+  const first = { scene: fromScene(presets[0].name, presets[0].scene), other: null, trace: null };
+  if (location.hash.length > 1) {
+    openAddress(steps.step);
+    // What is wrong with it is undone to a shutter that is not.
+    state ??= first;
+    if (!screen) {
+      shown = view(first.scene, 0.1).Ok;
+      screen = { ...first };
+      graph.show(first.scene, shown);
+      fields();
+    }
+  } else page.change(first);
+  buttons();
+  panels.start();
+  // Where motion is not wanted, nothing moves unless it is asked to.
+  const play = async () => {
+    player ??= await import('./play.js');
+    if (shown) player.play(graph, shown);
+  };
+  $('play').onclick = play;
+  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(() => frozen.length || play(), 800);
+  const numbers = $('numbers');
+  numbers.addEventListener('input', onInput);
+  numbers.addEventListener('submit', (event) => event.preventDefault());
+  numbers.addEventListener('focusout', () => {
+    steps.seal();
+    echo();
+    // What was refused is not what is on the screen.
+    setTimeout(() => $('problem').hidden && fields());
+  });
+  $('bar').addEventListener('input', () => draw(screen));
+  $('undo').onclick = () => go(-1);
+  $('redo').onclick = () => go(1);
+  addEventListener('keydown', (event) => {
+    const key = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || (key !== 'z' && key !== 'y')) return;
+    event.preventDefault();
+    go(key === 'y' || event.shiftKey ? 1 : -1);
+  });
   receive();
+  document.body.classList.toggle('embed', new URLSearchParams(location.search).has('embed'));
   document.body.dataset.ready = '';
   // Without it, which old browsers and private windows may refuse, the page needs its server.
   navigator.serviceWorker?.register('sw.js').catch(() => {});

@@ -22,7 +22,7 @@ export function short(x, digits = 5) {
 /** A scene as `shutter` keeps it, as an object of this page. */
 export function fromScene(name, it) {
   const unit = it.unit ?? 's';
-  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null };
+  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, spare: {} };
   for (const key of COUNTS) scene[key] = it[key];
   for (const key of OPTIONAL) scene[key] = it[key] ?? null;
   if (it.unit) return scene;
@@ -35,8 +35,10 @@ export function fromScene(name, it) {
 export function inUnit(scene, unit) {
   const by = UNITS.indexOf(unit) - UNITS.indexOf(scene.unit);
   const factor = 1000 ** Math.abs(by);
-  const convert = (x) => (x === null ? null : tidy(by < 0 ? x / factor : x * factor));
+  const convert = (x) => (x == null ? x : tidy(by < 0 ? x / factor : x * factor));
   const converted = { ...scene, unit, times: scene.times.map(convert) };
+  const { spare } = scene;
+  converted.spare = { ...spare, pulse: convert(spare.pulse), min_pulse: convert(spare.min_pulse) };
   for (const key of ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay']) converted[key] = convert(scene[key]);
   return converted;
 }
@@ -46,11 +48,28 @@ export function innerOf(scene) {
   return scene.inner ?? placed(STRAIGHT, scene.times);
 }
 
+/** The scene with straight ramps, or again with those that it had before. */
+export function straight(scene, isStraight) {
+  const { inner, spare } = scene;
+  return isStraight ? { ...scene, inner: null, spare: { ...spare, inner } } : { ...scene, inner: spare.inner ?? innerOf(scene) };
+}
+
+/** The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses. */
+export function withLamp(scene, kind, length) {
+  const { pulse, duty, min_pulse } = scene;
+  const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
+  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null };
+  if (kind === 'pulse') next.pulse = spare.pulse ?? length;
+  if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
+  return next;
+}
+
+export const lampOf = (scene) => (scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : '');
+
 /** The inner control points as parts of their own ramps. */
-function relative(scene) {
-  const { times } = scene;
+function relative(inner, times) {
   const length = times[3] - times[0];
-  return innerOf(scene).map((x, i) => {
+  return inner.map((x, i) => {
     if (i % 2) return x;
     const [from, to] = i < 4 ? times : times.slice(2);
     return to > from ? (times[0] + x * length - from) / (to - from) : STRAIGHT[i];
@@ -74,8 +93,9 @@ function placed(parts, times) {
 
 /** The scene with other times, each ramp keeping its shape. */
 export function withTimes(scene, times) {
-  const inner = scene.inner && times.every(Number.isFinite) && times[3] > times[0] ? placed(relative(scene), times) : scene.inner;
-  return { ...scene, times, inner };
+  const isSound = times.every(Number.isFinite) && times[3] > times[0];
+  const along = (inner) => (inner && isSound ? placed(relative(inner, scene.times), times) : inner);
+  return { ...scene, times, inner: along(scene.inner), spare: { ...scene.spare, inner: along(scene.spare.inner) } };
 }
 
 const number = (x) => (Number.isNaN(x) ? 'nan' : x === Infinity ? 'inf' : x === -Infinity ? '-inf'
@@ -90,18 +110,24 @@ export function toml(scene) {
   return lines.join('\n') + '\n';
 }
 
-/** The scene as the part of an address behind '#'. */
-export function hash(scene) {
+/** The scene as the part of an address behind '#', with another one beside it if there is one. */
+export function hash(scene, other) {
   const part = (key, value) => `${key}=${encodeURIComponent(value)}`;
   const parts = [part('name', scene.name), part('unit', scene.unit === 'µs' ? 'us' : scene.unit), `times=${scene.times}`];
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
+  if (other) parts.push(part('with', hash(other).slice(1)));
   return '#' + parts.join('&');
 }
 
-/** The scene in such a part of an address; an error says what is wrong with it. */
-export function fromHash(text) {
-  if (text.length > 4000) throw new Error(`it is ${text.length} characters long`);
+/** The scene in such a part of an address, and the one beside it; an error says what is wrong. */
+export function fromAddress(text) {
+  const other = new URLSearchParams(text.replace(/^#/, '')).get('with');
+  return { scene: fromHash(text), other: other ? fromHash(other) : null };
+}
+
+function fromHash(text) {
+  if (text.length > 8000) throw new Error(`it is ${text.length} characters long`);
   const parts = new URLSearchParams(text.replace(/^#/, ''));
   const numbers = (key, count) => {
     const list = (parts.get(key) ?? '').split(',').map((x) => (x.trim() ? Number(x) : NaN));
@@ -111,7 +137,7 @@ export function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, spare: {} };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
   return scene;

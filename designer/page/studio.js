@@ -9,7 +9,7 @@ const queues = new Map();
 function ask(question, payload, progress) {
   return new Promise((resolve) => {
     if (!worker) {
-      worker = new Worker('worker.js', { type: 'module' });
+      worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
       worker.onmessage = ({ data }) => {
         if ('progress' in data) return asked?.progress?.(data.progress);
         // What failed may have left anything behind: the next question gets a new worker.
@@ -55,4 +55,4 @@ export function cancel(reason = 'stopped') {
 
 export const emit = (scene, form) => queued('emit', { ask: 'emit', name: scene.name, scene: toml(scene), form });
 export const parse = (name, text) => queued('scene', { ask: 'scene', name, scene: text });
-export const fit = (name, file, progress) => queued('fit', { ask: 'fit', name }, file, progress);
+export const fit = (name, asked, file, progress) => queued('fit', { ask: 'fit', name, asked }, file, progress);

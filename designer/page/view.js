@@ -7,7 +7,7 @@ let module;
 let exports;
 
 export async function load() {
-  module = await WebAssembly.compileStreaming(fetch('engine.wasm'));
+  module = await WebAssembly.compileStreaming(fetch(new URL('engine.wasm', import.meta.url)));
   await start();
 }
 
@@ -15,8 +15,7 @@ async function start() {
   exports = (await WebAssembly.instantiate(module, {})).exports;
 }
 
-/** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export function view(scene, bar) {
+function ask(scene, bar) {
   const optional = OPTIONAL.map((key) => scene[key]);
   const has = [...optional, scene.inner].reduce((has, x, i) => has | ((x !== null) << i), 0);
   const question = [bar, UNITS.indexOf(scene.unit), has, ...scene.times, scene.triggers, scene.timer_hz, scene.min_gap,
@@ -24,7 +23,23 @@ export function view(scene, bar) {
   const to = exports.question(8 * question.length);
   const bytes = new DataView(exports.memory.buffer, to);
   question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
+}
+
+/** How good a scene is: 2 with a plan, 1 with a curve alone, 0 without; only what is `isDeep` is planned. */
+export function allowed(scene, isDeep) {
   try {
+    ask(scene, 0);
+    return exports.allowed(isDeep);
+  } catch {
+    start();
+    return 0;
+  }
+}
+
+/** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
+export function view(scene, bar) {
+  try {
+    ask(scene, bar);
     const length = exports.view();
     const answer = JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
     if (answer.Ok) read(answer.Ok, exports.memory.buffer, exports.numbers());

@@ -2,7 +2,7 @@
 
 const [encoder, decoder] = [new TextEncoder(), new TextDecoder()];
 const progress = (share) => postMessage({ progress: share });
-const loaded = WebAssembly.instantiateStreaming(fetch('studio.wasm'), { env: { progress } });
+const loaded = WebAssembly.instantiateStreaming(fetch(new URL('studio.wasm', import.meta.url)), { env: { progress } });
 
 async function answer({ question, payload }) {
   const { exports } = (await loaded).instance;

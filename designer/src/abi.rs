@@ -40,6 +40,12 @@ pub extern "C" fn view() -> usize {
     told(answer)
 }
 
+/// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. With `deep` 0 no plan is asked for.
+#[unsafe(no_mangle)]
+pub extern "C" fn allowed(deep: u32) -> u32 {
+    QUESTION.with_borrow(|question| crate::allowed(question, deep != 0))
+}
+
 /// Answers any other question, with its payload.
 #[cfg(feature = "studio")]
 #[unsafe(no_mangle)]

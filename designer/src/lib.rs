@@ -11,7 +11,9 @@ mod cost;
 #[cfg(feature = "studio")]
 mod studio;
 mod view;
+#[cfg(feature = "studio")]
+mod words;
 
 #[cfg(feature = "studio")]
 pub use studio::ask;
-pub use view::view;
+pub use view::{allowed, view};

@@ -2,17 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
-use shutter::fit::{self, Options, Zero};
+use shutter::fit::{self, From, Options, Zero};
 use shutter::plan::Plan;
 use shutter::planned::Planned;
 use shutter::scene;
-use shutter::trace;
+use shutter::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter::unit::Unit;
 
 use crate::answer::{Wrong, json};
+use crate::words::{self, Told};
 
 /// More samples are drawn as the least and the greatest of neighbours.
 const MOST: usize = 2000;
+/// The first rows of a file that are shown.
+const ROWS: usize = 6;
 /// A longer trace would fill a page's memory.
 const LONGEST: usize = 256 << 20;
 
@@ -25,7 +28,7 @@ enum Question {
     /// The numbers of a scene.
     Scene { name: String, scene: String },
     /// The scene that fits a trace, which is the question's payload.
-    Fit { name: String, unit: Option<Unit>, rate: Option<f64> },
+    Fit { name: String, asked: Asked },
 }
 
 /// Answers a question. A fit tells its progress.
@@ -33,24 +36,30 @@ pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> 
     match serde_json::from_slice(question) {
         Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, &form)),
         Ok(Question::Scene { name, scene }) => json(&checked(&name, &scene)),
-        Ok(Question::Fit { name, unit, rate }) => {
-            json(&fitted(&name, payload, unit, rate, progress))
-        }
+        Ok(Question::Fit { name, asked }) => json(&measured(&name, payload, &asked, progress)),
         Err(error) => json(&Err::<(), _>(error.to_string().into())),
     }
 }
 
-fn emitted(name: &str, scene: &str, form: &str) -> Result<String, Wrong> {
-    let form = match form {
-        "rust" => Form::Rust,
-        "c" => Form::C,
-        "csv" => Form::Csv,
-        "json" => Form::Json,
-        "pico" => Form::Pico,
+/// A plan in one of the forms, and what its file is called.
+#[derive(Serialize)]
+struct Emitted {
+    text: String,
+    file: String,
+}
+
+fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
+    let (form, file) = match form {
+        // The file's name is the module's.
+        "rust" => (Form::Rust, emit::module(name) + ".rs"),
+        "c" => (Form::C, emit::identifier(name) + ".h"),
+        "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
+        "json" => (Form::Json, emit::identifier(name) + ".json"),
+        "pico" => (Form::Pico, emit::identifier(name) + ".txt"),
         _ => return Err(format!("there is no form {form}").into()),
     };
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(emit::emit(form, name, &planned)?)
+    Ok(Emitted { text: emit::emit(form, name, &planned)?, file })
 }
 
 /// The scene, if it can be planned.
@@ -60,59 +69,145 @@ fn checked(name: &str, text: &str) -> Result<scene::Scene, Wrong> {
     Ok(scene)
 }
 
-/// A trace, and the scene that fits it.
+/// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Asked {
+    unit: Option<Unit>,
+    /// The samples in a second.
+    rate: Option<f64>,
+    /// The time's and the signal's column, from 1, or the signal's alone.
+    columns: Vec<usize>,
+    /// Does light raise the signal?
+    rises: Option<bool>,
+    /// The signal of full light.
+    full: Option<f64>,
+    /// Which pulse, from 1.
+    frame: Option<usize>,
+    triggers: u32,
+}
+
+/// A trace: what its file begins with, how it was read, and its fit or what is in the way of that.
+#[derive(Serialize)]
+struct Measured {
+    names: Vec<Option<String>>,
+    rows: Vec<(u64, Vec<String>)>,
+    read: Option<Read>,
+    fit: Result<Fitted, Told>,
+}
+
+/// How a file was read.
+#[derive(Serialize)]
+struct Read {
+    /// In words.
+    told: String,
+    columns: usize,
+    time: Option<usize>,
+    signal: usize,
+    unit: Option<Unit>,
+    rate: Option<f64>,
+}
+
+/// A trace's fit.
 #[derive(Serialize)]
 struct Fitted {
-    /// As `shutter fit` writes it.
-    scene: String,
-    /// As `shutter fit` prints it.
+    scene: scene::Scene,
+    /// As the program prints it.
     report: String,
     kind: &'static str,
     because: String,
     rms: f64,
     exposure: String,
-    warnings: Vec<String>,
+    /// Does the model explain the trace; could that be tested; what is left, as a share of the light.
+    explained: bool,
+    tested: bool,
+    structure: f64,
+    /// Are the triggers the trace's own?
+    from_trace: bool,
+    /// In seconds after the opening, each with its standard error.
+    triggers: Vec<(f64, f64)>,
+    pulses: usize,
+    pulse: usize,
+    falls: bool,
+    warnings: Vec<Told>,
     /// The trace as (time in seconds of the scene, openness, residual).
     samples: Vec<(f64, f64, f64)>,
 }
 
-/// Fits the trace in `bytes`.
-fn fitted(
+/// Reads the trace in `bytes`, and fits it.
+fn measured(
     name: &str,
     bytes: Vec<u8>,
-    unit: Option<Unit>,
-    rate: Option<f64>,
+    asked: &Asked,
     progress: &mut dyn FnMut(f64),
-) -> Result<Fitted, Wrong> {
+) -> Result<Measured, Wrong> {
     if bytes.len() > LONGEST {
         return Err(format!("{} MB: cut the trace to the pulse", bytes.len() >> 20).into());
     }
-    let text = trace::decode(&bytes).map_err(|refusal| refusal.to_string())?;
+    let preview = trace::preview(&bytes, ROWS).unwrap_or(Preview { names: vec![], rows: vec![] });
+    let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
+    let options = trace::Options { unit: asked.unit, columns, rate: asked.rate };
+    let recording = trace::open(&bytes, &options);
     drop(bytes);
-    let reading = trace::Options { unit, rate, ..Default::default() };
-    let (trace, mut warnings) =
-        trace::read(&text, &reading).map_err(|refusal| refusal.to_string())?;
-    drop(text);
-    let fit =
-        fit::fit(&trace, &Options::default(), progress).map_err(|refusal| refusal.to_string())?;
+    let read = recording.as_ref().ok().map(|recording| Read::new(&recording.reading));
+    let fit = recording
+        .and_then(|recording| fitted(name, recording, asked, progress))
+        .map_err(|refusal| words::refusal(&refusal, asked.rises.is_some()));
+    Ok(Measured { names: preview.names, rows: preview.rows, read, fit })
+}
+
+impl Read {
+    fn new(reading: &Reading) -> Self {
+        let (unit, rate) = match reading.clock {
+            Clock::Unit(unit) => (Some(unit), None),
+            Clock::Rate(rate) => (None, Some(rate)),
+        };
+        Self {
+            told: reading.to_string(),
+            columns: reading.columns,
+            time: reading.time.as_ref().map(|(number, _)| *number),
+            signal: reading.signal.0,
+            unit,
+            rate,
+        }
+    }
+}
+
+fn fitted(
+    name: &str,
+    recording: Recording,
+    asked: &Asked,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Fitted, Refusal> {
+    let options = Options {
+        full: asked.full,
+        frame: asked.frame,
+        light: match asked.rises {
+            None => Light::Auto,
+            Some(true) => Light::Up,
+            Some(false) => Light::Down,
+        },
+        triggers: asked.triggers,
+        ..Options::default()
+    };
+    let mut fit = fit::fit(&recording.trace, &options, progress)?;
+    fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
-    let scene = fit.curve_scene(name, Zero::Open).map_err(|refusal| refusal.to_string())?;
-    warnings.extend(fit.warnings.iter().cloned());
+    let text = fit.curve_scene(name, Zero::Open)?.text;
+    let no_scene = |fault: scene::Fault| Refusal::NoScene { reason: fault.reason };
+    let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let best = fit.best();
     let (signal, start) = (&best.signal, best.signal.curve.start);
-    let samples: Vec<_> = fit
-        .samples
-        .times
-        .iter()
-        .zip(&fit.samples.values)
-        .map(|(&t, &v)| {
-            let residual = (v - fit.value(t)) / signal.gain;
-            (t - start, (v - signal.dark) / signal.gain, residual)
-        })
-        .collect();
+    let samples = fit.samples.times.iter().zip(&fit.samples.values).map(|(&t, &v)| {
+        let residual = (v - fit.value(t)) / signal.gain;
+        (t - start, (v - signal.dark) / signal.gain, residual)
+    });
+    // What the program says of its own arguments is not for a page.
+    let report = fit::text(name, &fit);
+    let report = report.lines().filter(|line| !line.contains("--"));
     Ok(Fitted {
-        scene: scene.text,
-        report: fit::text(name, &fit),
+        scene: scene::parse(&text).map_err(no_scene)?,
+        report: report.collect::<Vec<_>>().join("\n"),
         kind: fit.chosen.title(),
         because: fit::because(&fit),
         rms: best.rms,
@@ -121,8 +216,16 @@ fn fitted(
             fit.unit().of(fit.exposure.error),
             fit.unit().name(),
         ),
-        warnings: warnings.iter().map(ToString::to_string).collect(),
-        samples: fewer(samples),
+        explained: fit.test.explained,
+        tested: fit.test.tested,
+        structure: fit.test.share,
+        from_trace: fit.from == From::Trace,
+        triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
+        pulses: fit.frames.count,
+        pulse: fit.frames.fitted,
+        falls: fit.inverted,
+        warnings,
+        samples: fewer(samples.collect()),
     })
 }
 

@@ -130,6 +130,15 @@ pub fn view(question: &[u8]) -> (String, Vec<f64>) {
     (json(&view), numbers.0)
 }
 
+/// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. Only what is `deep` is planned.
+pub fn allowed(question: &[u8], deep: bool) -> u32 {
+    let scene = Question::read(question)
+        .and_then(|question| Ok(Scene::try_from(question.values())?))
+        .ok()
+        .filter(|scene| scene.shape().is_ok_and(|shape| shape.curve().is_ok()));
+    scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
+}
+
 impl View {
     /// Of a scene.
     ///

@@ -65,14 +65,7 @@ impl Page {
         let here = folder.display();
         let missing = |e: io::Error| format!("{here}: {e}; designer/build.sh makes the page");
         let mut files = HashMap::new();
-        for entry in fs::read_dir(folder).map_err(missing)? {
-            let path = entry.map_err(missing)?.path();
-            let (Some(name), Some(kind)) = (path.file_name().and_then(OsStr::to_str), kind(&path))
-            else {
-                continue;
-            };
-            files.insert(format!("/{name}"), (kind, fs::read(&path).map_err(missing)?));
-        }
+        add(&mut files, folder, "/", 2).map_err(missing)?;
         let index = files.get("/index.html").cloned();
         files.insert(
             "/".into(),
@@ -86,12 +79,21 @@ impl Page {
         stream.set_write_timeout(Some(PATIENCE))?;
         let mut lines = BufReader::new(stream.take(LONGEST_REQUEST)).lines();
         let request = lines.next().unwrap_or_else(|| Ok(String::new()))?;
-        // The rest has nothing for us, but is read: a connection that is closed before would be reset.
-        while lines.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
+        // All of it is read: a connection that is closed before would be reset.
+        let mut host = None;
+        while let Some(line) = lines.next().transpose()?.filter(|line| !line.is_empty()) {
+            if let Some((name, value)) = line.split_once(':')
+                && name.eq_ignore_ascii_case("host")
+            {
+                host = Some(value.trim().to_string());
+            }
+        }
         let mut words = request.split(' ');
         let (method, target) = (words.next(), words.next().unwrap_or_default());
         let path = target.split('?').next().unwrap_or_default();
+        let is_here = host.is_some_and(|host| is_here(&host));
         let (status, kind, body) = match (method, self.0.get(path)) {
+            _ if !is_here => ("403 Forbidden", "text/plain", &b"not for this host\n"[..]),
             (Some("GET" | "HEAD"), Some((kind, body))) => ("200 OK", *kind, body.as_slice()),
             (Some("GET" | "HEAD"), None) => ("404 Not Found", "text/plain", &b"not found\n"[..]),
             _ => ("405 Method Not Allowed", "text/plain", &b"GET alone\n"[..]),
@@ -107,6 +109,36 @@ impl Page {
         }
         stream.flush()
     }
+}
+
+/// All files of a folder that are a page's, by their paths behind `at`, and of so many levels of folders in it.
+fn add(
+    files: &mut HashMap<String, (&'static str, Vec<u8>)>,
+    folder: &Path,
+    at: &str,
+    levels: u8,
+) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let Some(name) = path.file_name().and_then(OsStr::to_str) else { continue };
+        if path.is_dir() && levels > 1 {
+            add(files, &path, &format!("{at}{name}/"), levels - 1)?;
+        } else if let Some(kind) = kind(&path) {
+            files.insert(format!("{at}{name}"), (kind, fs::read(&path)?));
+        }
+    }
+    Ok(())
+}
+
+/// Does the name by which a browser asks mean this machine? Any other may be a page's that is made to point here, which then
+/// could read what it is not meant to.
+fn is_here(host: &str) -> bool {
+    let is_port = |port: &str| port.bytes().all(|c| c.is_ascii_digit());
+    ["localhost", "127.0.0.1", "[::1]"].iter().any(|here| {
+        let rest = host.to_ascii_lowercase();
+        rest.strip_prefix(here)
+            .is_some_and(|rest| rest.is_empty() || rest.strip_prefix(':').is_some_and(is_port))
+    })
 }
 
 /// What a file of the page is, by its name.

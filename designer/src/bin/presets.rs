@@ -10,11 +10,25 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../cli/scenes");
 /// The page begins with it.
 const FIRST: &str = "soft";
 
+const CAPTIONS: [(&str, &str); 9] = [
+    ("box", "all or nothing: electronic"),
+    ("leaf", "blades in a lens"),
+    ("led", "an LED behind a shutter"),
+    ("liquid-crystal", "open at once, a long tail"),
+    ("measured", "fitted to a trace"),
+    ("projector", "a triangle of 20 pulses"),
+    ("soft", "smooth, as renderers have it"),
+    ("strobe", "100 flashes of a swing"),
+    ("trapezoid", "the slit of a focal plane"),
+];
+
 #[derive(Serialize)]
 struct Preset {
     name: String,
     /// The comment above the scene.
     about: String,
+    /// What is told of it below its picture.
+    caption: &'static str,
     scene: Scene,
 }
 
@@ -26,8 +40,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let comment = text.lines().map_while(|line| line.strip_prefix("# "));
         let about = comment.collect::<Vec<_>>().join(" ");
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let caption = CAPTIONS.iter().find(|(of, _)| *of == name).map(|(_, caption)| *caption);
+        let caption = caption.ok_or_else(|| format!("{name}: no caption"))?;
         let scene = scene::parse(&text).map_err(|fault| fault.locate(&name, &text))?;
-        presets.push(Preset { name, about, scene });
+        presets.push(Preset { name, about, caption, scene });
     }
     presets.sort_by_key(|preset| (preset.name != FIRST, preset.name.clone()));
     println!("// The scenes of cli/scenes.\nexport default {};", serde_json::to_string(&presets)?);

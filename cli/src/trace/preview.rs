@@ -1,0 +1,48 @@
+//! The first lines of a file as a table, so that whoever reads it can say which column is which.
+
+use super::bytes::decode;
+use super::numbers::split;
+use super::table::Table;
+use super::told::Refusal;
+use super::wav;
+
+/// What a file begins with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// The columns' names, as far as they have some; there are as many as columns.
+    pub names: Vec<Option<String>>,
+    /// The first rows of numbers as they are written, each with its line.
+    pub rows: Vec<(u64, Vec<String>)>,
+}
+
+/// The first rows of the table in a file's bytes, so many of them; none of a WAV, which has no lines.
+///
+/// # Errors
+/// What is no table of numbers.
+pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
+    if wav::is_wav(bytes) {
+        return Ok(Preview { names: Vec::new(), rows: Vec::new() });
+    }
+    let text = decode(bytes)?;
+    let table = Table::new(&text)?;
+    let names: Vec<_> = (0..table.first.len()).map(|column| table.name(column)).collect();
+    // Of a field, what a narrow column can show.
+    let field = |field: &str| field.chars().take(24).collect();
+    let row =
+        |(line, row)| (line, split(row, table.delimiter).take(names.len()).map(field).collect());
+    let rows = table.rows().take(rows).map(row).collect();
+    Ok(Preview { names, rows })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_first_rows_are_those_of_the_numbers() {
+        let text = b"scope\nTime (ms);CH1\n0,5;1,25\n1,0;1,5\n1,5;2\n";
+        let preview = super::preview(text, 2).unwrap();
+        assert_eq!(preview.names, [Some("Time (ms)".to_string()), Some("CH1".to_string())]);
+        let rows = [(3, vec!["0,5".into(), "1,25".into()]), (4, vec!["1,0".into(), "1,5".into()])];
+        assert_eq!(preview.rows, rows);
+        assert!(super::preview(b"<html>", 2).is_err());
+    }
+}

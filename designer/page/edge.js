@@ -1,0 +1,70 @@
+// Where a handle may be: it slides along the border of what is allowed.
+
+import { INNER, TIMES, innerOf, tidy, withTimes } from './scene.js';
+
+/** The handles: the four times, then the four inner control points. */
+export const HANDLES = [...TIMES, 't1', 't2', 't5', 't6'];
+
+/** Where a handle is: [time in the scene's unit, openness]. */
+export function placeOf(scene, i) {
+  if (i < 4) return [scene.times[i], [0, 1, 1, 0][i]];
+  const inner = innerOf(scene), at = INNER.indexOf(HANDLES[i]);
+  return [scene.times[0] + inner[at] * (scene.times[3] - scene.times[0]), inner[at + 1]];
+}
+
+/** The scene with a handle at such a place. */
+export function moved(scene, i, t, y) {
+  const [start, , , end] = scene.times;
+  if (i < 4) return withTimes(scene, scene.times.with(i, t));
+  const inner = [...innerOf(scene)], at = INNER.indexOf(HANDLES[i]);
+  inner[at] = tidy((t - start) / (end - start), 9);
+  inner[at + 1] = y;
+  return { ...scene, inner };
+}
+
+/** Between which times a handle can be moved at all. */
+export function limits({ times }, i) {
+  const length = times[3] - times[0];
+  if (i > 3) return i < 6 ? [times[0], times[1]] : [times[2], times[3]];
+  return [i ? times[i - 1] : times[0] - length, i < 3 ? times[i + 1] : times[3] + length];
+}
+
+// As far from `from` towards `to` as `isGood`, in steps that are round numbers.
+function reach(from, to, step, isGood) {
+  if (from === to || isGood(to)) return to;
+  const towards = Math.sign(to - from);
+  const at = (k) => tidy((Math.round(from / step) + towards * k) * step, 9);
+  let good = 0, bad = Math.ceil(Math.abs(to - from) / step);
+  while (bad - good > 1) {
+    const middle = (good + bad) >> 1;
+    if (isGood(at(middle))) good = middle;
+    else bad = middle;
+  }
+  return good ? at(good) : from;
+}
+
+/**
+ * The scene with handle `i` as near to [t, y] as is allowed, on the way from where it is in `scene`, which is good. `steps`
+ * are those of a time and of an openness.
+ */
+export function slide(scene, i, [t, y], steps, isGood) {
+  const [t0, y0] = placeOf(scene, i);
+  if (i < 4) {
+    const [least, most] = limits(scene, i);
+    t = Math.min(Math.max(t, i ? least : t), i < 3 ? most : t);
+  }
+  const good = (t, y) => isGood(moved(scene, i, t, y));
+  if (good(t, y)) return moved(scene, i, t, y);
+  const alongT = (y) => reach(t0, t, steps[0], (t) => good(t, y));
+  // The crate forgives a rounding beyond 0 or 1: no one means it.
+  const alongY = (t) => {
+    const far = reach(y0, y, steps[1], (y) => good(t, y));
+    const within = Math.min(Math.max(far, 0), 1);
+    return Math.abs(far - within) < 0.01 && good(t, within) ? within : far;
+  };
+  if (i < 4) return moved(scene, i, alongT(y), y);
+  const [t1, y2] = [alongT(y0), alongY(t0)];
+  const far = ([tx, yx]) => Math.hypot((tx - t) / steps[0], (yx - y) / steps[1]);
+  const [first, second] = [[t1, alongY(t1)], [alongT(y2), y2]];
+  return moved(scene, i, ...(far(first) <= far(second) ? first : second));
+}

@@ -1,0 +1,175 @@
+// The handles of the graph: moved by mouse, finger and keys, never beyond what is allowed.
+
+import { HANDLES, limits, moved, placeOf, slide } from './edge.js';
+import { INNER, innerOf, short, tidy } from './scene.js';
+import { svg } from './svg.js';
+import { allowed } from './view.js';
+
+/** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
+const MAGNET = 8, SAME = 4;
+const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed',
+  'opening ramp, first control point', 'opening ramp, second control point', 'closing ramp, first control point', 'closing ramp, second control point'];
+
+export class Handles {
+  /** On a graph; `change(scene, isDone, key)` is told of each move. */
+  constructor(graph, change) {
+    Object.assign(this, { graph, change });
+    this.groups = [];
+    // In the order of the picture, which is Tab's.
+    for (const i of [0, 4, 5, 1, 2, 6, 7, 3]) this.groups[i] = this.make(HANDLES[i], i);
+  }
+
+  make(name, i) {
+    const isTime = i < 4;
+    const group = svg('g', { class: `handle ${isTime ? 'time' : 'control'}`, tabindex: 0, role: 'slider', id: `handle-${name}`, 'aria-label': NAMES[i] }, this.graph.root);
+    svg('circle', { r: 22, class: 'reach' }, group);
+    svg('circle', { r: 11, class: 'halo' }, group);
+    if (isTime) svg('rect', { x: -6, y: -6, width: 12, height: 12, rx: 2.5 }, group);
+    else svg('circle', { r: 6 }, group);
+    // The page must not scroll with the finger.
+    group.addEventListener('touchstart', (event) => event.preventDefault(), { passive: false });
+    group.addEventListener('pointerdown', (event) => this.grab(event));
+    group.addEventListener('keydown', (event) => this.key(event, i));
+    group.addEventListener('focus', () => this.graph.readAt(placeOf(this.graph.scene, i)[0]));
+    return group;
+  }
+
+  // The scene with a handle as near to a place as is allowed, planned if it was before.
+  slid(scene, i, place) {
+    const { graph } = this;
+    const fine = 10 ** Math.floor(Math.log10(graph.perPixel / 20));
+    const next = slide(scene, i, place, [fine, 1e-4], (scene) => allowed(scene, false) > 0);
+    if (allowed(next, true) > 1 || allowed(scene, true) < 2) return next;
+    // The triggers come too close: so far on the way there as they do not.
+    const [from, to] = [placeOf(scene, i), placeOf(next, i)];
+    let good = scene, [low, high] = [0, 1];
+    for (let k = 0; k < 7; k++) {
+      const part = 0.5 * (low + high);
+      const [t, y] = from.map((x, axis) => tidy(x + part * (to[axis] - x), 7));
+      const tried = moved(scene, i, t, i < 4 ? from[1] : y);
+      if (allowed(tried, true) > 1) [good, low] = [tried, part];
+      else high = part;
+    }
+    return good;
+  }
+
+  key(event, i) {
+    const { graph: { scene } } = this;
+    const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0] }[event.key];
+    const end = { Home: 0, End: 1 }[event.key];
+    if ((!by && end === undefined) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    let [t, y] = placeOf(scene, i);
+    const length = scene.times[3] - scene.times[0];
+    const step = event.shiftKey ? 0.001 : 0.01;
+    // A step is a round number: of the unit, or of a control point's fraction.
+    const stepped = (x, by, step) => tidy(Math.round(x / step + by) * step, 9);
+    if (!by) t = limits(scene, i)[end];
+    else if (i < 4) t = stepped(t, by[0] || by[1], 10 ** Math.floor(Math.log10(length * step) + 0.31));
+    else if (by[1]) y = stepped(y, by[1], step);
+    else t = scene.times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
+    const next = this.slid(scene, i, [t, y]);
+    // A key that is held is one step.
+    this.change(next, true, event.repeat ? `held ${i}` : undefined);
+    this.graph.readAt(placeOf(next, i)[0]);
+  }
+
+  grab(event) {
+    if (event.button || this.graph.dragged) return;
+    event.preventDefault();
+    const { graph } = this;
+    const start = graph.pointer(event);
+    const first = graph.scene;
+    const pixels = (i) => {
+      const [t, y] = placeOf(first, i);
+      return [graph.x(t), graph.y(y)];
+    };
+    const distance = (i, [x, y]) => Math.hypot(pixels(i)[0] - x, pixels(i)[1] - y);
+    const indices = HANDLES.map((_, i) => i);
+    const nearest = indices.reduce((a, b) => (distance(b, start) < distance(a, start) ? b : a));
+    // Of those in one place it becomes the one that can go where the pointer goes.
+    const together = indices.filter((i) => distance(i, pixels(nearest)) < SAME);
+    const map = graph.map();
+    const to = (i, event) => {
+      const [x, y] = graph.pointer(event);
+      const [x0, y0] = pixels(i);
+      return this.snapped(first, i, map, [x0 + x - start[0], y0 + y - start[1]], event.altKey);
+    };
+    let i = together.length > 1 ? undefined : nearest;
+    let last = first;
+    const holder = this.groups[nearest];
+    const take = (chosen) => {
+      i = chosen;
+      this.groups[i].classList.add('dragged');
+      this.groups[i].focus({ preventScroll: true, focusVisible: false });
+    };
+    holder.setPointerCapture(event.pointerId);
+    graph.dragged = first;
+    if (i !== undefined) take(i);
+    const move = (event) => {
+      if (i === undefined) {
+        const [x, y] = graph.pointer(event);
+        if (Math.hypot(x - start[0], y - start[1]) < SAME) return;
+        const miss = (i) => {
+          const [t, o] = placeOf(this.slid(first, i, to(i, event)), i);
+          return Math.hypot(map.x(t) - pixels(i)[0] - x + start[0], map.y(o) - pixels(i)[1] - y + start[1]);
+        };
+        const misses = new Map(together.map((i) => [i, miss(i)]));
+        take(together.reduce((a, b) => (misses.get(b) < misses.get(a) - 1 ? b : a)));
+      }
+      // A time is moved from where it was at first: on each way its ramp's shape is rounded.
+      last = this.slid(i < 4 ? first : last, i, to(i, event));
+      this.change(last, false);
+      graph.readAt(placeOf(last, i)[0]);
+    };
+    const end = (event) => {
+      for (const [name, listener] of listeners) holder.removeEventListener(name, listener);
+      removeEventListener('keydown', escape, true);
+      for (const group of this.groups) group.classList.remove('dragged');
+      graph.dragged = null;
+      this.change(event.type === 'pointerup' ? last : first, true);
+      graph.draw();
+      if (i === undefined) take(nearest);
+      for (const group of this.groups) group.classList.remove('dragged');
+    };
+    const escape = (event) => event.key === 'Escape' && end(event);
+    const listeners = [['pointermove', move], ['pointerup', end], ['pointercancel', end]];
+    for (const [name, listener] of listeners) holder.addEventListener(name, listener);
+    addEventListener('keydown', escape, true);
+  }
+
+  // A place on the page as round numbers, or those of what is near.
+  snapped({ times }, i, map, [x, y], isFree) {
+    const near = (value, perPixel, candidates, round) => {
+      const found = isFree ? undefined : candidates.find((it) => Math.abs(it - value) < MAGNET * perPixel);
+      return found ?? tidy(Math.round(value / round) * round, 9);
+    };
+    const ends = i < 4 ? [times[i - 1], times[i + 1]].filter((t) => t !== undefined) : i < 6 ? times.slice(0, 2) : times.slice(2);
+    const t = near(map.t(x), map.perPixel, ends, 10 ** Math.floor(Math.log10(map.perPixel)) * 2);
+    return [t, i < 4 ? placeOf({ times }, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];
+  }
+
+  /** Puts all handles where they belong. */
+  draw() {
+    const { graph, graph: { scene } } = this;
+    const places = HANDLES.map((_, i) => placeOf(scene, i));
+    const isDrawn = places.map((place) => place.every(Number.isFinite));
+    const within = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
+    const at = places.map(([t, o]) => [within(graph.x(t)), within(graph.y(o))]);
+    places.forEach(([t, o], i) => {
+      const group = this.groups[i];
+      group.style.display = isDrawn[i] ? '' : 'none';
+      if (!isDrawn[i]) return;
+      const [least, most] = limits(scene, i);
+      const set = (name, value) => group.getAttribute(name) !== value && group.setAttribute(name, value);
+      set('transform', `translate(${at[i]})`);
+      set('aria-valuetext', `${short(t)} ${scene.unit}${i < 4 ? '' : `, openness ${short(o)}`}`);
+      set('aria-valuenow', short(t));
+      // A control point of a steep ramp may lie beside it.
+      set('aria-valuemin', short(Math.min(least, t)));
+      set('aria-valuemax', short(Math.max(most, t)));
+    });
+    const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
+    graph.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${at[a]}L${at[b]}`).join(''));
+  }
+}
