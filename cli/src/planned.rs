@@ -3,8 +3,8 @@
 use crate::delay::Delay;
 use crate::facts;
 use crate::plan::Plan;
-use crate::scene::Fault;
-use crate::times::{self, Times};
+use crate::scene::{Fault, trigger_times_at};
+use crate::times::Times;
 use crate::unit::Unit;
 
 /// A scene that can be played.
@@ -44,7 +44,7 @@ impl Planned {
     /// # Errors
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
-        match times::place(text) {
+        match trigger_times_at(text) {
             Some(_) => Times::parse(text).map(Self::from),
             None => Plan::parse(text).map(Self::from),
         }

@@ -4,9 +4,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use shutter_curve::CurveError;
 use toml::Spanned;
+use toml::de::DeTable;
 
 use crate::shape::Shape;
-use crate::times;
 use crate::unit::{Unit, short};
 
 /// A scene as it is written; each value knows its place in the text.
@@ -177,12 +177,21 @@ impl Fault {
     }
 }
 
+/// The key that tells a scene of trigger times from one with a curve.
+pub(crate) const TRIGGER_TIMES: &str = "trigger_times";
+
+/// Where a text has this key, if it has it.
+pub(crate) fn trigger_times_at(text: &str) -> Option<usize> {
+    let table = DeTable::parse(text).ok()?.into_inner();
+    table.keys().find(|key| key.get_ref() == TRIGGER_TIMES).map(|key| key.span().start)
+}
+
 /// The scene that `text` describes.
 ///
 /// # Errors
 /// What is no TOML, keys that are missing or unknown or have the wrong type, and a scene without a curve.
 pub fn parse(text: &str) -> Result<Scene, Fault> {
-    if let Some(at) = times::place(text) {
+    if let Some(at) = trigger_times_at(text) {
         let reason = "trigger_times: this scene has times as they were measured, and a curve is required here; \
                       `shutter plan` takes it";
         return Err(Fault { at: Some(at), reason: reason.into(), notes: Vec::new() });

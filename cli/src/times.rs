@@ -6,11 +6,8 @@ use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
-use crate::scene::{self, Count, Fault, Number};
+use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY};
 use crate::unit::Unit;
-
-/// The key that tells such a scene from one with a curve.
-const KEY: &str = "trigger_times";
 
 /// The scene as it is written; each value knows its place in the text.
 #[derive(Deserialize)]
@@ -51,12 +48,6 @@ pub struct Times {
     /// In order.
     pub triggers: Vec<Given>,
     unit: Option<Unit>,
-}
-
-/// Where such a text has its trigger times, if it has them.
-pub(crate) fn place(text: &str) -> Option<usize> {
-    let table = DeTable::parse(text).ok()?.into_inner();
-    table.into_iter().find(|(key, _)| key.get_ref() == KEY).map(|(key, _)| key.span().start)
 }
 
 /// Why a key that goes with a curve has no meaning beside trigger times.

@@ -106,3 +106,14 @@ pub fn decimals(x: f64, digits: i32) -> usize {
     // No `f64` has more, whatever its least digit.
     ((f64::from(digits) - leading) as usize).min(340)
 }
+
+/// No number with an error has more decimals, however small that is.
+pub(crate) const MOST_PLACES: usize = 12;
+
+/// A value and its standard error, to the digits that the error leaves.
+pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
+    let places =
+        if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
+    let places = places.min(MOST_PLACES);
+    format!("{value:.places$} ± {error:.places$} {unit}")
+}

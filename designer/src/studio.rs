@@ -7,7 +7,7 @@ use shutter::plan::Plan;
 use shutter::planned::Planned;
 use shutter::scene;
 use shutter::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
-use shutter::unit::Unit;
+use shutter::unit::{Unit, plus_minus};
 
 use crate::answer::{Wrong, json};
 use crate::words::{self, Told};
@@ -211,7 +211,7 @@ fn fitted(
         kind: fit.chosen.title(),
         because: fit::because(&fit),
         rms: best.rms,
-        exposure: fit::plus_minus(
+        exposure: plus_minus(
             fit.unit().of(fit.exposure.value),
             fit.unit().of(fit.exposure.error),
             fit.unit().name(),

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use super::fit::{Args, measure};
 use super::output::{print, write_whole};
-use crate::fit::{Fit, From, Measured, plus_minus};
+use crate::fit::{Fit, From, Measured};
 use crate::speeds::columns;
-use crate::unit::{count, short};
+use crate::unit::{count, plus_minus, short};
 
 /// A trace with what came of it.
 struct Speed {

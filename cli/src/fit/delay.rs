@@ -2,9 +2,8 @@
 
 use super::errors::Measured;
 use super::outcome::Fit;
-use super::report::plus_minus;
 use crate::trace::{Frame, Refusal};
-use crate::unit::{Unit, short, trimmed};
+use crate::unit::{Unit, plus_minus, short, trimmed};
 
 /// The delay of a frame that starts to open at `start`, where the time of the `sync`'s edge is known. `before` are the frames
 /// that come before it.

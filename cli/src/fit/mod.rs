@@ -49,7 +49,7 @@ pub use errors::Measured;
 use frame::FrameFits;
 pub use json::json;
 pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
-pub use report::{because, plus_minus, text};
+pub use report::{because, text};
 pub use scene::{Scene, Zero};
 use shots::Shots;
 pub use signal::{Flicker, Hum, Kind, Signal};

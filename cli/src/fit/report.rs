@@ -10,10 +10,7 @@ use super::signal::Kind;
 use super::speed;
 use crate::rows::hidden_rows;
 use crate::trace::{from_opening, sampling_interval};
-use crate::unit::{Unit, count, decimals, short, trimmed};
-
-/// No number has more decimals, however small its error is.
-const MOST_PLACES: usize = 12;
+use crate::unit::{MOST_PLACES, Unit, count, decimals, plus_minus, short, trimmed};
 
 /// The fit of the trace `name`, for a terminal.
 pub fn text(name: &str, fit: &Fit) -> String {
@@ -212,12 +209,4 @@ pub fn because(fit: &Fit) -> String {
             format!("least BIC, from one shot of {} independent samples", trimmed(effective, 0))
         }
     }
-}
-
-/// A value and its standard error, to the digits that the error leaves.
-pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
-    let places =
-        if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
-    let places = places.min(MOST_PLACES);
-    format!("{value:.places$} ± {error:.places$} {unit}")
 }
