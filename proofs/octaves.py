@@ -1,4 +1,4 @@
-"""src/octave.rs, plan.rs: that the answer's path computes the `x` at which a polynomial was judged, by z3; and what
+"""src/octave.rs, plan.rs, by_u64.rs: that the answer's path computes the `x` at which a polynomial was judged, by z3; and what
 Horner's rule in integers truncates, by Gappa."""
 
 from solver import *
@@ -10,13 +10,31 @@ code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
     doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
 code("let below = top.wrapping_sub(bits);", """let octave = self.octaves[side & 1].get((below >> 23) as usize)?;
     let borrowed = bits ^ (top ^ below) & 1 << 23; Some((octave, (borrowed << 8) as i32))""")
-code("let zeros = high.leading_zeros();", """let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-    let significand = significand & !(1 << 31); const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
-    let top = octave::top(self.tops[side & 1][is_beyond as usize]);
-    let below = (top << 9 >> 1) as i32 - significand as i32;
-    let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
-    let octave = self.octaves[side & 1].get(index.wrapping_sub(OF_HALF) as usize)?;
-    let position = significand as i32 | below & i32::MIN;""")
+code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
+    return Some(Direct::Line); } let side = (u >> 63) as usize;
+    let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);
+    let zeros = high.leading_zeros();
+    let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
+    let top = octave::top(self.tops[side & 1][is_beyond as usize]); let end = top << 8 | 1 << 31;
+    let zeros = zeros.wrapping_sub((significand > end) as u32); const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
+    let index = (top >> 23).wrapping_add(zeros).wrapping_sub(OF_HALF);
+    let octave = self.octaves[side & 1].get(index as usize)?; if !octave.exists() { return None; }
+    let (less, zeros) = (side as u32, zeros & 31); let back = 0u32.wrapping_sub(less);
+    let ahead = (octave.center ^ !back).wrapping_add(1);
+    let factor = ((1 << (octave.center & FINER)) ^ back).wrapping_sub(back);
+    Some(Direct::Octave(OctaveU64 { octave, less, zeros, end, ahead, factor })) }""")
+code("fn word(&self, u: u64) -> u32 {", """let u = u.wrapping_sub(self.less as u64);
+    let (high, low) = ((u >> 32) as u32, u as u32); high << 1 << self.zeros | low >> (31 - self.zeros) }""")
+code("pub(crate) fn time(&self, u: u64) -> i64 {", "self.time_ahead(self.word(u).wrapping_add(self.ahead)) }")
+code("pub(crate) fn time_ahead(&self, word: u32) -> i64 {", "self.octave.time(word.wrapping_mul(self.factor) as i32) }")
+code("pub(crate) fn octave_reaches(", """&self, u: u64, octave: &OctaveU64, plateau: &PlateauU64) -> u32 {
+    let last = if octave.less == 0 { octave.end << 1 | 1 } else { !(octave.end + 1) };
+    let words = last.wrapping_sub(octave.word(u));
+    let ramp = plateau.last.wrapping_sub(plateau.count).wrapping_sub(u);
+    let side = !((u >> 32) as u32) & (u32::MAX >> 1);
+    (words >> 1 >> octave.zeros).min((ramp >> 32) as u32).min(side) }""")
+code("pub(crate) fn line_reaches(", """&self, u: u64, plateau: &PlateauU64) -> u32 {
+    (plateau.last.wrapping_sub(u) >> 32) as u32 }""")
 code("const fn center(&self) -> u64 {", """(self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
@@ -44,9 +62,6 @@ code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), 
 code("fn before_last(&self, u: f32) -> u32 {", "self.last.wrapping_sub(u.to_bits()) }")
 code("fn by_octave(&self, u: f32, before_last: u32) -> i64 {", """let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize;
     match self.look_up(side, ramp, bits) { Some((octave, position)) if octave.exists() => octave.time(octave.offset(position)), _ => NO_TIME, } }""")
-code("let (before_last, is_beyond) = plateau.last.overflowing_sub(u);", """if before_last < plateau.count {
-    return Some(self.on_line((u >> 32) as u32)); } let side = (u >> 63) as usize;
-    let a = if side == 0 { u } else { u.wrapping_neg() }; let (high, low) = ((a >> 32) as u32, a as u32);""")
 code("pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
     let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
     let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
@@ -194,30 +209,122 @@ a = ZeroExt(32, (bits & 0x7FFFFF) | (1 << 23)) << 40
 a = LShR(a, ZeroExt(32, 126 - exponent))
 
 
-def by_u64(zeros, borrow=True):
+def by_u64(a, zeros, compared=True):
+    """`Plan::direct_u64` of an `a` with so many zeros: the index, and the zeros before the octave's power of two."""
     high, low = Extract(63, 32, a), Extract(31, 0, a)
-    significand = (high << zeros) | LShR(LShR(low, 1), 31 - zeros)
-    significand = significand & ~(1 << 31)
-    below = LShR(top << 9, 1) - significand
-    index = LShR(top, 23) + zeros + (below >> 31) - 126
-    return index, significand | (below & (1 << 31) if borrow else 0)
+    significand = (high << (zeros & 31)) | LShR(LShR(low, 1), (31 - zeros) & 31)
+    end = top << 8 | 1 << 31
+    zeros = zeros - (If(UGT(significand, end), BitVecVal(1, 32), BitVecVal(0, 32)) if compared else 0)
+    return LShR(top, 23) + zeros - 126, zeros
 
 
-def agree(zeros, borrow=True):
-    by = by_u64(zeros, borrow)
+def word(u, zeros, less):
+    """`OctaveU64::word`, where `zeros` is a number of z3."""
+    u = u - less
+    high, low = Extract(63, 32, u), Extract(31, 0, u)
+    return (high << 1 << zeros) | LShR(low, 31 - zeros)
+
+
+def ahead(word, less, center):
+    """The same and `ahead`: as `ahead_of_center` has it before it moves it up, from the later side with the other sign."""
+    back = 0xFFFFFFFF if less else 0
+    sum = word + (center ^ (~back & 0xFFFFFFFF)) + 1
+    return -sum if less else sum
+
+
+center = BitVec("center", 32)
+is_lower = by_f32[1] < 0
+
+
+def agree(zeros, compared=True):
+    index, power = by_u64(a, zeros, compared)
+    here = And(LShR(a, 63 - zeros) == 1, ULE(a, 1 << 63), exponent == 126 - zeros)
+    none = And(UGE(index, CELLS), UGE(by_f32[0], CELLS))
+    return Implies(here, Or(none, And(index == by_f32[0], power == zeros - If(is_lower, BitVecVal(1, 32), BitVecVal(0, 32)))))
+
+
+def agree_in_x(zeros, lower, less, turned=0):
     here = And(LShR(a, 63 - zeros) == 1, exponent == 126 - zeros)
-    none = And(UGE(by[0], CELLS), UGE(by_f32[0], CELLS))
-    return Implies(here, Or(none, And(by[0] == by_f32[0], by[1] == by_f32[1])))
+    position = (bits & 0x7FFFFF) << 8 | lower << 31
+    found = word(-a if less else a, zeros - lower, less ^ turned)
+    return Implies(here, ahead(found, less, center) == position + (position & ~(position >> 31)) - center)
 
 
 for zeros in range(32):
     solver = Solver()
     solver.add(Not(agree(zeros)))
     require(solver.check() == unsat, "the look-ups agree")
-solver = Solver()
-solver.add(Not(agree(3, borrow=False)))
-require(solver.check() == sat, "the look-ups agree without a borrow")
-proven("the look-ups by f32 and by u64 find the same octave and position, for each f32 from 2^-32 to 1 and each top")
+    for lower, less in ((lower, less) for lower in (0, 1) for less in (0, 1) if lower <= zeros):
+        solver = Solver()
+        solver.add(Not(agree_in_x(zeros, lower, less)))
+        require(solver.check() == unsat, "the look-ups agree in x")
+for wrong in (agree(3, compared=False), agree_in_x(3, 0, 0, turned=1), agree_in_x(3, 1, 1, turned=1)):
+    solver = Solver()
+    solver.add(Not(wrong))
+    require(solver.check() == sat, "the look-ups agree: less than this would do")
+proven("the look-ups by f32 and by u64 find the same octave and x, for each f32 from 2^-32 to 1/2, each top, center and side")
+w, f = BitVecs("w f", 32)
+valid(
+    "a word times its factor is the word moved up, from the later side with the other sign",
+    And(*(And(w * (1 << finer) == w << finer, w * (((1 << finer) ^ -1) + 1) == -(w << finer)) for finer in range(32))),
+    And(*(w * ((1 << finer) ^ -1) == -(w << finer) for finer in range(32))),
+)
+# One octave answers as far as `octave_reaches` says. The octave that `direct_u64` finds holds what is above its `start` and up to its
+# `stop`; one more unit of 2^-32 might leave that.
+u, v, last, count = BitVecs("u v last count", 64)
+eighths = BitVec("eighths", 3)
+end = Concat(BitVecVal(1, 1), eighths, BitVecVal(0, 28))
+
+
+def reach_of_octave(u, power, less, more):
+    words = (~(end + 1) if less else (end << 1 | 1)) - word(u, power, less)
+    return ZeroExt(32, LShR(LShR(words, 1), power) + more) << 32
+
+
+def reaches(power, more):
+    stop = LShR(Concat(end, BitVecVal(0xFFFFFFFF, 32)), power)
+    start = LShR(stop, 1)
+    holds = And(UGT(u, start), ULE(u, stop))
+    found = Or(*(And(LShR(u, 63 - zeros) == 1, by_u64(u, zeros)[1] == power) for zeros in (power, power + 1) if zeros < 32))
+    is_this = And(top << 8 | 1 << 31 == end, UGE(u, 1 << 32), ULE(u, 1 << 63))
+    # From side 0 `u` is `a`; from side 1 it is `-a`, and `a` falls. Neither may wrap.
+    early, late = (reach_of_octave(-u if less else u, power, less, more) for less in (0, 1))
+    yield Implies(is_this, found == holds)
+    yield Implies(holds, And(ULE(early, stop - u)))
+    yield Implies(holds, And(ULT(late, u - start)))
+
+
+for power in range(32):
+    for claim in reaches(power, 0):
+        solver = Solver()
+        solver.add(Not(claim))
+        require(solver.check() == unsat, f"octave_reaches: {power}")
+for claim in list(reaches(5, 1))[1:]:
+    solver = Solver()
+    solver.add(Not(claim))
+    require(solver.check() == sat, "octave_reaches: more than this holds")
+proven("octave_reaches: the octave that direct_u64 finds answers all up to there, but perhaps not a unit of 2^-32 farther")
+valid(
+    "octave_reaches: until there all are on the same side",
+    Implies(And(UGE(v, u), ULE(v - u, ~u & (2**63 - 1))), LShR(v, 63) == LShR(u, 63)),
+    Implies(And(UGE(v, u), ULE(v - u, (~u & (2**63 - 1)) + 1)), LShR(v, 63) == LShR(u, 63)),
+)
+first = BitVec("first", 64)  # last - count
+valid(
+    "octave_reaches: until there none is on the line or beyond it, if the first is not",
+    Implies(And(ULE(first, last), ULE(u, first), UGE(v, u), ULE(v - u, first - u)), And(ULE(v, last), UGE(last - v, last - first))),
+    Implies(And(ULE(first, last), ULE(u, first), UGE(v, u), ULE(v - u, first - u + 1)), And(ULE(v, last), UGE(last - v, last - first))),
+)
+valid(
+    "octave_reaches: if the first is beyond the line, so are all",
+    Implies(And(ULE(first, last), UGT(u, last), UGE(v, u)), And(UGT(v, last), UGE(last - v, last - first))),
+    Implies(And(ULE(first, last), UGE(u, last), UGE(v, u)), And(UGT(v, last), UGE(last - v, last - first))),
+)
+valid(
+    "line_reaches: the line answers all up to there",
+    Implies(And(ULT(last - u, count), ULE(count, last), UGE(v, u), ULE(v - u, last - u)), ULT(last - v, count)),
+    Implies(And(ULT(last - u, count), ULE(count, last), UGE(v, u), ULE(v - u, last - u + 1)), ULT(last - v, count)),
+)
 # The index by u64 is then as for 2^-33: with 32 zeros, and one less where something is borrowed.
 top = (ZeroExt(24, byte) + LEAST // STEP) * STEP
 valid(
@@ -242,8 +349,8 @@ zero = BitVecVal(0, 64)
 nothing = And(a == 0, ULT(LEAST - 1, top))
 valid(
     "u = 0 in 64 bits, which stands for 1, is not on the plateau's line and finds no polynomial",
-    And(Not(on_line(zero)), Implies(nothing, UGT(by_u64(32)[0], LShR(top, 23) - LEAST_EXPONENT))),
-    Implies(nothing, UGT(by_u64(32)[0], LShR(top, 23) - LEAST_EXPONENT + 5)),
+    And(Not(on_line(zero)), Implies(nothing, UGT(by_u64(a, BitVecVal(32, 32))[0], LShR(top, 23) - LEAST_EXPONENT))),
+    Implies(nothing, UGT(by_u64(a, BitVecVal(32, 32))[0], LShR(top, 23) - LEAST_EXPONENT + 5)),
     Not(on_line(BitVecVal(1 << 60, 64))),
 )
 
@@ -329,7 +436,7 @@ for zeros in range(1, 28):
     here = And(LShR(a, 63 - zeros) == 1, ULT(top, 127 << 23))
     # The top in 2^-64: its significand, and the exponent that it has above 2^-64.
     wide = ZeroExt(32, (top & 0x7FFFFF) | (1 << 23)) << ZeroExt(32, LShR(top, 23) - 63 - 23)
-    index = by_u64(zeros)[0]
+    index = by_u64(a, zeros)[0]
     for slack, expected in (((1 << (32 - zeros)) - 1, unsat), (1 << (32 - zeros), sat)):
         solver = Solver()
         solver.add(here, ULE(a, wide + slack), index >> 31 == -1)

@@ -7,6 +7,21 @@ code("pub(crate) fn new(n: u32) -> Self {", """let divisor = n as u64 | (n == 0)
     let remainder = (1 << 63) - half_share * divisor; Self { n, half_share, rest: ((remainder * half_share) >> 31) as u32 } }""")
 code("let rest = (self.rest as u64 * odd as u64) >> 32;", """let middle = self.half_share.wrapping_mul(odd as u64).wrapping_add(rest);
     if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) } }""")
+code("pub(crate) fn words(&self, odd: u32) -> (u64, Words) {", """let u = self.in_u64(odd, &Edge::TRIGGER);
+    let below = (u << 32) | self.rest.wrapping_mul(odd) as u64;
+    let share = (self.half_share << 1) | (self.rest >> 31) as u64;
+    let share = ((share >> 32) as u32, (share << 32) | (self.rest << 1) as u64);
+    (u, Words { word: (u >> 32) as u32, below, share }) }""")
+code("pub(crate) fn within(&self, reach: u32) -> u32 {", """let more_than_share = ((self.half_share >> 31) as u32).wrapping_add(1);
+    reach.checked_div(more_than_share).unwrap_or(0).saturating_add(1) }""")
+code("pub(crate) fn behind(self, bits: u32, less: u32, ahead: u32) -> Self {", """let up = |word: u32, below: u64| {
+    let (middle, low) = ((below >> 32) as u32, below as u32); let word = word << 1 << bits | middle >> (31 - bits);
+    let middle = middle << 1 << bits | low >> (31 - bits); (word, (middle as u64) << 32 | (low << 1 << bits) as u64) };
+    let (below, borrow) = self.below.overflowing_sub((less as u64) << 32);
+    let (word, below) = up(self.word.wrapping_sub(borrow as u32), below); let share = up(self.share.0, self.share.1);
+    Self { word: word.wrapping_add(ahead), below, share } }""")
+code("pub(crate) fn step(&mut self) {", """let (below, carry) = self.below.overflowing_add(self.share.1);
+    self.below = below; self.word = self.word.wrapping_add(self.share.0).wrapping_add(carry as u32); }""")
 code("let (side, near) =", """if odd < n || odd == n && !edge.is_off { (0, odd) } else { (1, 2 * n - odd) };
     let low = near * self.rest as u64; let middle = near * (self.half_share as u32 as u64) + (low >> 32);
     let words = (near * (self.half_share >> 32) + (middle >> 32)) << 32 | middle as u32 as u64;
@@ -41,6 +56,62 @@ valid(
     "in_u64: a fraction and half a pulse stay within 64 bits, but for the last off at 1, which becomes 0",
     Implies(And(whole, product >= k, product + k <= 2**64), And(product - half >= 0, product + half <= 2**64)),
     Implies(And(whole, product >= k, product + k <= 2**64), product + half < 2**64),
+)
+
+# `words`, in 96 bits: the fraction is the half share, with its rest, times `odd`; the next one is a share more. The upper word of
+# `below` is the middle one of the three.
+half_share, rest, odd_bits, factor = BitVec("half_share", 64), BitVec("rest", 32), BitVec("odd", 32), BitVec("factor", 96)
+half96 = Concat(half_share, rest)
+u = BitVec("u", 64)
+below = u << 32 | ZeroExt(32, rest * odd_bits)
+share = half_share << 1 | ZeroExt(32, LShR(rest, 31))
+share_word, share_below = Extract(63, 32, share), share << 32 | ZeroExt(32, rest << 1)
+valid(
+    "words: word and below are the fraction in 96 bits, of which in_u64 has the upper 64, and the share is twice the half of it",
+    And(
+        Concat(Extract(63, 32, u), below) == Concat(u, rest * odd_bits),
+        Concat(share_word, share_below) == half96 << 1,
+        Extract(31, 0, half96 * ZeroExt(64, odd_bits)) == rest * odd_bits,
+    ),
+    Concat(share_word, share_below) == half96,
+)
+whole, carried = Ints("whole carried")  # half_share times odd, and rest times odd
+valid(
+    "words: the upper 64 bits of that product are those of in_u64",
+    Implies(And(whole >= 0, carried >= 0), (whole * 2**32 + carried) / 2**32 == whole + carried / 2**32),
+    Implies(And(whole >= 0, carried >= 0), (whole * 2**32 + carried) / 2**32 == whole),
+)
+word, below, step_word, step_below = BitVec("word", 32), BitVec("below", 64), BitVec("step_word", 32), BitVec("step_below", 64)
+next_below = below + step_below
+carry = If(ULT(next_below, below), BitVecVal(1, 32), BitVecVal(0, 32))
+valid(
+    "words: a step adds the share in 96 bits",
+    Concat(word + step_word + carry, next_below) == Concat(word, below) + Concat(step_word, step_below),
+    Concat(word + step_word, next_below) == Concat(word, below) + Concat(step_word, step_below),
+)
+
+
+def up(word, below, bits):
+    middle, low = Extract(63, 32, below), Extract(31, 0, below)
+    word = word << 1 << bits | LShR(middle, 31 - bits)
+    middle = middle << 1 << bits | LShR(low, 31 - bits)
+    return Concat(word, middle, low << 1 << bits)
+
+
+less = BitVec("less", 1)
+lessened = below - Concat(BitVecVal(0, 31), less, BitVecVal(0, 32))
+borrow = If(ULT(below, Concat(BitVecVal(0, 31), less, BitVecVal(0, 32))), BitVecVal(1, 32), BitVecVal(0, 32))
+valid(
+    "behind: the words that begin so many bits and one farther, of what is less by as many units of 2^-64",
+    And(*(up(word - borrow, lessened, bits) == (Concat(word, below) - Concat(BitVecVal(0, 63), less, BitVecVal(0, 32))) << (bits + 1) for bits in range(32))),
+    And(*(up(word, lessened, bits) == (Concat(word, below) - Concat(BitVecVal(0, 63), less, BitVecVal(0, 32))) << (bits + 1) for bits in range(32))),
+)
+# `within`: so many shares, each less than `more` of 2^-32, are not beyond the reach. A share of all, 2^64, is counted as 1.
+share, more, reach = Ints("share more reach")
+valid(
+    "within: as many shares as it counts, less the first, come no farther than the reach",
+    Implies(And(share >= 0, share < more * 2**32, more >= 1, reach >= 0), (reach / more) * share <= reach * 2**32),
+    Implies(And(share >= 0, share < more * 2**32, more >= 1, reach >= 0), (reach / more + 1) * share <= reach * 2**32),
 )
 
 # `exactly`: the three products by words are the product.

@@ -41,15 +41,16 @@
 // Directly   `octave`: a polynomial that needs no search. How it is built: `path`, a ramp in `f64`; `span`, the part
 //            that it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of
 //            a side.
-// An answer  `plan`: the steps to a time, from an `f32` `u` and from a fraction of 64 bits. `by_octave`: from a time to
-//            its `u` by a polynomial; `cdf`: by any way, and the ways of openness and density. `doubles`: a short cut
-//            on processors of 64 bits, for one `u` and for many.
-// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `frame`, `schedule`, `pulse`: the times and ticks of triggers and
-//            pulses.
+// An answer  `plan`: the steps from a `u` to a time. `by_u64`: the direct ones from a fraction of 64 bits. `by_octave`:
+//            from a time to its `u` by a polynomial; `cdf`: by any way, and the ways of openness and density. `doubles`:
+//            a short cut on processors of 64 bits, for one `u` and for many.
+// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `fill`, `frame`, `schedule`, `pulse`: the times and ticks of
+//            triggers and pulses.
 mod bezier;
 mod bound;
 mod by_octave;
 mod by_time;
+mod by_u64;
 mod candidate;
 mod cdf;
 mod certificate;
@@ -58,6 +59,7 @@ mod doubles;
 mod error;
 mod exact;
 mod exposure;
+mod fill;
 mod fraction;
 mod frame;
 mod guess;

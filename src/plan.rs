@@ -31,8 +31,7 @@ use crate::pair::Pair;
 use crate::shape::Shape;
 use crate::span::Span;
 use crate::units::{
-    FINE, FINE_DOUBLE_WORD, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64,
-    time_unit,
+    FINE, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64, time_unit,
 };
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +45,7 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) count: u32,
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
-    slope: i64,
+    pub(crate) slope: i64,
     /// For each side, the tops of its octaves by ramp. The near ramp's is raised by one octave for each of the far
     /// ramp's, so that a difference to a top is an index among both ([`octaves::build`]).
     pub(crate) tops: [[u8; 2]; 2],
@@ -106,7 +105,7 @@ impl<const CELLS: usize> Plan<CELLS> {
 
     /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its
     /// length, that its area is less than 2⁴⁰ units, every `u` is searched for.
-    const fn is_fine(slope: i64) -> bool {
+    pub(crate) const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
 
@@ -237,7 +236,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The same at a `u` in units of 2⁻³².
     // proofs/words.py
     #[inline(always)]
-    fn on_line(&self, u: u32) -> i64 {
+    pub(crate) fn on_line(&self, u: u32) -> i64 {
         let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
         let way = high * u as u64 + ((low * u as u64) >> 32);
         self.base.wrapping_add(way as i64)
@@ -302,44 +301,6 @@ impl<const CELLS: usize> Plan<CELLS> {
         least
     }
 
-    /// The plateau by `u` in units of 2⁻⁶⁴.
-    pub(crate) fn plateau_u64(&self) -> PlateauU64 {
-        let [near, far] = self.exposure.joins_u64();
-        // With a plateau both joins count as on the line, also one at 1/2. Without one, a `u` at the join counts as on
-        // the closing ramp. At 1/2 it has to: `direct_u64` counts 1/2 from side 1.
-        let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
-        let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
-        // By the slope, not by `count`: a plateau too short for an `f32` may hold fractions of 64 bits.
-        let serves = Self::is_fine(self.slope);
-        PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } }
-    }
-
-    /// The time, in units, at a `u` in units of 2⁻⁶⁴, if the plateau's line or a polynomial gives it.
-    // proofs/octaves.py
-    #[inline(always)]
-    pub(crate) fn direct_u64(&self, u: u64, plateau: &PlateauU64) -> Option<i64> {
-        let (before_last, is_beyond) = plateau.last.overflowing_sub(u);
-        if before_last < plateau.count {
-            return Some(self.on_line((u >> 32) as u32));
-        }
-        let side = (u >> 63) as usize;
-        let a = if side == 0 { u } else { u.wrapping_neg() };
-        let (high, low) = ((a >> 32) as u32, a as u32);
-        // If the upper word is 0, `a` is below all octaves, and the index is that of none, or of one without a
-        // polynomial.
-        let zeros = high.leading_zeros();
-        let significand = high << (zeros & 31) | low >> 1 >> (31u32.wrapping_sub(zeros) & 31);
-        let significand = significand & !(1 << 31);
-        // As in `look_up`, but that the exponents stand apart: that of `a` is the one of 1/2, less the zeros.
-        const OF_HALF: u32 = 0.5f32.to_bits() >> 23;
-        let top = octave::top(self.tops[side & 1][is_beyond as usize]);
-        let below = (top << 9 >> 1) as i32 - significand as i32;
-        let index = (top >> 23).wrapping_add(zeros).wrapping_add((below >> 31) as u32);
-        let octave = self.octaves[side & 1].get(index.wrapping_sub(OF_HALF) as usize)?;
-        let position = significand as i32 | below & i32::MIN;
-        octave.exists().then(|| octave.time(octave.offset(position)))
-    }
-
     /// The plateau's line in doubles: its time at `u = 0`, its slope, the time of a unit, and the `u` that it serves:
     /// above the first, up to the second.
     #[inline(always)]
@@ -348,13 +309,6 @@ impl<const CELLS: usize> Plan<CELLS> {
         let bounds = [self.last.wrapping_sub(self.count), self.last].map(f32::from_bits);
         (self.base as f64 * unit, self.slope as f64 * unit, unit, bounds)
     }
-}
-
-/// The plateau by `u` in units of 2⁻⁶⁴: the last one, and how many there are.
-#[derive(Clone)]
-pub(crate) struct PlateauU64 {
-    last: u64,
-    count: u64,
 }
 
 /// The upper word of a time, to be converted instead of both.

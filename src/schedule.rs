@@ -153,18 +153,10 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(ticks.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
-        let frame = Ticks::new(&self.plan, n, tick_hz)?;
-        let mut earliest = 0;
-        for (i, place) in (0..n).zip(ticks) {
-            let tick = frame.at(i);
-            if tick < earliest {
-                return Err(frame.too_close(i, min_gap));
-            }
-            *place = tick;
-            // A sum beyond 32 bits is beyond all ticks.
-            earliest = tick.saturating_add(min_gap);
-        }
-        Ok(())
+        // Used where it was made: moved out of the `Result`, it would be copied twice.
+        let frame = Ticks::new(&self.plan, n, tick_hz);
+        let frame = frame.as_ref().map_err(|error| *error)?;
+        frame.fill(ticks, min_gap).map_err(|i| frame.too_close(i, min_gap))
     }
 
     /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers, with feature `heapless-v0_9`.

@@ -1,11 +1,12 @@
 //! From fractions of the exposure to the ticks of a timer.
 
+use crate::by_u64::{Direct, PlateauU64};
 use crate::error::ScheduleError;
 use crate::exposure::FOR_TICK;
 use crate::fraction::{Edge, Fractions};
 use crate::moment::Moment;
 use crate::pair::Pair;
-use crate::plan::{Plan, PlateauU64};
+use crate::plan::Plan;
 use crate::units::fixed;
 
 /// In an interval of more than 2^`DIRECT_TICKS` ticks a polynomial may be off by more than a quarter of a tick: there
@@ -20,12 +21,12 @@ pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
 /// What places the triggers of one frame.
 #[derive(Clone)]
 pub(crate) struct Ticks<'a, const CELLS: usize> {
-    plan: &'a Plan<CELLS>,
+    pub(crate) plan: &'a Plan<CELLS>,
     pub(crate) fractions: Fractions,
     tick_hz: u32,
-    plateau: PlateauU64,
+    pub(crate) plateau: PlateauU64,
     /// None if all triggers of the frame are searched for.
-    scale: Option<TickScale>,
+    pub(crate) scale: Option<TickScale>,
 }
 
 impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
@@ -70,7 +71,11 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         let scale = self.scale.as_ref()?;
         // A frame of which some are direct has so few that this fits.
         let odd = i.wrapping_mul(2) | 1;
-        let time = self.plan.direct_u64(self.fractions.in_u64(odd, edge), &self.plateau)?;
+        let u = self.fractions.in_u64(odd, edge);
+        let time = match self.plan.direct_u64(u, &self.plateau)? {
+            Direct::Line => self.plan.on_line((u >> 32) as u32),
+            Direct::Octave(octave) => octave.time(u),
+        };
         Some(scale.tick(time))
     }
 

@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{CubicBezier, ShutterCurve, valid};
+use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve, valid};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
 use support::oracle::{Curve, Dd, Exact, Points};
@@ -313,10 +313,50 @@ fn direct_frames_of_random_curves() {
     assert!(none < 200, "{none}");
 }
 
+/// A schedule is filled by stretches, and has to have the ticks of each trigger alone; and the first that comes too soon.
+fn judge_filled<const CELLS: usize>(curve: &Curve, n: u32, hz: u32) {
+    let shutter = shutter::<CELLS>(curve);
+    let Ok(ticks) = shutter.trigger_ticks(n, hz) else { return };
+    let ticks: Vec<u32> = ticks.collect();
+    let mut filled = vec![0; n as usize];
+    shutter.schedule_into(&mut filled, hz, 0).unwrap();
+    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, CELLS = {CELLS}: {curve:?}");
+    let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut sorted: Vec<u32> = gaps.clone().collect();
+    sorted.sort_unstable();
+    for min_gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten()
+    {
+        let min_gap = min_gap + 1;
+        let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
+        let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
+        let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
+        assert_eq!(shutter.schedule_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
+    }
+}
+
+#[test]
+fn a_filled_schedule_is_each_trigger_alone() {
+    let random = (0..60).flat_map(|i| [random_typical(7, i), random_hard(7, i)]);
+    for curve in named().into_iter().map(|named| named.curve).chain(random) {
+        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        for n in [1, 2, 3, 5, 16, 63, 64, 100, 1000, 4097] {
+            // Beyond 2²⁴ ticks all are searched for.
+            for most in [f64::from(n), 1e5, 1e7, 1e8] {
+                let hz = (most / length).clamp(1.0, 4e9) as u32;
+                if most < 2e7 || n < 20 {
+                    judge_filled::<8>(&curve, n, hz);
+                    judge_filled::<64>(&curve, n, hz);
+                }
+            }
+        }
+        judge_filled::<0>(&curve, 7, (1e6 / length).clamp(1.0, 4e9) as u32);
+    }
+    judge_filled::<8>(&random_typical(7, 0), 1 << 22, 1 << 22);
+}
+
 #[cfg(feature = "heapless-v0_9")]
 mod checked {
-    use super::SOFT;
-    use shutter_curve::ScheduleError;
+    use super::{SOFT, ScheduleError};
 
     #[test]
     fn a_schedule_is_the_ticks() {

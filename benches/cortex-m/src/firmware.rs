@@ -91,10 +91,10 @@ pub fn cargo(core: Core, program: &str, level: Option<&str>) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(folder()).args(["build", "--quiet", "--package", "measured"]);
     cargo.args(["--bin", program, "--target", core.target]);
-    // These replace the flags that the crate's example needs. The compiler's stack figures need a flag
-    // that is not stable.
+    // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not stable. On a board
+    // each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
     let flags = match core.runs_in {
-        Board(_) => "-C link-arg=-Tlink.x -Z emit-stack-sizes",
+        Board(_) => "-C link-arg=-Tlink.x -Z emit-stack-sizes -C llvm-args=-align-all-functions=2",
         // No library of Linux's is linked, so none of its linkers is needed.
         Linux(_) => {
             "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static -Z emit-stack-sizes"
