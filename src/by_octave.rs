@@ -8,7 +8,7 @@
 
 use crate::octave::{self, FINER, Octave, times_high};
 use crate::plan::Plan;
-use crate::units::{TOP_STEP, WORD};
+use crate::units::TOP_STEP;
 
 const HALF: u32 = 0.5f32.to_bits();
 const ONE: u32 = 1.0f32.to_bits();
@@ -159,17 +159,39 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 }
 
+/// 1 in fixed point with 27 bits behind the point, where quotients of coefficients may be up to 16.
+const FIXED_ONE: i32 = 1 << 27;
+
+/// The product of two numbers in fixed point.
+#[inline(always)]
+fn times_fixed(a: i32, b: i32) -> i32 {
+    times_high(a << 5, b)
+}
+
+/// Nearly 2⁵⁹ over a divisor of 29 to 32 bits, so that the upper word of its product with a number is that over the
+/// divisor, in fixed point. It takes one division of 32 bits, and is good to some 15.
+#[inline(always)]
+fn reciprocal(divisor: u32) -> i32 {
+    u32::MAX.checked_div(divisor >> 15).unwrap_or(0).wrapping_shl(12) as i32
+}
+
 impl Octave {
-    /// Nearly the position, doubled where it has to be, at which the polynomial is `y`.
+    /// Nearly the position, doubled where it has to be, at which the polynomial is `y`. By integers, which are quick
+    /// without an FPU, too; where one overflows, the guess is wrong, as any guess may be.
     #[inline(always)]
     fn inverted(&self, y: i32) -> u32 {
         let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
         // The inverse's own series from the middle ...
-        let inverse = 1.0 / c1 as f32;
-        let [n, r2, r3, r4] = [y, c2, c3, c4].map(|c| c as f32 * inverse);
-        let bend = r2 * r2 - r3;
-        let x = n - n * n * (r2 - n * (r2 * r2 + bend - n * (r4 + 5.0 * r2 * bend)));
-        let x = (x * WORD) as i32;
+        let inverse = reciprocal(c1 as u32);
+        let excess = times_high(c1, inverse).wrapping_sub(FIXED_ONE);
+        let inverse = inverse.wrapping_sub(times_fixed(excess, inverse));
+        let [n, r2, r3, r4] = [y, c2, c3, c4].map(|c| times_high(c, inverse));
+        let square = times_fixed(r2, r2);
+        let bend = square.wrapping_sub(r3);
+        let third = r4.wrapping_add(times_fixed(r2, bend).wrapping_mul(5));
+        let second = square.wrapping_add(bend).wrapping_sub(times_fixed(n, third));
+        let first = r2.wrapping_sub(times_fixed(n, second));
+        let x = n.wrapping_sub(times_fixed(times_fixed(n, n), first)) << 5;
         // ... and one step of Newton's, with value and slope by synthetic division.
         let mul = |a: i32| times_high(a, x);
         let (mut value, mut slope) = (c8, c8);
@@ -177,9 +199,9 @@ impl Octave {
             value = mul(value).wrapping_add(c);
             slope = mul(slope).wrapping_add(value);
         }
-        // A slope may fill 32 bits.
-        let step = y.wrapping_sub(mul(value)) as f32 / slope as u32 as f32;
-        let x = x.wrapping_add((step * WORD) as i32);
+        // A slope may fill 32 bits. The product with what is missing counts 2⁻³², as `x` does.
+        let missing = y.wrapping_sub(mul(value));
+        let x = x.wrapping_add(times_fixed(missing, reciprocal(slope as u32)));
         (x >> (self.center & FINER)).wrapping_add(self.center as i32) as u32
     }
 }
