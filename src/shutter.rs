@@ -115,7 +115,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        match Plan::new(&opening, &closing, Part::Opening, 1.0) {
+        match Plan::new(&opening, &closing) {
             Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }

@@ -4,7 +4,7 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{BezierPdf, CubicBezier, CurveError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, uniform};
@@ -100,8 +100,6 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
         slice(hash, &curve);
         schedules(hash, &curve);
     }
-    single::<CELLS>(hash, opening);
-    single::<CELLS>(hash, closing);
 
     // The other forms, with the times and the inner control points of this one.
     let [opening, closing] = ramps;
@@ -188,19 +186,6 @@ fn schedules<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
             let most = hash.made(curve.most_triggers(n, hz, gap));
             hash.add(most);
         }
-    }
-}
-
-fn single<const CELLS: usize>(hash: &mut Fnv, curve: CubicBezier) {
-    let times = curve.points().map(|(t, _)| t);
-    let default = hash.curve(BezierPdf::new(curve));
-    hash.floats(default.map(|pdf| pdf.area()));
-    let Some(pdf) = hash.curve(BezierPdf::<CELLS>::with_cells(curve)) else { return };
-    hash.floats([pdf.area(), pdf.normalization()]);
-    hash.add([pdf == black_box(pdf)]);
-    for u in (0..32).map(uniform).chain(ODD) {
-        let t = times[0] + (times[3] - times[0]) * u;
-        hash.floats([pdf.inverse_cdf(u), pdf.cdf(t), pdf.pdf(t)]);
     }
 }
 
