@@ -37,7 +37,7 @@ pub enum CurveError {
     OpennessAboveOne(Part),
     /// The area under the curve is 0: nothing is ever exposed.
     ZeroArea,
-    /// The area under the curve, or its reciprocal, is beyond the normal range of `f32`: it is outside [2⁻¹²⁶, 2¹²⁶].
+    /// The area under the curve is below the normal range of `f32`: less than 2⁻¹²⁶.
     AreaOutOfRange,
 }
 
@@ -80,9 +80,7 @@ impl CurveError {
             E::NegativeOpenness(r) => at!(r, "the openness falls below 0"),
             E::OpennessAboveOne(r) => at!(r, "the openness rises above 1"),
             E::ZeroArea => "the area under the curve is 0",
-            E::AreaOutOfRange => {
-                "the area under the curve is below 2^-126 (1.2e-38) or above 2^126 (8.5e37)"
-            }
+            E::AreaOutOfRange => "the area under the curve is below 2^-126 (1.2e-38)",
         }
     }
 }

@@ -74,7 +74,8 @@ impl Exposure {
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
-        if !((area as f32).is_normal() && ((1.0 / area) as f32).is_normal()) {
+        // It is at most as great as an interval, so only too small; the reciprocal of a normal one is normal, too.
+        if !(area as f32).is_normal() {
             return Err(CurveError::AreaOutOfRange);
         }
         let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];
