@@ -7,12 +7,16 @@
 set -euo pipefail
 
 targets=(
-    thumbv7em-none-eabihf thumbv6m-none-eabi riscv32imc-unknown-none-elf riscv64gc-unknown-none-elf
-    i686-unknown-linux-gnu s390x-unknown-linux-gnu wasm32-unknown-unknown
+    thumbv7em-none-eabihf thumbv6m-none-eabi riscv32imc-unknown-none-elf s390x-unknown-linux-gnu wasm32-unknown-unknown
 )
 case ${1:-} in
 some) ;;
-all) targets+=(thumbv8m.main-none-eabihf riscv32imafc-unknown-none-elf powerpc-unknown-linux-gnu) ;;
+all)
+    targets+=(
+        thumbv8m.main-none-eabihf riscv32imafc-unknown-none-elf riscv64gc-unknown-none-elf i686-unknown-linux-gnu
+        powerpc-unknown-linux-gnu
+    )
+    ;;
 *) echo "usage: matrix.sh some|all COMMAND" >&2 && exit 2 ;;
 esac
 shift

@@ -50,7 +50,7 @@ impl Side<'_> {
         );
         let single_step = step as f32;
         let per_tick = single_step / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
-        // In `f64`, since the openness of a single curve may have any scale.
+        // In `f64`, since a faint curve has an area of as little as 2⁻¹²⁶.
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
             single_step / self.size_of_time(ends[0]) / FORWARD_ERROR,

@@ -10,8 +10,6 @@ pub enum Part {
     Opening,
     /// The ramp from `close_start` to `close_end`.
     Closing,
-    /// The one curve of a [`BezierPdf`](crate::BezierPdf).
-    Single,
 }
 
 /// Why a curve was not built.
@@ -21,8 +19,7 @@ pub enum Part {
 pub enum CurveError {
     /// A control point of the ramp is NaN or infinite, which is also what becomes of a number above 3.4e38 in `f32`.
     NotFinite(Part),
-    /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`
-    /// (for a single curve: it ends before it starts).
+    /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`.
     TimesOutOfOrder,
     /// `open_start` and `close_end` are the same `f32`: there is no interval, or it is so short for its distance from
     /// time 0 that `f32` cannot tell its ends apart. Count times from a nearer origin.
@@ -40,7 +37,7 @@ pub enum CurveError {
     OpennessAboveOne(Part),
     /// The area under the curve is 0: nothing is ever exposed.
     ZeroArea,
-    /// The area under the curve, or its reciprocal, is beyond the normal range of `f32`: it is outside [2⁻¹²⁶, 2¹²⁶].
+    /// The area under the curve is below the normal range of `f32`: less than 2⁻¹²⁶.
     AreaOutOfRange,
 }
 
@@ -49,7 +46,6 @@ macro_rules! at {
         match $ramp {
             Part::Opening => concat!("opening ramp: ", $reason),
             Part::Closing => concat!("closing ramp: ", $reason),
-            Part::Single => concat!("curve: ", $reason),
         }
     };
 }
@@ -77,16 +73,14 @@ impl CurveError {
                 "closing ramp: time turns back along it; \
                  t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end"
             }
-            E::InnerTimesTurnBack(_) => {
+            E::InnerTimesTurnBack(Part::Opening) => {
                 "opening ramp: time turns back along it; \
                  t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end"
             }
             E::NegativeOpenness(r) => at!(r, "the openness falls below 0"),
             E::OpennessAboveOne(r) => at!(r, "the openness rises above 1"),
             E::ZeroArea => "the area under the curve is 0",
-            E::AreaOutOfRange => {
-                "the area under the curve is below 2^-126 (1.2e-38) or above 2^126 (8.5e37)"
-            }
+            E::AreaOutOfRange => "the area under the curve is below 2^-126 (1.2e-38)",
         }
     }
 }

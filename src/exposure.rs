@@ -38,16 +38,14 @@ enum Section {
 }
 
 impl Exposure {
-    /// The exposure of two ramps with an openness of at most `most`. Errors call the first one `part`. Out of line, so
-    /// that all constructors that are called at run time share it.
+    /// The exposure of two ramps and what is between them. Out of line, so that all constructors that are called at run
+    /// time share it.
     #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
-        part: Part,
-        most: f64,
     ) -> Result<Self, CurveError> {
-        if let Err(error) = check_finite(opening, part) {
+        if let Err(error) = check_finite(opening, Part::Opening) {
             return Err(error);
         }
         if let Err(error) = check_finite(closing, Part::Closing) {
@@ -65,10 +63,10 @@ impl Exposure {
         if !(length >= 1.0 / DOUBLE_WORD && length <= DOUBLE_WORD) {
             return Err(CurveError::IntervalOutOfRange);
         }
-        if let Err(error) = check_ramp(opening, part, most) {
+        if let Err(error) = check_ramp(opening, Part::Opening) {
             return Err(error);
         }
-        if let Err(error) = check_ramp(closing, Part::Closing, most) {
+        if let Err(error) = check_ramp(closing, Part::Closing) {
             return Err(error);
         }
         let plateau = close as f64 - open as f64;
@@ -76,7 +74,8 @@ impl Exposure {
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
-        if !((area as f32).is_normal() && ((1.0 / area) as f32).is_normal()) {
+        // It is at most as great as an interval, so only too small; the reciprocal of a normal one is normal, too.
+        if !(area as f32).is_normal() {
             return Err(CurveError::AreaOutOfRange);
         }
         let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];

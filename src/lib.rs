@@ -3,8 +3,8 @@
 //!
 //! [`ShutterCurve`] is the shutter: [`inverse_cdf`](ShutterCurve::inverse_cdf) gives the time by which a fraction of
 //! the exposure has been collected, [`trigger_ticks`](ShutterCurve::trigger_ticks) the ticks of a timer at which pulses
-//! get equal shares of it. [`BezierPdf`] is one [`CubicBezier`] alone. Both are built by `const fn`s, and [`valid`]
-//! turns a wrong curve in a `static` into a compile error.
+//! get equal shares of it. It is built of two [`CubicBezier`]s by a `const fn`, and [`valid`] turns a wrong curve in a
+//! `static` into a compile error.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, valid};
@@ -44,8 +44,8 @@
 // An answer  `plan`: the steps from a `u` to a time. `by_u64`: the direct ones from a fraction of 64 bits. `by_octave`:
 //            from a time to its `u` by a polynomial; `cdf`: by any way, and the ways of openness and density. `doubles`:
 //            a short cut on processors of 64 bits, for one `u` and for many.
-// Outside    `shutter`, `pdf`. `fraction`, `ticks`, `fill`, `frame`, `schedule`, `pulse`: the times and ticks of
-//            triggers and pulses.
+// Outside    `shutter`. `fraction`, `ticks`, `fill`, `frame`, `schedule`, `pulse`: the times and ticks of triggers
+//            and pulses.
 mod bezier;
 mod bound;
 mod by_octave;
@@ -69,7 +69,6 @@ mod octave;
 mod octaves;
 mod pair;
 mod path;
-mod pdf;
 mod plan;
 mod pulse;
 mod quick;
@@ -85,7 +84,6 @@ mod units;
 
 pub use bezier::CubicBezier;
 pub use error::{CurveError, Part, ScheduleError, valid};
-pub use pdf::BezierPdf;
 pub use pulse::PulseTicks;
 pub use schedule::{TriggerTicks, TriggerTimes};
 pub use shutter::ShutterCurve;

@@ -1,5 +1,5 @@
 //! How one `u` is answered. The plateau's line or an octave's polynomial gives the time as a 64-bit count of units,
-//! which is rounded once. Where neither serves, a search finds it. Each of the two public curves holds one plan.
+//! which is rounded once. Where neither serves, a search finds it. A curve holds one plan.
 //!
 //! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
 //!
@@ -23,7 +23,7 @@
 //! the order holds where a search follows a polynomial or the line.
 
 use crate::bezier::CubicBezier;
-use crate::error::{CurveError, Part};
+use crate::error::CurveError;
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::octave::{self, NO_TIME, Octave};
 use crate::octaves;
@@ -54,18 +54,15 @@ pub(crate) struct Plan<const CELLS: usize> {
 }
 
 impl<const CELLS: usize> Plan<CELLS> {
-    /// The plan of two ramps with an openness of at most `most`. Errors call the first one `part`: the opening ramp, or
-    /// a single curve.
+    /// The plan of two ramps and what is between them.
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
-        part: Part,
-        most: f64,
     ) -> Result<Self, CurveError> {
         // A fraction of 0 has to fall into no octave: by its bits, it is 99 octaves or more below every top. (Only
         // about 30 octaves a side can have a polynomial.)
         const { assert!(CELLS <= 64, "at most 64 octaves a side") };
-        let exposure = match Exposure::new(opening, closing, part, most) {
+        let exposure = match Exposure::new(opening, closing) {
             Ok(exposure) => exposure,
             Err(error) => return Err(error),
         };

@@ -21,15 +21,11 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
     Ok(())
 }
 
-/// Does time run forward, and does the openness stay in [0, `most`]?
+/// Does time run forward, and does the openness stay in [0, 1]?
 ///
 /// A curve that touches its bound rarely has control values that are `f32` (a value of -1/3 is rounded), so both may
 /// graze their bound by [`GRAZE`] of the ramp's length or of the greatest |f|.
-pub(crate) const fn check_ramp(
-    curve: &CubicBezier,
-    part: Part,
-    most: f64,
-) -> Result<(), CurveError> {
+pub(crate) const fn check_ramp(curve: &CubicBezier, part: Part) -> Result<(), CurveError> {
     let t = widened(curve.times());
     // Time may not leave the ramp, but rounding may put the first inner control time a trace before its start. If the
     // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much
@@ -45,7 +41,7 @@ pub(crate) const fn check_ramp(
     if low < -GRAZE * size {
         return Err(CurveError::NegativeOpenness(part));
     }
-    if high > most * (1.0 + GRAZE) {
+    if high > 1.0 + GRAZE {
         return Err(CurveError::OpennessAboveOne(part));
     }
     Ok(())

@@ -109,13 +109,13 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
-    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or whose reciprocal
-    /// `f32` cannot hold. Openness and time may pass their bounds by 2⁻²², for the rounding of control points.
+    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
+    /// 2⁻¹²⁶. Openness and time may pass their bounds by 2⁻²², for the rounding of control points.
     pub const fn with_cells(
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        match Plan::new(&opening, &closing, Part::Opening, 1.0) {
+        match Plan::new(&opening, &closing) {
             Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
         }

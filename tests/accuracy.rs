@@ -4,7 +4,7 @@
 
 mod support;
 
-use shutter_curve::{BezierPdf, CubicBezier, CurveError, MAX_EVALUATIONS, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, ShutterCurve};
 use support::cases::shutter;
 use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
 use support::oracle::{Curve, Exact, Points, ulp_f32};
@@ -189,7 +189,6 @@ fn nearly_flat_places() {
             let curve = Curve {
                 opening: [(0.0, 1.0), (t1, 1.0 - dip), (t2, 1.0 - dip), (1.0, 1.0)],
                 closing: [(1.0, 1.0); 4],
-                is_shutter: true,
             };
             let exact = Exact::new(&curve);
             // The mass up to the middle, and fractions around it on a logarithmic scale.
@@ -311,31 +310,31 @@ fn openness_in_a_deep_dip() {
     }
 }
 
-/// A single Bezier of any scale.
+/// A ramp alone, as faint as a curve may be.
 #[test]
-fn single_curves() {
+fn single_ramps() {
     let mut backward = 0.0f64;
     for i in 0..3000 {
         let curve = random_single(6, i);
         let exact = Exact::new(&curve);
-        let pdf: BezierPdf = BezierPdf::new(CubicBezier::new(curve.opening)).unwrap();
+        let ours = shutter::<8>(&curve);
         let mut last = curve.open_start();
         let mut us = hard_us(&exact, i, 8);
         us.sort_by(f32::total_cmp);
         for u in us.into_iter().step_by(17) {
-            let t = pdf.inverse_cdf(u);
+            let t = ours.inverse_cdf(u);
             assert!(t >= last, "back to {t} from {last} at {u:e} of {curve:?}");
             last = t;
             backward = backward.max(exact.judge(u, t).backward);
             assert!(backward <= BACKWARD, "{u:e} {t:e} {curve:?}");
-            assert!(exact.cdf_ulp(pdf.cdf(t), t, CDF_FLOOR) <= VALUE);
-            let error = exact.pdf_ulp(pdf.pdf(t), t);
-            assert!(error <= VALUE, "{error} ulp: pdf({t:e}) = {:e} of {curve:?}", pdf.pdf(t));
+            assert!(exact.cdf_ulp(ours.cdf(t), t, CDF_FLOOR) <= VALUE);
+            let error = exact.pdf_ulp(ours.pdf(t), t);
+            assert!(error <= VALUE, "{error} ulp: pdf({t:e}) = {:e} of {curve:?}", ours.pdf(t));
         }
-        let error = (pdf.area() as f64 - exact.area().hi).abs() / ulp_f32(exact.area().hi);
+        let error = (ours.exposure() as f64 - exact.area().hi).abs() / ulp_f32(exact.area().hi);
         assert!(error <= SCALAR);
     }
-    println!("single curves: backward {backward:.3} ulp(u)");
+    println!("single ramps: backward {backward:.3} ulp(u)");
 }
 
 /// Neighbouring `u` by the hundred thousand: from both ends, at the landmarks and anywhere.
@@ -528,7 +527,7 @@ fn extremes() {
             curves.push(Curve::shutter(dark, darker));
         }
     }
-    for height in [1e-37f32, 1e-30, 1e-20, 1.0, 1e20, 1e30, 3e38] {
+    for height in [1e-37f32, 1e-30, 1e-20, 1.0] {
         for length in [6e-20f32, 1e-10, 1.0, 1e10, 1.8e19] {
             let at = |t: f32, f: f32| (length * t, height * f);
             curves.push(Curve::single([at(0.0, 0.0), at(0.3, 0.0), at(0.6, 1.0), at(1.0, 1.0)]));
@@ -543,41 +542,26 @@ fn extremes() {
         let exact = Exact::new(&curve);
         let mut us = hard_us(&exact, 11, 8);
         us.sort_by(f32::total_cmp);
-        let mut ts: Vec<f32> = if curve.is_shutter {
-            let shutter = match ShutterCurve::<8>::with_cells(opening, closing) {
-                Ok(shutter) => shutter,
-                Err(error) => {
-                    assert!(refused(error), "{error}: {curve:?}");
-                    continue;
-                }
-            };
-            judge::<0>(&exact, &us, &mut Worst::default());
-            judge::<8>(&exact, &us, &mut Worst::default());
-            us.iter().map(|u| shutter.inverse_cdf(*u)).collect()
-        } else {
-            let pdf = match BezierPdf::<8>::with_cells(opening) {
-                Ok(pdf) => pdf,
-                Err(error) => {
-                    assert!(refused(error), "{error}: {curve:?}");
-                    continue;
-                }
-            };
-            us.iter().map(|u| pdf.inverse_cdf(*u)).collect()
+        let direct = match ShutterCurve::<8>::with_cells(opening, closing) {
+            Ok(direct) => direct,
+            Err(error) => {
+                assert!(refused(error), "{error}: {curve:?}");
+                continue;
+            }
         };
+        let searched = shutter::<0>(&curve);
+        judge::<0>(&exact, &us, &mut Worst::default());
+        judge::<8>(&exact, &us, &mut Worst::default());
+        let mut ts: Vec<f32> = us.iter().map(|u| direct.inverse_cdf(*u)).collect();
         assert!(ts.is_sorted());
         ts.extend((0..=40).map(|i| curve.opening[3].0 * (i as f32 / 40.0)));
         ts.extend((0..20).map(f32::from_bits));
         for t in ts.into_iter().filter(|t| *t <= curve.close_end()) {
-            let (cdf, pdf) = if curve.is_shutter {
-                let curve = ShutterCurve::<0>::with_cells(opening, closing).unwrap();
-                let error = exact.openness_ulp(curve.opening(t), t);
-                assert!(error <= VALUE, "opening({t:e}) {error} ulp of {curve:?}");
-                (curve.cdf(t), curve.pdf(t))
-            } else {
-                let pdf = BezierPdf::<0>::with_cells(opening).unwrap();
-                (pdf.cdf(t), pdf.pdf(t))
-            };
-            let errors = [exact.cdf_ulp(cdf, t, CDF_FLOOR), exact.pdf_ulp(pdf, t)];
+            let errors = [
+                exact.cdf_ulp(searched.cdf(t), t, CDF_FLOOR),
+                exact.openness_ulp(searched.opening(t), t),
+                exact.pdf_ulp(searched.pdf(t), t),
+            ];
             assert!(errors.iter().all(|e| *e <= VALUE), "{errors:?} ulp at {t:e} of {curve:?}");
         }
         checked += 1;

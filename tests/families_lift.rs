@@ -11,7 +11,6 @@ mod cubic;
 mod lift;
 mod support;
 
-use shutter_curve::{BezierPdf, CubicBezier};
 use support::aimed::{aimed_ts, aimed_us};
 use support::cases::shutter;
 use support::curves::{Rng, hard_openness, hard_times, is_valid};
@@ -423,7 +422,7 @@ fn subnormal_openness_keeps_every_promise() {
         if !is_valid(&curve) {
             continue;
         }
-        let (exact, ours) = (Exact::new(&curve), BezierPdf::new(CubicBezier::new(points)).unwrap());
+        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
         let mut last = f32::NEG_INFINITY;
         for u in aimed_us(&exact, &mut rng) {
             let t = ours.inverse_cdf(u);

@@ -5,7 +5,7 @@ mod support;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
-use shutter_curve::{BezierPdf, CubicBezier, ShutterCurve};
+use shutter_curve::{CubicBezier, ShutterCurve};
 use support::oracle::{Curve, Exact};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
@@ -41,15 +41,13 @@ fn ramps() -> impl Strategy<Value = (Points, Points)> {
 #[test]
 fn enough_curves_are_accepted() {
     let mut runner = TestRunner::deterministic();
-    let (mut shutters, mut densities) = (0, 0);
+    let mut accepted = 0;
     for _ in 0..10_000 {
         let (opening, closing) = ramps().new_tree(&mut runner).expect("a value").current();
         let [opening, closing] = [opening, closing].map(CubicBezier::new);
-        shutters += u32::from(ShutterCurve::<0>::with_cells(opening, closing).is_ok());
-        densities += u32::from(BezierPdf::<0>::with_cells(opening).is_ok());
+        accepted += u32::from(ShutterCurve::<0>::with_cells(opening, closing).is_ok());
     }
-    println!("of 10 000: {shutters} shutters, {densities} densities");
-    assert!(shutters > 1000 && densities > 1000, "{shutters}, {densities}");
+    assert!(accepted > 1000, "{accepted} of 10 000");
 }
 
 proptest! {
@@ -95,28 +93,6 @@ proptest! {
                     prop_assert!(exact.pdf_ulp(pdf, t) <= VALUE, "pdf({:e}) = {:e}", t, pdf);
                 }
             }
-        }
-    }
-
-    #[test]
-    fn a_density_is_refused_or_keeps_its_promises(
-        (points, _) in ramps(),
-        f in prop::array::uniform4(number()),
-        u in number(),
-        t in number(),
-    ) {
-        let points = [0, 1, 2, 3].map(|i: usize| (points[i].0, f[i]));
-        let Ok(pdf) = BezierPdf::<4>::with_cells(CubicBezier::new(points)) else { return Ok(()) };
-        let exact = Exact::new(&Curve::single(points));
-        let time = pdf.inverse_cdf(u);
-        prop_assert!(time >= points[0].0 && time <= points[3].0);
-        if !u.is_nan() {
-            prop_assert!(exact.judge(u, time).backward <= BACKWARD);
-        }
-        prop_assert!((0.0..=1.0).contains(&pdf.cdf(t)) && pdf.pdf(t) >= 0.0);
-        if t >= points[0].0 && t <= points[3].0 {
-            prop_assert!(exact.cdf_ulp(pdf.cdf(t), t, CDF_FLOOR) <= VALUE, "cdf({:e}) = {:e}", t, pdf.cdf(t));
-            prop_assert!(exact.pdf_ulp(pdf.pdf(t), t) <= VALUE, "pdf({:e}) = {:e}", t, pdf.pdf(t));
         }
     }
 

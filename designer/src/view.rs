@@ -226,7 +226,6 @@ fn ramp(error: CurveError) -> Option<&'static str> {
         | E::OpennessAboveOne(ramp) => Some(match ramp {
             CurvePart::Opening => "opening",
             CurvePart::Closing => "closing",
-            CurvePart::Single => return None,
         }),
         _ => None,
     }

@@ -128,11 +128,9 @@ fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, see
 
 fn walk_on(curve: &Curve, samples: u32, seen: &mut [u32; 10]) {
     let exact = Exact::new(curve);
-    if curve.is_shutter {
-        let (eight, none): (ShutterCurve<8>, ShutterCurve<0>) = (shutter(curve), shutter(curve));
-        walk(&exact, &eight.plan, samples, seen);
-        walk(&exact, &none.plan, samples, seen);
-    }
+    let (eight, none): (ShutterCurve<8>, ShutterCurve<0>) = (shutter(curve), shutter(curve));
+    walk(&exact, &eight.plan, samples, seen);
+    walk(&exact, &none.plan, samples, seen);
 }
 
 #[test]

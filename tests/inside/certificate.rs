@@ -3,7 +3,6 @@
 use crate::bezier::CubicBezier;
 use crate::candidate::NODES;
 use crate::certificate::{FORWARD_ERROR, OFF, TICK_ERROR, ULP_ERROR};
-use crate::error::Part;
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
 use crate::octaves::{build, range};
@@ -42,7 +41,7 @@ impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
     fn judge<const CELLS: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
-        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1], Part::Opening, f64::INFINITY) else {
+        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];

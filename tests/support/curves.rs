@@ -155,15 +155,14 @@ pub fn random_hard(seed: u64, index: u64) -> Curve {
     drawn_until_valid(|| hard(&mut rng))
 }
 
-/// As [`random_hard`], but a single Bezier of any scale of f.
+/// As [`random_hard`], but a ramp with nothing after it, and as faint as a curve may be.
 pub fn random_single(seed: u64, index: u64) -> Curve {
     let mut rng = Rng::new(seed, index);
     drawn_until_valid(|| {
         let curve = hard(&mut rng);
         let points = if rng.chance(0.5) { curve.opening } else { curve.closing };
-        // Most of all that leaves area and openness numbers.
-        let most = if rng.chance(0.5) { 8.0 } else { 36.0 };
-        let scale = rng.power_of_ten(-most, most);
+        let least = if rng.chance(0.5) { -8.0 } else { -36.0 };
+        let scale = rng.power_of_ten(least, 0.0);
         Curve::single(points.map(|(t, f)| (t, (f as f64 * scale) as f32)))
     })
 }
@@ -322,15 +321,14 @@ pub fn is_valid(curve: &Curve) -> bool {
     if !times.is_sorted() || !(exp2(-64)..=exp2(64)).contains(&length) {
         return false;
     }
-    let most = if curve.is_shutter { 1.0 } else { f64::INFINITY };
-    if ![curve.opening, curve.closing].iter().all(|ramp| is_ramp(ramp, most)) {
+    if ![curve.opening, curve.closing].iter().all(is_ramp) {
         return false;
     }
     // The area and its reciprocal are normal numbers of f32.
     (exp2(-125)..=exp2(125)).contains(&Exact::new(curve).area().hi)
 }
 
-fn is_ramp(points: &Points, most: f64) -> bool {
+fn is_ramp(points: &Points) -> bool {
     let (t, f) = (points.map(|p| p.0 as f64), points.map(|p| p.1 as f64));
     let length = t[3] - t[0];
     // Time stays between its ends, but for what a start at the least slope explains, ...
@@ -343,7 +341,7 @@ fn is_ramp(points: &Points, most: f64) -> bool {
     let inside = if slowest > 0.0 && slowest < 1.0 { slope(slowest) } else { d0 };
     let runs_forward = d0.min(d2).min(inside) >= -GRAZE / 3.0 * length;
     let [low, high] = range(f);
-    !leaves && runs_forward && low >= -GRAZE * high.max(-low) && high <= most * (1.0 + GRAZE)
+    !leaves && runs_forward && low >= -GRAZE * high.max(-low) && high <= 1.0 + GRAZE
 }
 
 /// The `u` most likely to break a solver on this curve, and some `fresh` random ones.

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::thread;
 
 use crate::Result;
-use crate::firmware::{CORES, I686, OPT_LEVEL, build, folder, output, succeeded};
+use crate::firmware::{CORES, OPT_LEVEL, build, folder, output, succeeded};
 
 pub fn run() -> Result {
     // Those of `.ci/matrix.sh`, and without it all.
@@ -23,9 +23,7 @@ pub fn run() -> Result {
     thread::scope(|scope| {
         // The next is built while others run.
         let cores = CORES.into_iter().filter(|core| is_set_up(core.target)).map(|core| {
-            // On one, overflows are checked.
-            let level = (core != I686).then_some(OPT_LEVEL);
-            let program = build(core, "answers", level)?;
+            let program = build(core, "answers", OPT_LEVEL)?;
             Ok((core, scope.spawn(move || output(core, &program))))
         });
         for (core, run) in cores.collect::<Result<Vec<_>>>()? {

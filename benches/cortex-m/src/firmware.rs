@@ -37,9 +37,9 @@ pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", Board("mps
 pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", Linux("qemu-riscv32"));
 pub const IMAFC: Core =
     core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
-pub const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
-pub const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
-const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
+const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
+const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
+pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
 const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
 const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
 
@@ -67,29 +67,28 @@ pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Builds a program; without a level as one is debugged.
-pub fn build(core: Core, program: &str, level: Option<&str>) -> Result<PathBuf> {
+/// Builds a program.
+pub fn build(core: Core, program: &str, level: &str) -> Result<PathBuf> {
     if !cargo(core, program, level).status()?.success() {
         let target = core.target;
         let help = format!("`rustup target add {target}`, or run this by .ci/matrix.sh");
         return Err(format!("cannot build {program} for {target}; {help}").into());
     }
-    Ok(self::program(core, program, level))
+    Ok(self::program(core, program))
 }
 
 /// Where a program is that has been built.
-pub fn program(core: Core, program: &str, level: Option<&str>) -> PathBuf {
+pub fn program(core: Core, program: &str) -> PathBuf {
     let suffix = if core.runs_in == Node { ".wasm" } else { "" };
     let target =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
-    let profile = if level.is_some() { "release" } else { "debug" };
-    target.join(core.target).join(profile).join(format!("{program}{suffix}"))
+    target.join(core.target).join("release").join(format!("{program}{suffix}"))
 }
 
 /// The command that builds a program.
-pub fn cargo(core: Core, program: &str, level: Option<&str>) -> Command {
+pub fn cargo(core: Core, program: &str, level: &str) -> Command {
     let mut cargo = Command::new("cargo");
-    cargo.current_dir(folder()).args(["build", "--quiet", "--package", "measured"]);
+    cargo.current_dir(folder()).args(["build", "--quiet", "--release", "--package", "measured"]);
     cargo.args(["--bin", program, "--target", core.target]);
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not stable. On a board
     // each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
@@ -102,9 +101,10 @@ pub fn cargo(core: Core, program: &str, level: Option<&str>) -> Command {
         Node => "",
     };
     cargo.env("RUSTFLAGS", flags).env("RUSTC_BOOTSTRAP", "1");
-    cargo.env("CARGO_PROFILE_DEV_PANIC", "abort").env("CARGO_PROFILE_RELEASE_PANIC", "abort");
-    if let Some(level) = level {
-        cargo.arg("--release").env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
+    cargo.env("CARGO_PROFILE_RELEASE_PANIC", "abort").env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
+    if core == WASM {
+        // On one processor of 32 bits overflows are checked, as they are on the host where it is debugged.
+        cargo.env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", "true");
     }
     cargo
 }

@@ -54,7 +54,7 @@ pub fn on_row(function: Function, row: usize, cells: usize) -> Series {
 impl Measured {
     pub fn new(core: Core, level: &str, selections: &[u32]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
-        let elf = build(core, "cost", Some(level))?;
+        let elf = build(core, "cost", level)?;
         let (code, built) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
         let mut trace = Trace::default();
         for selection in selections {

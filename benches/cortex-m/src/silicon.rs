@@ -34,12 +34,12 @@ pub fn run() -> Result {
     let assembly = folder().join("target/p256.s");
     std::fs::create_dir_all(folder().join("target"))?;
     std::fs::write(&assembly, p256()?)?;
-    let mut build = cargo(M4F, "silicon", Some(OPT_LEVEL));
+    let mut build = cargo(M4F, "silicon", OPT_LEVEL);
     build.env("RUSTFLAGS", "-C link-arg=-Tlink.x --cfg p256").env("P256", &assembly);
     if !build.status()?.success() {
         return Err("cannot build what others have measured".into());
     }
-    let elf = program(M4F, "silicon", Some(OPT_LEVEL));
+    let elf = program(M4F, "silicon");
     let (calls, _) = replay(M4F, &elf, &Disassembly::of(M4F, &elf)?, None)?;
     let [(.., nothing), calls @ ..] = &calls[..] else { return Err("nothing was called".into()) };
     println!("| program | board | model | ratio | source |\n|---|--:|--:|--:|---|");

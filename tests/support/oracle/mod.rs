@@ -18,18 +18,16 @@ pub use lift::Points;
 pub struct Curve {
     pub opening: Points,
     pub closing: Points,
-    /// Openness is at most 1 on a shutter; a single Bezier may have any scale.
-    pub is_shutter: bool,
 }
 
 impl Curve {
     pub fn shutter(opening: Points, closing: Points) -> Self {
-        Self { opening, closing, is_shutter: true }
+        Self { opening, closing }
     }
 
-    /// One Bezier as a pdf: an opening ramp with nothing after it.
+    /// An opening ramp with nothing after it.
     pub fn single(points: Points) -> Self {
-        Self { opening: points, closing: [(points[3].0, 0.0); 4], is_shutter: false }
+        Self::shutter(points, [(points[3].0, 0.0); 4])
     }
 
     /// The curve run backwards: its times negated.
@@ -38,17 +36,13 @@ impl Curve {
             let [a, b, c, d] = points.map(|(t, f)| (-t, f));
             [d, c, b, a]
         };
-        if self.is_shutter {
-            Self::shutter(mirror(self.closing), mirror(self.opening))
-        } else {
-            Self::single(mirror(self.opening))
-        }
+        Self::shutter(mirror(self.closing), mirror(self.opening))
     }
 
     /// All times multiplied by a power of two, exactly unless they leave the normal numbers.
     pub fn scaled(&self, power: f32) -> Self {
         let scale = |points: Points| points.map(|(t, f)| (t * power, f));
-        Self { opening: scale(self.opening), closing: scale(self.closing), ..*self }
+        Self::shutter(scale(self.opening), scale(self.closing))
     }
 
     pub fn open_start(&self) -> f32 {
@@ -458,7 +452,7 @@ impl Exact {
                 .map(Dd::from);
         if t < start || t > end {
             Dd::ZERO
-        } else if t < open || (t == open && open == close && !self.opening.is_empty()) {
+        } else if self.opens_at(t) {
             self.bounded(self.opening.openness(self.opening.at_time(t)))
         } else if t <= close && open < close {
             Dd::ONE
@@ -467,10 +461,15 @@ impl Exact {
         }
     }
 
-    /// Rounding may let a shutter's openness pass 1 by a trace, and the oracle's own may miss 0 by less.
+    /// Is this time on the opening ramp? Where two ramps meet it is, if that ramp has a length.
+    fn opens_at(&self, t: Dd) -> bool {
+        let [open, close] = [self.curve.open_end(), self.curve.close_start()].map(Dd::from);
+        t < open || (t == open && open == close && !self.opening.is_empty())
+    }
+
+    /// Rounding may let the openness pass 1 by a trace, and the oracle's own may miss 0 by less.
     fn bounded(&self, f: Dd) -> Dd {
-        let most = if self.curve.is_shutter { Dd::ONE } else { f };
-        f.min(most).max(Dd::ZERO)
+        f.min(Dd::ONE).max(Dd::ZERO)
     }
 
     pub fn pdf(&self, t: f32) -> Dd {
@@ -544,8 +543,7 @@ impl Exact {
 
     /// An ulp is at least 2⁻³⁸ of the ramp's greatest openness, which is what is promised in a deep dip.
     fn density_ulp(&self, got: f32, t: f32, scale: Dd) -> f64 {
-        let is_opening = t < self.curve.open_end() || !self.curve.is_shutter;
-        let ramp = if is_opening { &self.opening } else { &self.closing };
+        let ramp = if self.opens_at(Dd::from(t)) { &self.opening } else { &self.closing };
         let least = exp2(-38) * ramp.greatest * scale.hi;
         let samples = self.times_near(t).map(|t| self.openness_dd(t));
         // Between two samples the openness may have an extremum, or a ramp its end.

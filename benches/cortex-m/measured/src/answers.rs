@@ -4,10 +4,10 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{BezierPdf, CubicBezier, CurveError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
 
 use crate::baseline::Ramp;
-use crate::{CURVES, uniform};
+use crate::{CURVES, DEFAULT, uniform};
 
 /// FNV-1a, a byte at a time, of numbers as each machine holds them: the low byte first.
 struct Fnv(u64);
@@ -68,23 +68,30 @@ const ODD: [f32; 12] = {
     [f32::NAN, NONE, -NONE, -1.0, 2.0, max, -max, least, 1e-45, -0.0, 1.0, below_1]
 };
 
-/// For every number of cells that is measured, 0, 4, 8 and 16, the hash of the answers of every curve of the data, built where
-/// this runs, and of what is said to curves that are none: with every hard input, as many uniform ones and odd ones.
+/// For every number of cells that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the data, built
+/// where this runs, with every hard input, as many uniform ones and odd ones; and of what is said to curves that are none.
+///
+/// Each curve has one number of cells, since an emulated processor without floats takes minutes for all.
 pub fn hashes() -> [u64; 4] {
     let hostile = HOSTILE.iter().map(|(t, f)| {
         let ramp = |i: usize| core::array::from_fn(|k| (t[i + k], f[i + k]));
-        ([ramp(0), ramp(4)], &[][..])
+        of_ramps([ramp(0), ramp(4)], &[])
     });
-    let curves = CURVES.iter().map(|curve| ([curve.opening, curve.closing], curve.hard));
-    curves.chain(hostile).fold([0; 4], |all, (ramps, us)| {
-        let more = of_ramps(ramps, us);
+    let mut all = hostile.fold([0; 4], |all: [u64; 4], more| {
         core::array::from_fn(|i| all[i].rotate_left(1) ^ more[i])
-    })
+    });
+    for (curve, i) in CURVES.iter().zip((0..4).cycle()) {
+        let more = OF[i]([curve.opening, curve.closing], curve.hard);
+        all[i] = all[i].rotate_left(1) ^ more;
+    }
+    all
 }
 
-/// The hashes of all that is made of two ramps, for each number of cells, the fractions ones beside others.
+/// The hash of all that is made of two ramps, by the number of cells, the fractions ones beside others.
+const OF: [fn([Ramp; 2], &[f32]) -> u64; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
+
 pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
-    [of::<0>(ramps, us), of::<4>(ramps, us), of::<8>(ramps, us), of::<16>(ramps, us)]
+    OF.map(|of| of(ramps, us))
 }
 
 fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
@@ -100,8 +107,6 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
         slice(hash, &curve);
         schedules(hash, &curve);
     }
-    single::<CELLS>(hash, opening);
-    single::<CELLS>(hash, closing);
 
     // The other forms, with the times and the inner control points of this one.
     let [opening, closing] = ramps;
@@ -112,12 +117,15 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let times = [a, b, c, d];
     let (opening, closing) = CubicBezier::shutteropening(times, inner);
     let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
-    for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)] {
-        let curve = hash.curve(curve);
-        hash.add(curve.map(|curve| curve.direct_triggers()));
+    if CELLS == DEFAULT {
+        for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)]
+        {
+            let curve = hash.curve(curve);
+            hash.add(curve.map(|curve| curve.direct_triggers()));
+        }
+        let mixed = hash.curve(ShutterCurve::new(opening, lines.1));
+        hash.floats(mixed.map(|curve| curve.exposure()));
     }
-    let mixed = hash.curve(ShutterCurve::new(opening, lines.1));
-    hash.floats(mixed.map(|curve| curve.exposure()));
     let other = [
         ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner),
         ShutterCurve::linear_with_cells(a, b, c, d),
@@ -188,19 +196,6 @@ fn schedules<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
             let most = hash.made(curve.most_triggers(n, hz, gap));
             hash.add(most);
         }
-    }
-}
-
-fn single<const CELLS: usize>(hash: &mut Fnv, curve: CubicBezier) {
-    let times = curve.points().map(|(t, _)| t);
-    let default = hash.curve(BezierPdf::new(curve));
-    hash.floats(default.map(|pdf| pdf.area()));
-    let Some(pdf) = hash.curve(BezierPdf::<CELLS>::with_cells(curve)) else { return };
-    hash.floats([pdf.area(), pdf.normalization()]);
-    hash.add([pdf == black_box(pdf)]);
-    for u in (0..32).map(uniform).chain(ODD) {
-        let t = times[0] + (times[3] - times[0]) * u;
-        hash.floats([pdf.inverse_cdf(u), pdf.cdf(t), pdf.pdf(t)]);
     }
 }
 
