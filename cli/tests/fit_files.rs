@@ -160,6 +160,25 @@ fn the_files_of_instruments_are_read_and_said_how() {
 }
 
 #[test]
+fn no_setting_and_no_sample_is_a_columns_name() {
+    let settings = ["Record Length,1200", "Sample Interval,1e-05", "Source,CH1"];
+    let tektronix = rows(|i, t, v| format!("{},,{t:.6},{v:.5},", settings.get(i).unwrap_or(&",")));
+    let lecroy = with("Segment,TrigTime\n#1,01-Jan-2024 10:00:00\nTime (s),Ampl\n", |_, t, v| {
+        format!("{t:.6},{v:.5}")
+    });
+    let bits = with("# Sample rate: 100000 Hz\n# bits: 12\n", |_, _, v| format!("{v:.5}"));
+    for (text, said) in [
+        (tektronix, "column 5 of 6; times: column 4 in s, assumed"),
+        (lecroy, "column 2 of 2, \"Ampl\"; times: column 1, \"1 Time (s)\" in s, by its name"),
+        (bits, "column 1 of 1; times: 100000 samples a second, by '# Sample rate: 100000 Hz'"),
+    ] {
+        let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
+        assert_eq!(recording.reading.to_string(), said);
+        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{said}: {exposure}");
+    }
+}
+
+#[test]
 fn of_two_signals_the_light_is_taken_and_the_other_named() {
     let keysight =
         with("x-axis,1,2\nsecond,Volt,Volt\n", |_, t, v| format!("{t:.6},{:.2},{v:.5}", gate(t)));
