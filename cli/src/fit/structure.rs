@@ -10,15 +10,11 @@ use super::curve::fractions;
 use super::frame::FrameFits;
 use super::missed::{Missed, least_open};
 use super::signal::Kind;
-use super::tail::{Tail, tail};
+use super::tail::{self, Tail};
 
 /// So many standard deviations are beyond chance: a normal number is there once in 100 000 times. With some ten tests, a curve
 /// that explains the samples fails once in 10 000 times.
 const BEYOND: f64 = 4.3;
-/// Of a tail, which is looked for by one pattern alone, so many are: a normal number is there once in 1400 times, on one side.
-const BEYOND_TAIL: f64 = 3.2;
-/// A tail matters where the triggers move so much with it, as a share of the exposure.
-const TAIL_MATTERS: f64 = 1e-3;
 /// Light that a curve leaves out lies so near to it, in pulses.
 const AROUND: f64 = 0.3;
 /// Of blocks in the dark, by their own median: that is known less well.
@@ -121,10 +117,10 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
             found.take(sigma, BEYOND, (share, t));
         }
     }
-    if let Some(Tail { sigma, moves, share, at }) = tail(fits, kind)
-        && moves > TAIL_MATTERS
+    if let Some(Tail { sigma, moves, share, at }) = tail::tail(fits, kind)
+        && moves > tail::MATTERS
     {
-        found.take(sigma, BEYOND_TAIL, (share, at));
+        found.take(sigma, tail::BEYOND, (share, at));
     }
     found
 }

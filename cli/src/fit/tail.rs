@@ -13,8 +13,14 @@ use super::signal::Kind;
 use super::solve::{Cholesky, Problem, Solution};
 use super::structure::{Parts, fast, normal_of};
 
+/// The test, which is looked for by one pattern alone, so many are: a normal number is there once in 1400 times, on one side.
+pub const BEYOND: f64 = 3.2;
+/// A tail matters where the triggers move so much with it, as a share of the exposure.
+pub const MATTERS: f64 = 1e-3;
 /// The lag's time constant, in closing ramps. From 0.4 to 1.6 it tells the same.
 const LAG: f64 = 0.8;
+/// After so many time constants nothing is left of a tail that noise would not hide.
+const ENDS: f64 = 2.0;
 /// In fewer samples of dark the noise is not known.
 const LEAST_DARK: usize = 16;
 
@@ -27,6 +33,13 @@ pub struct Tail {
     /// Where it is highest: its share of the light, and when.
     pub share: f64,
     pub at: f64,
+}
+
+/// When the tail that the samples show has come to its end, if they show one.
+pub fn end(fits: &FrameFits, kind: Kind) -> Option<f64> {
+    let curve = fits.of(kind).solution.signal.curve;
+    let found = tail(fits, kind).filter(|tail| tail.sigma > BEYOND && tail.moves > MATTERS);
+    found.map(|_| curve.end() + ENDS * LAG * curve.closing)
 }
 
 /// The tail in what a kind's curve misses; none where that has no ramp to speak of, or too little dark.
