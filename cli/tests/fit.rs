@@ -301,8 +301,17 @@ fn what_cannot_be_fitted_is_refused() {
         times: whole.times[from..to].to_vec(),
         values: whole.values[from..to].to_vec(),
     };
-    assert_eq!(refused(&part(500, 1000)), Some(Refusal::BeginsInPulse));
-    assert_eq!(refused(&part(0, 500)), Some(Refusal::EndsInPulse));
+    let has_way = false;
+    assert_eq!(refused(&part(500, 1000)), Some(Refusal::BeginsInPulse { has_way }));
+    assert_eq!(refused(&part(0, 500)), Some(Refusal::EndsInPulse { has_way }));
+    // No advice to say what was said.
+    for (light, advised) in [(Light::Auto, true), (Light::Up, false)] {
+        for cut in [part(500, 1000), part(0, 500)] {
+            let options = Options { light, ..Options::default() };
+            let said = fitted(&cut, &options).err().unwrap().to_string();
+            assert_eq!(said.contains("--light"), advised, "{said}");
+        }
+    }
     assert_eq!(refused(&part(0, 12)), Some(Refusal::TooFewSamples { samples: 12, required: 16 }));
     assert!(matches!(refused(&part(0, 160)), Some(Refusal::NoPulse { .. })));
     assert!(matches!(refused(&sampled(|_| 0.0, 1000, 0.0)), Some(Refusal::NoPulse { .. })));

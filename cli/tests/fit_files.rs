@@ -160,6 +160,25 @@ fn the_files_of_instruments_are_read_and_said_how() {
 }
 
 #[test]
+fn no_setting_and_no_sample_is_a_columns_name() {
+    let settings = ["Record Length,1200", "Sample Interval,1e-05", "Source,CH1"];
+    let tektronix = rows(|i, t, v| format!("{},,{t:.6},{v:.5},", settings.get(i).unwrap_or(&",")));
+    let lecroy = with("Segment,TrigTime\n#1,01-Jan-2024 10:00:00\nTime (s),Ampl\n", |_, t, v| {
+        format!("{t:.6},{v:.5}")
+    });
+    let bits = with("# Sample rate: 100000 Hz\n# bits: 12\n", |_, _, v| format!("{v:.5}"));
+    for (text, said) in [
+        (tektronix, "column 5 of 6; times: column 4 in s, assumed"),
+        (lecroy, "column 2 of 2, \"Ampl\"; times: column 1, \"1 Time (s)\" in s, by its name"),
+        (bits, "column 1 of 1; times: 100000 samples a second, by '# Sample rate: 100000 Hz'"),
+    ] {
+        let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
+        assert_eq!(recording.reading.to_string(), said);
+        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{said}: {exposure}");
+    }
+}
+
+#[test]
 fn of_two_signals_the_light_is_taken_and_the_other_named() {
     let keysight =
         with("x-axis,1,2\nsecond,Volt,Volt\n", |_, t, v| format!("{t:.6},{:.2},{v:.5}", gate(t)));
@@ -289,7 +308,60 @@ fn a_sound_is_read_and_doubted() {
         );
         assert_eq!(recording.warnings, [Warning::SoundCard]);
     }
-    let mut cut = wav(false);
-    cut.truncate(3001);
-    assert!(read(&cut, &trace::Options::default()).is_err());
+}
+
+#[test]
+fn a_sound_that_is_cut_off_is_said_to_be() {
+    let plain = trace::Options::default();
+    let whole = wav(false);
+    // 4 bytes a sample, 200 samples short: the pulse is whole, and so is the dark after it.
+    let (recording, exposure) = read(&whole[..whole.len() - 802], &plain).unwrap();
+    assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
+    let cut = Warning::CutOff { samples: 999, announced: 1200 };
+    assert_eq!(recording.warnings, [Warning::SoundCard, cut.clone()]);
+    assert_eq!(cut.code(), "cut_off");
+    let said = cut.to_string();
+    assert!(said.contains("announces 1200 samples and holds 999"), "{said}");
+    assert!(read(&whole[..3001], &plain).is_err());
+
+    // The header of a recorder that did not know the length: as much as the field holds, or nothing.
+    let data = whole.windows(4).position(|four| four == b"data").unwrap() + 4;
+    let announcing = |bytes: u32| {
+        let mut wav = whole.clone();
+        wav[data..data + 4].copy_from_slice(&bytes.to_le_bytes());
+        read(&wav, &plain)
+    };
+    for bytes in [0xffff_fffc, 0x7fff_0000] {
+        assert_eq!(announcing(bytes).unwrap().0.warnings, [Warning::SoundCard]);
+    }
+    assert!(announcing(0).unwrap_err().contains("announces no samples"));
+}
+
+/// Every message about pulses that are left out, as a reader sees it.
+#[test]
+fn pulses_that_are_left_out_are_said() {
+    // A shot of 5 ms right at the beginning, two whole ones, a spark between them, and one that the end cuts.
+    let openness = |t: f64| (t - 0.002).min(0.009 - t).clamp(0.0, 0.002) / 0.002;
+    let mut random = Random::new(5);
+    let mut text = String::from("time_s,light_V\n");
+    for i in 70..19_925 {
+        let t = 5e-5 * f64::from(i);
+        let shots: f64 = [0.0, 0.3, 0.6, 0.99].iter().map(|at| openness(t - at)).sum();
+        let spark = if (0.45..0.4505).contains(&t) { 0.9 } else { 0.0 };
+        text += &format!("{t:.5},{:.4}\n", shots + spark + 0.003 * random.normal());
+    }
+    let recording = open(text.as_bytes(), &trace::Options::default()).unwrap();
+    let fit = fit(&recording.trace, &Options::default(), &mut |_| ()).unwrap();
+    assert!((fit.exposure.value / 0.005 - 1.0).abs() < 2e-3, "{:?}", fit.exposure);
+    assert_eq!(fit.frames.count, 2);
+    let said: Vec<String> = fit.warnings.iter().map(Warning::to_string).collect();
+    let left_out = |number: usize| {
+        format!(
+            "pulse {number} of the trace has too little dark beside it, and is left out: --frame counts those that are whole"
+        )
+    };
+    let spark = "1 small pulse left out: with less than a fifth of the light of the largest pulse";
+    assert_eq!(said, [spark.to_string(), left_out(1), left_out(4)]);
+    let codes: Vec<&str> = fit.warnings.iter().map(Warning::code).collect();
+    assert_eq!(codes, ["glitches", "partial_frame", "partial_frame"]);
 }

@@ -42,11 +42,11 @@ pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
             "signal",
             format!("no pulse: the brightest part stands out by {contrast:.1} times the noise; is this the right column, and was the light on?"),
         ),
-        R::BeginsInPulse => (
+        R::BeginsInPulse { has_way: false } => (
             "rises",
             "the trace begins in the pulse: say which way light moves the signal, or record some of the dark before it".into(),
         ),
-        R::EndsInPulse => (
+        R::EndsInPulse { has_way: false } => (
             "rises",
             "the trace ends in the pulse: say which way light moves the signal, or record some of the dark after it".into(),
         ),
@@ -81,6 +81,10 @@ pub fn warning(warning: &Warning) -> Told {
         W::Inverted => (
             "rises",
             "light seems to lower the signal, so it is turned round; if it does not, the trace begins and ends in the light".into(),
+        ),
+        W::PartialFrame { number } => (
+            "frame",
+            format!("pulse {number} of the trace has too little dark beside it, and is left out: the others are counted without it"),
         ),
         W::NoPlateau => (
             "full",
@@ -128,8 +132,10 @@ mod tests {
             R::TooFewSamples { samples: 1, required: 2 },
             R::NoPulse { contrast: 2.0 },
             R::ShortPulse { samples: 1, required: 2 },
-            R::BeginsInPulse,
-            R::EndsInPulse,
+            R::BeginsInPulse { has_way: false },
+            R::BeginsInPulse { has_way: true },
+            R::EndsInPulse { has_way: false },
+            R::EndsInPulse { has_way: true },
             R::NoFrame { number: 3, frames: 2 },
             R::FullTooLow { given: 1.0, seen: 2.0 },
             R::NoDelay { reason: text() },
@@ -147,6 +153,7 @@ mod tests {
             W::SecondSignal { taken: text(), other: text(), option: "--columns 1,3".into() },
             W::Overload { count: 1, line: 2 },
             W::SoundCard,
+            W::CutOff { samples: 1, announced: 2 },
             W::Spikes { count: 1, first: 0.1 },
             W::Glitches { count: 2 },
             W::PartialFrame { number: 2 },

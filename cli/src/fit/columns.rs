@@ -6,6 +6,7 @@ use super::kind::KindFit;
 use super::noise::correlation;
 use super::signal::{Flicker, Signal};
 use super::solve::Problem;
+use super::tail::passes_for_drift;
 
 /// A column is kept if the criterion falls by more than this.
 const WORTH: f64 = 10.0;
@@ -17,10 +18,17 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 const FEWEST: f64 = 1.0;
 
 /// The fit with a drift and a hum, if they are worth it, or none where neither is.
-pub fn with_columns(problem: &Problem, plain: &KindFit, samples: &[Bin]) -> Option<KindFit> {
+pub fn with_columns(
+    problem: &Problem,
+    plain: &KindFit,
+    samples: &[Bin],
+    step: f64,
+) -> Option<KindFit> {
     let start = Signal { drift: Some(0.0), ..plain.solution.signal };
     let drifting = if_worth_it(problem, &start, plain, samples);
-    let drifting = drifting.filter(|found| drifts_before(found, samples));
+    let drifting = drifting.filter(|found| {
+        drifts_before(found, samples) && !passes_for_drift(problem, &found.solution, step)
+    });
     let without = drifting.as_ref().unwrap_or(plain);
 
     humming(problem, without, samples).or(drifting)

@@ -51,7 +51,7 @@ impl FrameFits {
         let plain = Signal::plain();
         fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
         let free = fits.of(Kind::Free);
-        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples) {
+        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step) {
             fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
         }
         fits
@@ -96,6 +96,11 @@ impl FrameFits {
             integral.mean(bin.from, bin.to) + r / (signal.gain * lamp.max(0.1))
         })
         .collect()
+    }
+
+    /// The samples, as far as neighbours share a bin.
+    pub fn bins(&self) -> &[Bin] {
+        &self.problem.bins
     }
 
     /// A kind's best signal.

@@ -6,6 +6,7 @@ use super::frame::FrameFits;
 use super::missed::least_open;
 use super::signal::Kind;
 use super::structure::{Parts, Walk, missed};
+use super::tail;
 use crate::trace::median;
 
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
@@ -87,6 +88,9 @@ impl Running {
         from = starts(parts.before).find(|k| lit(*k)).map_or(from, |k| k.min(from));
         let last = starts(parts.after.clone()).rfind(|k| lit(*k));
         to = last.map_or(to, |k| (k + length).min(missed.len()).max(to));
+        // A tail is light as well, though none of its blocks stands out.
+        let tail = tail::end(fits, kind);
+        to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
 
         let opened = fits.opened(kind);
         let mut sum = 0.0;

@@ -61,6 +61,17 @@ impl Solution {
             }
         }
     }
+
+    /// The parameters that are on no bound which they would leave.
+    pub fn moving(&self) -> Vec<usize> {
+        let (packed, bounds) = (self.signal.pack(), self.signal.bounds());
+        let outward = |k: usize| {
+            let (low, high) = bounds[k];
+            packed[k] <= low && self.gradient[k] > 0.0
+                || packed[k] >= high && self.gradient[k] < 0.0
+        };
+        (0..packed.len()).filter(|k| !outward(*k)).collect()
+    }
 }
 
 impl Problem {
@@ -118,11 +129,7 @@ impl Problem {
 
 /// The parameters a damped step on.
 fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
-    let outward = |k: usize| {
-        let (low, high) = bounds[k];
-        packed[k] <= low && here.gradient[k] > 0.0 || packed[k] >= high && here.gradient[k] < 0.0
-    };
-    let moving: Vec<usize> = (0..packed.len()).filter(|k| !outward(*k)).collect();
+    let moving = here.moving();
     let matrix: Vec<Vec<f64>> = moving
         .iter()
         .map(|i| {

@@ -10,6 +10,7 @@ use super::curve::fractions;
 use super::frame::FrameFits;
 use super::missed::{Missed, least_open};
 use super::signal::Kind;
+use super::tail::{self, Tail};
 
 /// So many standard deviations are beyond chance: a normal number is there once in 100 000 times. With some ten tests, a curve
 /// that explains the samples fails once in 10 000 times.
@@ -30,6 +31,8 @@ pub struct Structure {
     pub tested: bool,
     /// By how many standard deviations the most telling of the tests is off.
     pub sigma: f64,
+    /// And by how many that test may be.
+    beyond: f64,
     /// The greatest structure, as a share of the light, and when, in the frame's unit.
     pub share: f64,
     pub at: f64,
@@ -74,13 +77,13 @@ fn mean_square(values: &[f64]) -> f64 {
 }
 
 /// Half the mean square of what neighbours differ by.
-fn fast(values: &[f64]) -> f64 {
+pub fn fast(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
     0.5 * mean_square(&differ)
 }
 
 /// A ratio of two mean squares in standard deviations of a normal number of the same chance (Wilson and Hilferty).
-fn normal_of(ratio: f64, (above, below): (f64, f64)) -> f64 {
+pub fn normal_of(ratio: f64, (above, below): (f64, f64)) -> f64 {
     let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));
     let cube = ratio.max(0.0).cbrt();
     ((1.0 - b) * cube - (1.0 - a)) / (a + b * cube * cube).sqrt()
@@ -92,35 +95,41 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     let missed = missed(fits, kind);
     let light = Light { fits, kind, parts: &parts, missed: &missed };
     let tested = Walk::new(light.missed, &parts, fits.step).is_some();
-    let mut found = Structure { explained: true, tested, sigma: 0.0, share: 0.0, at: 0.0 };
+    let mut found =
+        Structure { explained: true, tested, sigma: 0.0, beyond: BEYOND, share: 0.0, at: 0.0 };
     let mut length = 2;
     while parts.pulse.len() / length >= 6 {
         for sigma in [light.in_pulse(length), light.after(length)].into_iter().flatten() {
-            found.take(sigma, light.greatest(length));
+            found.take(sigma, BEYOND, light.greatest(length));
         }
         if let Some((ratio, at)) = light.in_dark(length) {
-            found.take(ratio * BEYOND / STANDS_OUT, at);
+            found.take(ratio * BEYOND / STANDS_OUT, BEYOND, at);
         }
         length *= 2;
     }
     for part in [&parts.before, &parts.after] {
         if let Some((sigma, at)) = light.trend(part) {
-            found.take(sigma, at);
+            found.take(sigma, BEYOND, at);
         }
     }
     for room in [0.0, AROUND] {
         if let Some((sigma, t, share)) = light.of_triggers(room) {
-            found.take(sigma, (share, t));
+            found.take(sigma, BEYOND, (share, t));
         }
+    }
+    if let Some(Tail { sigma, moves, share, at }) = tail::tail(fits, kind)
+        && moves > tail::MATTERS
+    {
+        found.take(sigma, tail::BEYOND, (share, at));
     }
     found
 }
 
 impl Structure {
-    fn take(&mut self, sigma: f64, (share, at): (f64, f64)) {
-        self.explained &= sigma <= BEYOND;
-        if sigma > self.sigma {
-            (self.sigma, self.share, self.at) = (sigma, share, at);
+    fn take(&mut self, sigma: f64, beyond: f64, (share, at): (f64, f64)) {
+        self.explained &= sigma <= beyond;
+        if sigma / beyond > self.sigma / self.beyond {
+            (self.sigma, self.beyond, self.share, self.at) = (sigma, beyond, share, at);
         }
     }
 }

@@ -126,7 +126,8 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
         return Err(Refusal::NoPulse { contrast });
     }
     let levels = (smooth.dark, smooth.light());
-    smooth.check_ends(levels.1)?;
+    let has_way = light != Light::Auto;
+    smooth.check_ends(levels.1, has_way)?;
     warnings.extend(smooth.undershoot(levels.1));
 
     let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
@@ -143,7 +144,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     if longest < FEWEST_LIT {
         return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT });
     }
-    let frames = frames(&trace, &share, &runs, levels, &mut warnings)?;
+    let frames = frames(&trace, &share, &runs, levels, has_way, &mut warnings)?;
     if inverted && light == Light::Auto {
         warnings.push(Warning::Inverted);
     }
@@ -288,14 +289,18 @@ impl Smooth {
     }
 
     /// Are both ends in the dark?
-    fn check_ends(&self, light: f64) -> Result<(), Refusal> {
+    fn check_ends(&self, light: f64, has_way: bool) -> Result<(), Refusal> {
         let (first, last) = ends(&self.values);
         // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
         if (first - last).abs() > CUT * light {
-            return Err(if first > last { Refusal::BeginsInPulse } else { Refusal::EndsInPulse });
+            return Err(if first > last {
+                Refusal::BeginsInPulse { has_way }
+            } else {
+                Refusal::EndsInPulse { has_way }
+            });
         }
         if first > self.dark + SWITCH.0 * light {
-            return Err(Refusal::BeginsInPulse);
+            return Err(Refusal::BeginsInPulse { has_way });
         }
         Ok(())
     }
@@ -367,6 +372,7 @@ fn frames(
     share: &[f64],
     runs: &[Range<usize>],
     levels: (f64, f64),
+    has_way: bool,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Frame>, Refusal> {
     let mut frames = Vec::new();
@@ -374,9 +380,9 @@ fn frames(
         let from = if k > 0 { (runs[k - 1].end + run.start) / 2 } else { 0 };
         let to = runs.get(k + 1).map_or(share.len(), |next| (run.end + next.start) / 2);
         let cut = if run.start - from < FEWEST_DARK {
-            Refusal::BeginsInPulse
+            Refusal::BeginsInPulse { has_way }
         } else if to - run.end < FEWEST_DARK {
-            Refusal::EndsInPulse
+            Refusal::EndsInPulse { has_way }
         } else {
             frames.push(frame(trace, share, run, from..to, levels));
             continue;
@@ -386,7 +392,7 @@ fn frames(
         }
         warnings.push(Warning::PartialFrame { number: k + 1 });
     }
-    if frames.is_empty() { Err(Refusal::BeginsInPulse) } else { Ok(frames) }
+    if frames.is_empty() { Err(Refusal::BeginsInPulse { has_way }) } else { Ok(frames) }
 }
 
 /// The frame of the pulse whose light is on in `run`, and which owns `samples`.

@@ -188,10 +188,17 @@ impl<'a> Table<'a> {
         let mut names: Vec<&str> = self
             .above(column)
             .take(2)
-            .filter(|name| !name.is_empty() && step_in(name).is_none())
+            .filter(|name| !name.is_empty() && step_in(name).is_none() && !self.is_value(name))
             .collect();
         names.reverse();
         (!names.is_empty()).then(|| short_of(&names.join(" ")))
+    }
+
+    /// Does a field above the numbers hold a setting, a time of day or a sample, and no name? A whole number may be a channel's.
+    fn is_value(&self, field: &str) -> bool {
+        let last = field.rsplit([':', '=']).next().unwrap_or(field);
+        let is_whole = field.chars().all(|c| c.is_ascii_digit());
+        !is_whole && number(last.trim(), self.decimal_comma).is_some()
     }
 
     /// A number that the header gives by a name: in the row below it, or after `=` in the same field.

@@ -75,9 +75,15 @@ pub enum Refusal {
         required: usize,
     },
     /// The first samples are not dark.
-    BeginsInPulse,
+    BeginsInPulse {
+        /// Was it said which way light moves the signal?
+        has_way: bool,
+    },
     /// The last samples are not dark.
-    EndsInPulse,
+    EndsInPulse {
+        /// Was it said which way light moves the signal?
+        has_way: bool,
+    },
     /// A frame that is asked for is not there.
     NoFrame {
         /// As asked for, from 1.
@@ -161,13 +167,15 @@ impl fmt::Display for Refusal {
                 "the pulse has {}, and at least {required} are required to tell its shape; sample faster, or zoom in",
                 counted(*samples, "sample")
             ),
-            Self::BeginsInPulse => out.write_str(
-                "the trace begins in the pulse; record some of the dark before it as well (more pre-trigger), or say \
-                 which way light moves the signal with --light up or --light down",
+            Self::BeginsInPulse { has_way } => write!(
+                out,
+                "the trace begins in the pulse; record some of the dark before it as well (more pre-trigger){}",
+                or_the_way(*has_way)
             ),
-            Self::EndsInPulse => out.write_str(
-                "the trace ends in the pulse; record some of the dark after it as well (a longer window), or say which \
-                 way light moves the signal with --light up or --light down",
+            Self::EndsInPulse { has_way } => write!(
+                out,
+                "the trace ends in the pulse; record some of the dark after it as well (a longer window){}",
+                or_the_way(*has_way)
             ),
             Self::NoFrame { number, frames } => {
                 write!(out, "there is no frame {number}; the trace has {}", counted(*frames, "whole frame"))
@@ -188,6 +196,14 @@ impl fmt::Display for Refusal {
             ),
         }
     }
+}
+
+/// What may help beside more dark, unless it was done.
+fn or_the_way(has_way: bool) -> &'static str {
+    if has_way {
+        return "";
+    }
+    ", or say which way light moves the signal with --light up or --light down"
 }
 
 impl std::error::Error for Refusal {}
@@ -237,6 +253,13 @@ pub enum Warning {
     },
     /// The file is a sound.
     SoundCard,
+    /// The file ends before all samples that its beginning announces.
+    CutOff {
+        /// So many there are.
+        samples: usize,
+        /// So many are announced.
+        announced: usize,
+    },
     /// Samples left out as spikes.
     Spikes {
         /// So many.
@@ -249,7 +272,7 @@ pub enum Warning {
         /// So many.
         count: usize,
     },
-    /// A frame that the trace's beginning or end cuts.
+    /// A pulse that the trace's beginning or end cuts, or that has another right beside it.
     PartialFrame {
         /// From 1.
         number: usize,
@@ -345,6 +368,7 @@ impl Warning {
             Self::SecondSignal { .. } => "second_signal",
             Self::Overload { .. } => "overload",
             Self::SoundCard => "sound_card",
+            Self::CutOff { .. } => "cut_off",
             Self::Spikes { .. } => "spikes",
             Self::Glitches { .. } => "glitches",
             Self::PartialFrame { .. } => "partial_frame",
@@ -403,17 +427,27 @@ impl fmt::Display for Warning {
                 "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \
                  recorder that is coupled for DC, where the exposure matters",
             ),
+            Self::CutOff { samples, announced } => write!(
+                out,
+                "the file is cut off: it announces {} and holds {samples}; what was recorded after these is missing, so copy or \
+                 save it again",
+                counted(*announced, "sample")
+            ),
             Self::Spikes { count, first } => {
                 let first = unit::short(*first, 9);
                 write!(out, "{} left out, the first at {first} s", counted(*count, "spike"))
             }
             Self::Glitches { count } => write!(
                 out,
-                "{} left out: less than a fifth of the largest pulse",
+                "{} left out: with less than a fifth of the light of the largest pulse",
                 counted(*count, "small pulse")
             ),
             Self::PartialFrame { number } => {
-                write!(out, "pulse {number} is cut by the end of the trace, and left out")
+                write!(
+                    out,
+                    "pulse {number} of the trace has too little dark beside it, and is left out: --frame counts those that are \
+                     whole"
+                )
             }
             Self::ShotsDiffer { scatter } => write!(
                 out,

@@ -10,6 +10,9 @@ use super::samples::Trace;
 use super::select::light_among;
 use super::told::{Refusal, Warning};
 
+/// From this length in bytes on, a recorder writes that it does not know it yet (2 or 4 GiB, less a header).
+const UNKNOWN: u64 = (1 << 31) - (1 << 16);
+
 pub fn is_wav(bytes: &[u8]) -> bool {
     bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE")
 }
@@ -32,6 +35,15 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
             file.samples::<i32>().map_while(Result::ok).map(|x| f64::from(x) / full).collect()
         }
     };
+    // A recorder that never went back to its header says nothing of the length, or as much as the field holds.
+    let announced = file.len() as usize / channels;
+    let is_said = u64::from(file.len()) * u64::from(spec.bits_per_sample.div_ceil(8)) < UNKNOWN;
+    let there = values.len() / channels;
+    if announced == 0 {
+        return Err(refused(
+            "it is a WAV that announces no samples; was its recording ended?".into(),
+        ));
+    }
     let channel = |k: usize| {
         let values = values.iter().skip(k).step_by(channels);
         let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
@@ -58,6 +70,9 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let clock = Clock::Rate(rate);
     let mut reading = Reading { columns: channels, time: None, signal: named(0), clock, told };
     let mut warnings = vec![Warning::SoundCard];
+    if there < announced && is_said {
+        warnings.push(Warning::CutOff { samples: there, announced });
+    }
     let name = |k: usize| format!("channel {}", k + 1);
     let all = asked.into_iter().map(|k| (k, channel(k))).collect();
     let (signal, samples) = light_among(all, name, None, &mut warnings)?;
