@@ -102,12 +102,11 @@ pub fn run() -> Result {
         check(&what, mean(Schedule, row, DEFAULT), target);
     }
     check("cycles of cdf on all ramp, mean", mean(Cdf, all_ramp, DEFAULT), 543.0);
-
-    // These do not reach their targets yet.
-    let cdf = "Cortex-M0+ instructions of cdf on all ramp, mean".to_owned();
-    budgets.push((cdf, soft_float(Cdf, all_ramp, DEFAULT), 6000.0, 6650.0));
+    let instructions = soft_float(Cdf, all_ramp, DEFAULT);
+    check("Cortex-M0+ instructions of cdf on all ramp, mean", instructions, 4500.0);
+    // This does not reach its target yet.
     let building = "bytes of the code that builds a curve".to_owned();
-    budgets.push((building, code(Construct), 20480.0, 28500.0));
+    budgets.push((building, code(Construct), 24576.0, 28500.0));
 
     let (mut missed, mut broken) = (0, 0);
     for (what, value, target, reached) in budgets {
