@@ -87,8 +87,10 @@ pub fn hashes() -> [u64; 4] {
     all
 }
 
-/// The hash of all that is made of two ramps, by the number of cells, the fractions ones beside others.
-const OF: [fn([Ramp; 2], &[f32]) -> u64; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
+/// The hash of all that is made of two ramps; of fractions, these beside others.
+type Of = fn([Ramp; 2], &[f32]) -> u64;
+/// By the number of cells.
+const OF: [Of; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
 
 pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
     OF.map(|of| of(ramps, us))
