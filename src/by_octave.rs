@@ -12,9 +12,10 @@ use crate::units::TOP_STEP;
 
 const HALF: u32 = 0.5f32.to_bits();
 const ONE: u32 = 1.0f32.to_bits();
-/// The bits of an `f32` for its exponent.
+/// One more in the exponent, in the bits of an `f32`.
 const BINADE: u32 = 1 << 23;
-/// Octaves are looked through from the first one, or from this one.
+/// Octaves are looked through from this one where the time is beyond its middle, which saves comparisons, else from the
+/// first one.
 const SKIP: usize = 4;
 
 impl<const CELLS: usize> Plan<CELLS> {
@@ -27,13 +28,14 @@ impl<const CELLS: usize> Plan<CELLS> {
         let time = self.in_units(t)?;
         let (side, index) = self.octave_about(ramp, time)?;
         let octave = self.octaves[side & 1].get(index)?;
-        // The time from the middle, in the unit of the coefficients. A factor's power of two is at most 2³¹.
+        // The time from the middle, in the unit of the coefficients, rounded down. A factor is at most 2³⁰; the mask is for
+        // the 0 of an octave without a polynomial.
         let way = time.wrapping_sub(octave.middle) >> (octave.factor.trailing_zeros() & 31);
         if way != way as i32 as i64 || !octave.exists() {
             return None;
         }
-        // From side 0, `P(x) <= y` says that `t` is not before the time of `x`; from side 1, whose factor is negative,
-        // that `t` is before it.
+        // From side 0, `P(x) <= y` says that `t` is not before the time of `x`. From side 1, whose factor is negative, `t`
+        // is before that if `P(x) < -way`, which is `P(x) <= !way`: there `P(x) <= y` says so.
         let y = way as i32 ^ -(side as i32);
         let doubled = octave.inverted(y);
         // The octave is (top / 2, top], and `a` and `end`, its top, count 2⁻³¹ of its power of two: so they fit a word.
@@ -44,7 +46,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         let end = (8 + eighths) << 28;
         let since_start = doubled.wrapping_add((8 - eighths) << 28);
         let a = (end >> 1) + (since_start >> 1);
-        // Neighbouring `f32` are 2 to this apart. On the later side they are those of `u`, from 1/2 to 1.
+        // Neighbouring `f32` are 2 to this apart, in 2⁻³¹ of the power of two: 2⁸ from that on, and 2⁷ below. On the later
+        // side they are those of `u`, from 1/2 to 1. Where they are more than 2²⁴ apart an octave holds few.
         let apart = if side == 0 { 7 + (a >> 31) } else { (7 + 127) - power_bits / BINADE };
         if apart > 24 {
             return None;
@@ -159,7 +162,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 }
 
-/// 1 in fixed point with 27 bits behind the point, where quotients of coefficients may be up to 16.
+/// 1 in fixed point with 27 bits after the point, where quotients of coefficients may be up to 16.
 const FIXED_ONE: i32 = 1 << 27;
 
 /// The product of two numbers in fixed point.
@@ -168,8 +171,8 @@ fn times_fixed(a: i32, b: i32) -> i32 {
     times_high(a << 5, b)
 }
 
-/// Nearly 2⁵⁹ over a divisor of 29 to 32 bits, so that the upper word of its product with a number is that over the
-/// divisor, in fixed point. It takes one division of 32 bits, and is good to some 15.
+/// Nearly 2⁵⁹ / divisor, for divisors of 29 to 32 bits: `times_high` of a number and this is their quotient in fixed
+/// point. It takes one division of 32 bits, and 13 to 15 of its bits are right.
 #[inline(always)]
 fn reciprocal(divisor: u32) -> i32 {
     u32::MAX.checked_div(divisor >> 15).unwrap_or(0).wrapping_shl(12) as i32
@@ -181,7 +184,8 @@ impl Octave {
     #[inline(always)]
     fn inverted(&self, y: i32) -> u32 {
         let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
-        // The inverse's own series from the middle ...
+        // The series of the inverse from the middle: with `n = y / c1` and `rk = ck / c1` it is `n - r2 n² + (2 r2² - r3)
+        // n³ - (r4 + 5 r2 (r2² - r3)) n⁴`. `1 / c1` is refined by a step of Newton's.
         let inverse = reciprocal(c1 as u32);
         let excess = times_high(c1, inverse).wrapping_sub(FIXED_ONE);
         let inverse = inverse.wrapping_sub(times_fixed(excess, inverse));
@@ -192,7 +196,7 @@ impl Octave {
         let second = square.wrapping_add(bend).wrapping_sub(times_fixed(n, third));
         let first = r2.wrapping_sub(times_fixed(n, second));
         let x = n.wrapping_sub(times_fixed(times_fixed(n, n), first)) << 5;
-        // ... and one step of Newton's, with value and slope by synthetic division.
+        // And one step of Newton's, with value and slope by synthetic division.
         let mul = |a: i32| times_high(a, x);
         let (mut value, mut slope) = (c8, c8);
         for c in [c7, c6, c5, c4, c3, c2, c1] {

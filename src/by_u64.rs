@@ -22,17 +22,17 @@ pub(crate) enum Direct<'a> {
 /// An octave that has a polynomial, and how its `x` comes from `u`.
 ///
 /// A position, doubled where it has to be, is a word of `a`: it counts 2⁻³² of the octave's power of two, and drops
-/// what is above that. From the later side, where `a = 1 - u`, the bits of `a` are those of `u - 1`, each turned. So
-/// the same word of `u`, or of `u - 1`, is as good.
+/// what is above that. From the earlier side `a` is `u`. From the later one it is `-u`, which is `!(u - 1)`: so its
+/// word is `-(word + 1)`, where `word` is the one of `u - 1`.
 pub(crate) struct OctaveU64<'a> {
     octave: &'a Octave,
-    /// What `u` is less by: 1 from the later side, else 0.
+    /// Subtracted from `u`, in 2⁻⁶⁴: 1 from the later side, else 0.
     pub(crate) less: u32,
-    /// The zeros of a fraction before the octave's power of two.
+    /// The leading zeros of the octave's power of two, in 64 bits.
     pub(crate) zeros: u32,
     /// The significand of the octave's top, with its leading one.
     end: u32,
-    /// `x = factor (word + ahead)`, in 2⁻³².
+    /// What is added to a word to count it from the octave's center: `x = factor (word + ahead)`, in 2⁻³².
     pub(crate) ahead: u32,
     factor: u32,
 }
@@ -78,8 +78,8 @@ impl<const CELLS: usize> Plan<CELLS> {
         if !octave.exists() {
             return None;
         }
-        // As `ahead_of_center` has it; but from the later side the position is minus the word, less 1. So there both
-        // numbers have the other sign, which they get from `back`: -1 there, else 0.
+        // As `ahead_of_center` has it; but from the later side the position is `-(word + 1)`, so the center is added, and
+        // the factor is negative. `back` is -1 there, else 0.
         let (less, zeros) = (side as u32, zeros & 31);
         let back = 0u32.wrapping_sub(less);
         let ahead = (octave.center ^ !back).wrapping_add(1);
@@ -87,13 +87,13 @@ impl<const CELLS: usize> Plan<CELLS> {
         Some(Direct::Octave(OctaveU64 { octave, less, zeros, end, ahead, factor }))
     }
 
-    /// How far beyond a `u` the plateau's line answers, which answers that, in units of 2⁻³²; cut.
+    /// How much greater than a `u` on the plateau's line another may be and still be on it, in 2⁻³², rounded down.
     #[inline(always)]
     pub(crate) fn line_reaches(&self, u: u64, plateau: &PlateauU64) -> u32 {
         (plateau.last.wrapping_sub(u) >> 32) as u32
     }
 
-    /// The same of an octave.
+    /// The same for an octave that answers `u`.
     // proofs/octaves.py
     #[inline(always)]
     pub(crate) fn octave_reaches(&self, u: u64, octave: &OctaveU64, plateau: &PlateauU64) -> u32 {
@@ -109,7 +109,7 @@ impl<const CELLS: usize> Plan<CELLS> {
 }
 
 impl OctaveU64<'_> {
-    /// The word of `u` that begins behind the octave's power of two.
+    /// The word of `u` that begins after the octave's power of two.
     #[inline(always)]
     fn word(&self, u: u64) -> u32 {
         let u = u.wrapping_sub(self.less as u64);
@@ -123,7 +123,7 @@ impl OctaveU64<'_> {
         self.time_ahead(self.word(u).wrapping_add(self.ahead))
     }
 
-    /// The same at a word that is already ahead.
+    /// The same at a word to which `ahead` has been added.
     #[inline(always)]
     pub(crate) fn time_ahead(&self, word: u32) -> i64 {
         self.octave.time(word.wrapping_mul(self.factor) as i32)

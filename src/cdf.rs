@@ -16,7 +16,7 @@ const LITTLE: f32 = 0.25;
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
 /// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
 /// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
-/// middle adds 2⁻²⁷·⁶ at most. Together that is less than this (`proofs/cdf.py`).
+/// middle adds 2⁻²⁷·⁵ at most (docs/proofs.md). Together that is less than this (`proofs/cdf.py`).
 // docs/proofs.md: `cdf` never steps back
 const NEAR_MIDDLE: f32 = 2.375 / (1 << 28) as f32;
 
@@ -113,7 +113,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The `f32` nearest to the fraction that is collected by `t`, here called its `mass`, in WHOLE; settled where
-    /// pairs cannot tell which that is, and where the mass is `least_told` or less.
+    /// pairs cannot tell which that is, and always where the mass is `least_told` or less.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();

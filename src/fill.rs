@@ -15,21 +15,21 @@ struct Schedule<'t> {
 }
 
 impl Schedule<'_> {
-    /// Fills as many places, or those that are left, with the ticks of words that follow each other. If one comes too
-    /// soon, it tells how many places are behind that.
+    /// Fills the next `count` places, or all that are left, with the ticks of successive words. If one comes too soon:
+    /// how many places are left after its own.
     #[inline(always)]
     fn fill(
         &mut self,
         count: u32,
         mut words: Words,
-        tick: impl Fn(u32) -> u32,
+        tick_of: impl Fn(u32) -> u32,
     ) -> Result<(), usize> {
         let places = core::mem::take(&mut self.places);
-        let count = places.len().min(count as usize);
+        let count = places.len().min(usize::try_from(count).unwrap_or(usize::MAX));
         let Some((places, rest)) = places.split_at_mut_checked(count) else { return Ok(()) };
         let (mut places, mut earliest) = (places.iter_mut(), self.earliest);
         while let Some(place) = places.next() {
-            let tick = tick(words.word);
+            let tick = tick_of(words.word);
             if tick < earliest {
                 return Err(places.len() + rest.len());
             }
@@ -71,7 +71,7 @@ impl<const CELLS: usize> Ticks<'_, CELLS> {
                     schedule.fill(1, words, |_| tick)
                 }
             };
-            filled.map_err(|behind| self.n() - 1 - behind as u32)?;
+            filled.map_err(|left| self.n() - 1 - left as u32)?;
         }
         Ok(())
     }

@@ -5,13 +5,13 @@ use crate::pair::Pair;
 use crate::units::{WHOLE_EXPONENT, power_of_two};
 
 /// One end of a pulse. A pulse lies around the middle of its share of the exposure, where its trigger would be: so its
-/// ends are half of the pulse before and behind that. A trigger is a pulse without length.
+/// ends are half of the pulse before and after that. A trigger is a pulse without length.
 #[derive(Clone, Copy)]
 pub(crate) struct Edge {
     /// Half of the pulse, in units of 2⁻⁶⁴, and the rest in units of 2⁻⁹⁶.
     half: u64,
     rest: u32,
-    /// Is it the end behind, where the pulse goes off?
+    /// Is it the later end, where the pulse goes off?
     is_off: bool,
 }
 
@@ -42,8 +42,8 @@ impl Fractions {
         Self { n, half_share, rest: ((remainder * half_share) >> 31) as u32 }
     }
 
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, in units of 2⁻⁶⁴: too low by at most two of these,
-    /// and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
+    /// The fraction `odd / 2n`, or half a pulse before or after it, in units of 2⁻⁶⁴. In frames that have direct
+    /// triggers it is too low by at most two of these, and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
     /// (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
@@ -64,23 +64,23 @@ impl Fractions {
         (u, Words { word: (u >> 32) as u32, below, share })
     }
 
-    /// How many fractions there are from one of them on until another that is so many units of 2⁻³² behind it: no more,
-    /// and at least the first.
+    /// How many fractions in a row, the first included, surely lie within `reach` units of 2⁻³² of the first.
     // proofs/shares.py: within
     #[inline(always)]
     pub(crate) fn within(&self, reach: u32) -> u32 {
+        // With one trigger its share, which is all, becomes 0 here, and the count says nothing: there is one place to fill.
         let more_than_share = ((self.half_share >> 31) as u32).wrapping_add(1);
         reach.checked_div(more_than_share).unwrap_or(0).saturating_add(1)
     }
 
-    /// Are there four fractions or more in most octaves whose power of two has so many zeros before it? With fewer it does
-    /// not pay to ask what they have in common.
+    /// Does an octave whose power of two has so many leading zeros hold more than two fractions, mostly four or more?
+    /// Where there are fewer, asking what they have in common costs more than it saves (docs/tried.md).
     #[inline(always)]
     pub(crate) fn are_many(&self, zeros: u32) -> bool {
         zeros + 3 < self.half_share.leading_zeros()
     }
 
-    /// The fraction `odd / 2n`, or half a pulse before or behind it, counted from its nearer side, in
+    /// The fraction `odd / 2n`, or half a pulse before or after it, counted from its nearer side, in
     /// [`WHOLE`](crate::units::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
     /// 2⁻³⁸ (`proofs/shares.py`).
     pub(crate) fn exactly(&self, odd: u64, edge: &Edge) -> (usize, Pair) {
@@ -126,15 +126,15 @@ impl Fractions {
 /// The upper words of fractions that follow each other, by sums of 96 bits.
 pub(crate) struct Words {
     pub(crate) word: u32,
-    /// The 64 bits behind the word.
+    /// The 64 bits below the word.
     below: u64,
     /// What is added to both.
     share: (u32, u64),
 }
 
 impl Words {
-    /// The words that begin behind as many bits and one more, of fractions that are less by `less` units of 2⁻⁶⁴; and each
-    /// is `ahead`.
+    /// The same words after `less` units of 2⁻⁶⁴ are subtracted from each fraction, the rest is moved up by `bits + 1`
+    /// bits, and `ahead` is added to what is then the upper word.
     #[inline(always)]
     pub(crate) fn behind(self, bits: u32, less: u32, ahead: u32) -> Self {
         let up = |word: u32, below: u64| {

@@ -58,9 +58,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// for [`trigger_times`](Self::trigger_times), and for [`trigger_ticks`](Self::trigger_ticks) on intervals of up to
     /// 2²⁴ ticks. The README has both costs in cycles.
     ///
-    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more, up to 2²². 0 says that
-    /// there is no such frame: with `CELLS = 0`, unless the shutter is open all of the time, and on curves too
-    /// difficult for polynomials.
+    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more, up to 2²². It is 0
+    /// where there is no such frame: on curves too difficult for polynomials, and with `CELLS = 0`, where only the
+    /// plateau is answered directly, unless that is open at half of the exposure.
     ///
     /// Being constant, it makes a deadline that the compiler checks:
     ///
@@ -81,12 +81,13 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     pub const fn direct_triggers(&self) -> u32 {
-        let least = [self.plan.least_direct(0), self.plan.least_direct(1)];
-        let least = if least[0] > least[1] { least[0] } else { least[1] };
-        // The first and the last trigger come nearest to the ends, to 1/2n. In units of 2⁻⁶⁴, and 2⁻²⁴ more for the
-        // rounding of `f32`. Saturating, so that the compiler sees that the divisor is not 0.
-        let least = ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
-        let most = (1 << 63) / least;
+        let above = [self.plan.least_direct(0), self.plan.least_direct(1)];
+        let above = if above[0] > above[1] { above[0] } else { above[1] };
+        // Above this fraction from either side nothing is searched for, and the first and the last trigger are 1/2n from
+        // the ends. In units of 2⁻⁶⁴; 2⁻²⁴ is added, since a fraction may be rounded to an `f32`. Saturating, so that
+        // the compiler sees that the divisor is not 0.
+        let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
+        let most = (1 << 63) / above;
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }
 
@@ -111,8 +112,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Each is rounded to the nearest tick of a time within 1/4 tick of the exact one, so it is at most 3/4 tick from
     /// that, for intervals of any length up to 2³¹ ticks: above 2²⁴, triggers are searched for, and placed to a
     /// thousandth of a tick. If the openness touches 0 between the ends, many times have nearly the same exposure.
-    /// There it is the exposure that is exact, not the tick: to 2⁻³⁴ of the lesser of `u` and `1 - u` in all tests, and what is
-    /// measured of it to 2⁻³⁰ by proof.
+    /// There it is the exposure that is exact, not the tick: to 2⁻³⁴ of the lesser of `u` and `1 - u` in all tests. What
+    /// is proven is 2⁻³⁰, of an evaluation of the exposure.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.

@@ -14,8 +14,8 @@ use crate::units::fixed;
 const DIRECT_TICKS: i32 = 24;
 /// An interval has at most 2^`MOST_TICKS` ticks.
 const MOST_TICKS: i32 = 31;
-/// In frames of more triggers all are searched for: polynomials, whose error in `u` is up to half an ulp of an `f32`,
-/// might swap neighbours.
+/// In frames of more triggers all are searched for. Up to here triggers are four ulp of an `f32` apart or more, so that
+/// polynomials, whose error in `u` is up to half of one, keep their order.
 pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
 
 /// What places the triggers of one frame.
@@ -87,7 +87,8 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
     }
 
-    /// The same by a search. Out of line, so that the direct way saves no registers for it.
+    /// The tick of one end of the pulse around the trigger at `odd / 2n`, by a search. Out of line, so that the direct way
+    /// saves no registers for it.
     #[cold]
     #[inline(never)]
     pub(crate) fn searched(&self, odd: u64, edge: &Edge) -> u32 {
@@ -179,13 +180,13 @@ impl TickScale {
         self.tick_of_delay(time.wrapping_sub(self.start))
     }
 
-    /// The same by the delay, exact but for what is cut off that and the factor, at most 2⁻⁶ tick.
+    /// The same by the delay. That and the factor are cut, which costs 2⁻⁶ tick.
     // proofs/ticks.py: tick
     #[inline(always)]
     fn tick_of_delay(&self, delay: i64) -> u32 {
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
         let low = ((low * self.power as u64) >> 32) as u32;
-        // A polynomial may be before the start by its error.
+        // Not below 0, whatever the last units of a time are.
         let delay = (high.wrapping_mul(self.power).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32
