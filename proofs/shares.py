@@ -14,7 +14,7 @@ code("pub(crate) fn words(&self, odd: u32) -> (u64, Words) {", """let u = self.i
     (u, Words { word: (u >> 32) as u32, below, share }) }""")
 code("pub(crate) fn within(&self, reach: u32) -> u32 {", """let more_than_share = ((self.half_share >> 31) as u32).wrapping_add(1);
     reach.checked_div(more_than_share).unwrap_or(0).saturating_add(1) }""")
-code("pub(crate) fn behind(self, bits: u32, less: u32, ahead: u32) -> Self {", """let up = |word: u32, below: u64| {
+code("pub(crate) fn moved(self, bits: u32, less: u32, ahead: u32) -> Self {", """let up = |word: u32, below: u64| {
     let (middle, low) = ((below >> 32) as u32, below as u32); let word = word << 1 << bits | middle >> (31 - bits);
     let middle = middle << 1 << bits | low >> (31 - bits); (word, (middle as u64) << 32 | (low << 1 << bits) as u64) };
     let (below, borrow) = self.below.overflowing_sub((less as u64) << 32);
@@ -102,7 +102,7 @@ less = BitVec("less", 1)
 lessened = below - Concat(BitVecVal(0, 31), less, BitVecVal(0, 32))
 borrow = If(ULT(below, Concat(BitVecVal(0, 31), less, BitVecVal(0, 32))), BitVecVal(1, 32), BitVecVal(0, 32))
 valid(
-    "behind: the words that begin so many bits and one farther, of what is less by as many units of 2^-64",
+    "moved: the words that begin so many bits and one lower, of what is less by as many units of 2^-64",
     And(*(up(word - borrow, lessened, bits) == (Concat(word, below) - Concat(BitVecVal(0, 63), less, BitVecVal(0, 32))) << (bits + 1) for bits in range(32))),
     And(*(up(word, lessened, bits) == (Concat(word, below) - Concat(BitVecVal(0, 63), less, BitVecVal(0, 32))) << (bits + 1) for bits in range(32))),
 )

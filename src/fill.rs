@@ -60,7 +60,7 @@ impl<const CELLS: usize> Ticks<'_, CELLS> {
                 }
                 Some((scale, Direct::Octave(octave))) if fractions.are_many(octave.zeros) => {
                     let count = fractions.within(plan.octave_reaches(u, &octave, plateau));
-                    let words = words.behind(octave.zeros, octave.less, octave.ahead);
+                    let words = words.moved(octave.zeros, octave.less, octave.ahead);
                     schedule.fill(count, words, |word| scale.tick(octave.time_ahead(word)))
                 }
                 direct => {

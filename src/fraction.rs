@@ -43,8 +43,8 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or after it, in units of 2⁻⁶⁴. In frames that have direct
-    /// triggers it is too low by at most two of these, and half a pulse by at most two. The last pulse's end at 1 becomes 0, which is in no octave
-    /// (`proofs/shares.py`).
+    /// triggers it is too low by at most two of these, and half a pulse by at most two. The last pulse's end at 1 becomes
+    /// 0, which is in no octave (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {
         // Without the rest it would be too low by up to `odd` units: many ulp of an `f32` of what is left until 1.
@@ -136,7 +136,7 @@ impl Words {
     /// The same words after `less` units of 2⁻⁶⁴ are subtracted from each fraction, the rest is moved up by `bits + 1`
     /// bits, and `ahead` is added to what is then the upper word.
     #[inline(always)]
-    pub(crate) fn behind(self, bits: u32, less: u32, ahead: u32) -> Self {
+    pub(crate) fn moved(self, bits: u32, less: u32, ahead: u32) -> Self {
         let up = |word: u32, below: u64| {
             let (middle, low) = ((below >> 32) as u32, below as u32);
             let word = word << 1 << bits | middle >> (31 - bits);

@@ -16,7 +16,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::{env, thread};
 
-use generator::fresh::{self, DEVICES};
+use generator::fresh::{self, DEVICES, Device};
 use generator::physics::{FAMILIES, Family, Measured, measured};
 use generator::{Disturbance, Random, SHUTTERS, case};
 use shutter::fit::{From, Options, fit};
@@ -179,7 +179,14 @@ fn table() {
     }
 }
 
-/// Devices on which nothing was tuned.
+fn device_rows(device: Device, count: u64, seed: u64) -> Vec<Row> {
+    each(count, |k| {
+        let mut random = Random::new(seed + 500_000 + 1000 * device as u64 + k);
+        row(&fresh::measured(device, &mut random))
+    })
+}
+
+/// Other devices, made when all was done; docs/fit.md says what was changed since.
 #[test]
 #[ignore = "some minutes: the table of other devices, for docs/fit.md"]
 fn fresh_devices() {
@@ -187,10 +194,7 @@ fn fresh_devices() {
     println!("\n{HEAD}");
     let mut all = Vec::new();
     for device in DEVICES {
-        let rows = each(count, |k| {
-            let mut random = Random::new(seed + 500_000 + 1000 * device as u64 + k);
-            row(&fresh::measured(device, &mut random))
-        });
+        let rows = device_rows(device, count, seed);
         print(&format!("{device:?}"), &rows);
         all.extend(rows);
     }
@@ -222,6 +226,15 @@ fn nothing_is_wrong_without_a_word() {
             _ => (),
         }
     }
+}
+
+/// A leaf that creeps to its end: in some of these traces nothing but the test of the tail tells it.
+#[test]
+fn a_tail_is_told() {
+    let rows = device_rows(Device::Creep, 25, 1);
+    assert!(rows.iter().all(|row| row.told || !row.is_wrong()));
+    let told = rows.iter().filter(|row| row.from_trace).count();
+    assert!(told >= 23, "{told}");
 }
 
 /// And what is right is not doubted.

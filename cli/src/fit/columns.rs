@@ -3,10 +3,10 @@
 use super::bins::Bin;
 use super::hum;
 use super::kind::KindFit;
+use super::lag::passes_for_drift;
 use super::noise::correlation;
 use super::signal::{Flicker, Signal};
 use super::solve::Problem;
-use super::tail::passes_for_drift;
 
 /// A column is kept if the criterion falls by more than this.
 const WORTH: f64 = 10.0;

@@ -2,9 +2,10 @@
 
 use super::bins::Bin;
 use super::frame::FrameFits;
+use super::missed::{Parts, missed};
 use super::outcome::{Fit, From, Test};
 use super::signal::Kind;
-use super::structure::{Parts, Walk, missed};
+use super::structure::Walk;
 use crate::trace::{Frame, Warning};
 
 /// All doubts about the fit of a frame.

@@ -3,9 +3,10 @@
 use std::cmp::max_by_key;
 
 use super::frame::FrameFits;
+use super::missed::Parts;
 use super::noise::correlation;
 use super::signal::Kind;
-use super::structure::{Parts, structure};
+use super::structure::structure;
 use crate::trace::{Frame, Pulses};
 
 /// The fits of a frame; `progress` is told the share that is done, as far as that is known.

@@ -1,4 +1,7 @@
-//! What a kind's curve misses of the samples, added up along the pulse: by that its trigger times are off.
+//! A frame's samples in the pulse and in the dark, and what a kind's curve misses of them; added up along the pulse, its trigger times
+//! are off by that.
+
+use std::ops::Range;
 
 use super::curve::Exposure;
 use super::frame::FrameFits;
@@ -6,6 +9,35 @@ use super::signal::Kind;
 
 /// The least openness that a time is divided by: where the shutter hardly lets light in, a time would have no limit.
 const LEAST_OPENNESS: f64 = 1e-3;
+
+/// A frame's samples apart: those in the pulse, and those in the dark before and after it.
+pub struct Parts {
+    pub before: Range<usize>,
+    pub pulse: Range<usize>,
+    pub after: Range<usize>,
+}
+
+impl Parts {
+    pub fn new(fits: &FrameFits, kind: Kind) -> Self {
+        let curve = fits.of(kind).solution.signal.curve;
+        let room = (0.01 * curve.length()).max(1.5 * fits.step);
+        let from = fits.samples.partition_point(|bin| bin.to < curve.start - room);
+        let to = fits.samples.partition_point(|bin| bin.from <= curve.end() + room);
+        Self { before: 0..from, pulse: from..to.max(from), after: to.max(from)..fits.samples.len() }
+    }
+}
+
+/// What a kind's curve misses of each sample; at its corners nothing, since a sample that shows a moment and one that gathers
+/// differ there.
+pub fn missed(fits: &FrameFits, kind: Kind) -> Vec<f64> {
+    let fitted = fits.of(kind);
+    let signal = fitted.solution.signal;
+    let corners = signal.curve.times();
+    let near = |t: f64| corners.iter().any(|corner| (t - corner).abs() < 1.5 * fits.step);
+    let each = fits.samples.iter().zip(&fitted.residuals);
+    each.map(|(bin, r)| if near(0.5 * (bin.from + bin.to)) { 0.0 } else { r / signal.gain })
+        .collect()
+}
 
 /// The light that a kind's curve misses.
 pub struct Missed {

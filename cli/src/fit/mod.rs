@@ -7,7 +7,7 @@
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `shots`, `choice`: the kinds compared, and one chosen;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
-//! - `structure`, `tail`: does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
+//! - `structure`, `tail` (by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
 //! - `report`, `json`, `scene`: the [`Fit`] as text, for a program, and as a scene for `shutter plan`.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
@@ -24,6 +24,7 @@ mod frame;
 mod hum;
 mod json;
 mod kind;
+mod lag;
 mod missed;
 mod noise;
 mod outcome;

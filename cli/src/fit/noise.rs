@@ -1,4 +1,4 @@
-//! How little noise counts as such, and how many samples with noise stand for an independent one.
+//! How little noise counts as such, how many samples with noise stand for an independent one, and how mean squares are compared.
 
 /// The least standard deviation that counts, as a share of the light: below, rounding and the model's own limits rule.
 pub const LEAST: f64 = 1e-5;
@@ -38,4 +38,22 @@ pub fn correlation(residuals: &[f64]) -> f64 {
     }
     // Fewer than twenty independent samples would tell nothing of a curve with twelve parameters.
     best.clamp(1.0, (n as f64 / 20.0).max(1.0))
+}
+
+/// The mean of the squares.
+pub fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64
+}
+
+/// Half the mean square of what neighbours differ by.
+pub fn fast(values: &[f64]) -> f64 {
+    let differ: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    0.5 * mean_square(&differ)
+}
+
+/// A ratio of two mean squares in standard deviations of a normal number of the same chance (Wilson and Hilferty).
+pub fn normal_of(ratio: f64, (above, below): (f64, f64)) -> f64 {
+    let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));
+    let cube = ratio.max(0.0).cbrt();
+    ((1.0 - b) * cube - (1.0 - a)) / (a + b * cube * cube).sqrt()
 }

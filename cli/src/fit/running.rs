@@ -3,9 +3,9 @@
 use super::curve::fractions;
 use super::errors::{Measured, Results};
 use super::frame::FrameFits;
-use super::missed::least_open;
+use super::missed::{Parts, least_open, missed};
 use super::signal::Kind;
-use super::structure::{Parts, Walk, missed};
+use super::structure::Walk;
 use super::tail;
 use crate::trace::median;
 

@@ -8,7 +8,8 @@ use std::ops::Range;
 
 use super::curve::fractions;
 use super::frame::FrameFits;
-use super::missed::{Missed, least_open};
+use super::missed::{Missed, Parts, least_open, missed};
+use super::noise::{fast, mean_square, normal_of};
 use super::signal::Kind;
 use super::tail::{self, Tail};
 
@@ -38,55 +39,9 @@ pub struct Structure {
     pub at: f64,
 }
 
-/// A frame's samples apart: those in the pulse, and those in the dark before and after it.
-pub struct Parts {
-    pub before: Range<usize>,
-    pub pulse: Range<usize>,
-    pub after: Range<usize>,
-}
-
-impl Parts {
-    pub fn new(fits: &FrameFits, kind: Kind) -> Self {
-        let curve = fits.of(kind).solution.signal.curve;
-        let room = (0.01 * curve.length()).max(1.5 * fits.step);
-        let from = fits.samples.partition_point(|bin| bin.to < curve.start - room);
-        let to = fits.samples.partition_point(|bin| bin.from <= curve.end() + room);
-        Self { before: 0..from, pulse: from..to.max(from), after: to.max(from)..fits.samples.len() }
-    }
-}
-
-/// What a kind's curve misses of each sample; at its corners nothing, since a sample that shows a moment and one that gathers
-/// differ there.
-pub fn missed(fits: &FrameFits, kind: Kind) -> Vec<f64> {
-    let fitted = fits.of(kind);
-    let signal = fitted.solution.signal;
-    let corners = signal.curve.times();
-    let near = |t: f64| corners.iter().any(|corner| (t - corner).abs() < 1.5 * fits.step);
-    let each = fits.samples.iter().zip(&fitted.residuals);
-    each.map(|(bin, r)| if near(0.5 * (bin.from + bin.to)) { 0.0 } else { r / signal.gain })
-        .collect()
-}
-
 /// Means of `length` neighbours.
 fn blocks(values: &[f64], length: usize) -> Vec<f64> {
     values.chunks_exact(length).map(|few| few.iter().sum::<f64>() / length as f64).collect()
-}
-
-fn mean_square(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64
-}
-
-/// Half the mean square of what neighbours differ by.
-pub fn fast(values: &[f64]) -> f64 {
-    let differ: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    0.5 * mean_square(&differ)
-}
-
-/// A ratio of two mean squares in standard deviations of a normal number of the same chance (Wilson and Hilferty).
-pub fn normal_of(ratio: f64, (above, below): (f64, f64)) -> f64 {
-    let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));
-    let cube = ratio.max(0.0).cbrt();
-    ((1.0 - b) * cube - (1.0 - a)) / (a + b * cube * cube).sqrt()
 }
 
 /// The test.

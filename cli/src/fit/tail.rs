@@ -1,24 +1,21 @@
 //! A closing ramp that ends more slowly than its cubic: creeping blades, a relaxing crystal, a slow sensor.
 //!
-//! One pattern stands for all of these: what a ramp adds that follows the fitted one with a lag. How much of it is in the samples
-//! is tested with all that the signal's own parameters could explain of it left out (a score test), which finds a tail that
-//! no block of samples shows by itself.
+//! One pattern stands for all of these, that of a [`lag`](super::lag). How much of it is in the samples is compared with what the dark's
+//! noise would put there (a score test), which finds a tail that no block of samples shows by itself.
 
 use super::bins::Bin;
 use super::curve::{Exposure, fractions};
 use super::frame::FrameFits;
-use super::missed::least_open;
-use super::noise::{LEAST, correlation};
+use super::lag::{LAG, Movable, Score, lagging};
+use super::missed::{Parts, least_open};
+use super::noise::{LEAST, correlation, fast, normal_of};
 use super::signal::Kind;
-use super::solve::{Cholesky, Problem, Solution};
-use super::structure::{Parts, fast, normal_of};
 
-/// The test, which is looked for by one pattern alone, so many are: a normal number is there once in 1400 times, on one side.
+/// There is a tail beyond so many standard deviations: a normal number is there once in 1400 times, on this side. That is less than
+/// where many blocks are tested, since this is one pattern alone.
 pub const BEYOND: f64 = 3.2;
 /// A tail matters where the triggers move so much with it, as a share of the exposure.
 pub const MATTERS: f64 = 1e-3;
-/// The lag's time constant, in closing ramps. From 0.4 to 1.6 it tells the same.
-const LAG: f64 = 0.8;
 /// After so many time constants nothing is left of a tail that noise would not hide.
 const ENDS: f64 = 2.0;
 /// In fewer samples of dark the noise is not known.
@@ -65,125 +62,6 @@ pub fn tail(fits: &FrameFits, kind: Kind) -> Option<Tail> {
         share: amount * highest / solution.signal.gain,
         at: bins[k].from,
     })
-}
-
-/// Does a tail explain as much as the drift does that a signal was given?
-pub fn passes_for_drift(problem: &Problem, solution: &Solution, step: f64) -> bool {
-    let (signal, bins) = (solution.signal, &problem.bins);
-    let (Some(drift), Some(lagging)) = (signal.drift, lagging(solution, bins, step)) else {
-        return false;
-    };
-    let place = signal.kind.parameters() + 2;
-    let movable = Movable::new(solution, bins, |k| k != place);
-    let line: Vec<f64> = bins.iter().map(|bin| 0.5 * (bin.from + bin.to)).collect();
-    let missed: Vec<f64> =
-        movable.missed.iter().zip(&line).map(|(missed, t)| missed + drift * t).collect();
-    // What the sum of squares falls by, and the way.
-    let falls = |pattern: &[f64]| {
-        let Score { along, square } = Score::new(&movable.rest(pattern), &missed, bins);
-        along * along.abs() / square
-    };
-    falls(&lagging) >= falls(&line).abs()
-}
-
-/// What a lag adds to the closing ramp, in each bin.
-fn lagging(solution: &Solution, bins: &[Bin], step: f64) -> Option<Vec<f64>> {
-    let exposure = Exposure::new(&solution.signal.curve);
-    let curve = exposure.curve;
-    let constant = LAG * curve.closing;
-    if constant < 2.0 * step {
-        return None;
-    }
-    let (mut last, mut open, mut lag) = (curve.close_start(), 1.0, 0.0);
-    let mean = |bin: &Bin| {
-        let width = bin.to - last;
-        if width <= 0.0 {
-            return 0.0;
-        }
-        // A lag falls by its time constant and grows by what the ramp falls, evenly over a bin.
-        let falls = open - exposure.openness(bin.to);
-        let pass = (-width / constant).exp();
-        let next = lag * pass + falls * (1.0 - pass) * constant / width;
-        let mean = constant * (lag + falls - next) / width;
-        (last, open, lag) = (bin.to, open - falls, next);
-        solution.signal.gain * mean
-    };
-    Some(bins.iter().map(mean).collect())
-}
-
-/// A signal's parameters, as far as they can move, at each bin.
-struct Movable<'a> {
-    solution: &'a Solution,
-    bins: &'a [Bin],
-    /// Which.
-    places: Vec<usize>,
-    factor: Cholesky,
-    /// How each bin moves with each.
-    rows: Vec<Vec<f64>>,
-    /// What each bin is missed by.
-    missed: Vec<f64>,
-}
-
-impl<'a> Movable<'a> {
-    fn new(solution: &'a Solution, bins: &'a [Bin], keep: impl Fn(usize) -> bool) -> Self {
-        let places: Vec<usize> = solution.moving().into_iter().filter(|k| keep(*k)).collect();
-        let row =
-            |i: &usize| places.iter().map(|j| solution.normal[*i.max(j)][*i.min(j)]).collect();
-        let factor = Cholesky::stiffened(&places.iter().map(row).collect::<Vec<_>>());
-        let mut means = solution.signal.means();
-        let mut moves = vec![0.0; solution.signal.len()];
-        let (mut rows, mut missed) = (Vec::new(), Vec::new());
-        for bin in bins {
-            missed.push(bin.mean - means.over(bin.from, bin.to, &mut moves));
-            rows.push(places.iter().map(|k| moves[*k]).collect());
-        }
-        Self { solution, bins, places, factor, rows, missed }
-    }
-
-    /// How the parameters would make up for a pattern.
-    fn answer(&self, pattern: &[f64]) -> Vec<f64> {
-        let mut right = vec![0.0; self.places.len()];
-        for ((bin, row), p) in self.bins.iter().zip(&self.rows).zip(pattern) {
-            right.iter_mut().zip(row).for_each(|(sum, m)| *sum += bin.samples * m * p);
-        }
-        self.factor.solve(&right)
-    }
-
-    /// What is left of a pattern.
-    fn rest(&self, pattern: &[f64]) -> Vec<f64> {
-        self.less(pattern, &self.answer(pattern))
-    }
-
-    /// The pattern less what the curve's parameters make up for, which is how the light itself changes.
-    fn without_levels(&self, pattern: &[f64]) -> Vec<f64> {
-        let mut by = self.answer(pattern);
-        let of_curve = self.solution.signal.kind.parameters();
-        let levels = self.places.iter().zip(&mut by).filter(|(place, _)| **place >= of_curve);
-        levels.for_each(|(_, by)| *by = 0.0);
-        self.less(pattern, &by)
-    }
-
-    fn less(&self, pattern: &[f64], by: &[f64]) -> Vec<f64> {
-        let explained = |row: &Vec<f64>| row.iter().zip(by).map(|(m, by)| m * by).sum::<f64>();
-        pattern.iter().zip(&self.rows).map(|(p, row)| p - explained(row)).collect()
-    }
-}
-
-/// How much of a pattern is in what is missed.
-struct Score {
-    along: f64,
-    square: f64,
-}
-
-impl Score {
-    fn new(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> Self {
-        let (mut along, mut square) = (0.0, f64::MIN_POSITIVE);
-        for ((bin, p), missed) in bins.iter().zip(pattern).zip(missed) {
-            along += bin.samples * p * missed;
-            square += bin.samples * p * p;
-        }
-        Self { along, square }
-    }
 }
 
 /// The noise's power at the slow end, as the dark shows it.
