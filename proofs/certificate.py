@@ -8,19 +8,40 @@ pi / N) (Ehlich and Zeller 1964); a function that is at most M on the ellipse wi
 import random
 from math import comb
 
+import z3
+
 from common import *
 
 code("const fn ellipse(rho: f32) -> [f32; 3] {", """let square = 1.0 / (rho * rho);
     let twelfth = square * square * square * square * square * square;
     [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)] }""")
-code("let (mut s, mut last, mut i) = (1.0, cosine, 0);", "while i <= points {")
-code("let half = i.wrapping_sub(HALF_DEGREE);", """if half < DEGREES { shares[half] = s as f32; }
-    (s, last) = (2.0 * cosine * s - last, s); i += 1; }""")
-code("errors.least[kind] -= noise;", "errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);")
-code("let [axis, square, first] = ELLIPSES[i];", """
-    let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis); let mut half = 0;
-    while half < DEGREES && shares[half] > 0.0 { let bound = (seen + tail) / shares[half] + tail;
-    least = if bound < least { bound } else { least }; tail *= square; half = unknown(half + 1); }""")
+code("const COSINES: &[i32; POINTS / 2 + 1] = &{", """
+    let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
+    while i < cosines.len() { cosines[i] = (cosine * PLACE as f64 + 0.5) as i32;
+    (cosine, last) = (2.0 * COSINE * cosine - last, cosine); i += 1; } cosines };""")
+code("let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);", """
+    while i < COSINES.len() { let mut place = COSINES[i]; loop {
+    let half = 1 << (FRACTION_BITS - 1);
+    let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
+    let rest = octave.polynomial(octave.ahead_of_center(position));
+    let error = (((rest as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
+    let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
+    let error = error / (1 << TIME_BITS) as f32;""")
+code("if place <= 0 { break; }", "place = -place; } i += step; }")
+code("counted[k] = fixed_f64(c[k], -bits);", "are_counted &= counted[k].unsigned_abs() >> 60 == 0;")
+code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut k) = (0, c.len());
+    loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; }
+    let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
+    value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + c[k]; } }""")
+code("let noise = noise * absolute(&weights[kind], 1.0);", """errors.least[kind] -= noise;
+    errors.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
+code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * bends(octave, x, axis);")
+code("let [axis, square, _] = ELLIPSES[i];", """
+    let mut tail = tails[i] * absolute(weight, axis);
+    let (mut k, mut degrees) = (HALF_DEGREE * step, DEGREES);
+    while degrees > 0 && k < COSINES.len() {
+    let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
+    least = if bound < least { bound } else { least }; tail *= square; k += step; degrees = unknown(degrees - 1); }""")
 code("let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
     let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
     loop { k = unknown(k).wrapping_sub(1); if k >= DEGREE { return sum; }
@@ -33,10 +54,14 @@ DEGREE = int(source(r"pub\(crate\) const DEGREE: usize = (\d+);"))
 HALF_DEGREE = int(source(r"const HALF_DEGREE: usize = (\d+);"))
 DEGREES = int(source(r"const DEGREES: usize = (\d+);"))
 SLACK = 1 + 1 / Fraction(2 ** int(source(r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
-POINTS = [(int(n), float(c)) for n, c in re.findall(
-    r"\((\d+), ([\d.]+)\)", source(r"const POINTS: [^=]*=\s*\[([^;]*)\];"))]
+MOST_POINTS = int(source(r"const POINTS: usize = (\d+);"))
+COSINE = float(source(r"const COSINE: f64 = ([\d.]+);"))
+EFFORTS = int(source(r"pub\(crate\) const EFFORTS: usize = (\d+);"))
+# Every fourth point, every second, and all.
+STEPS = [4 >> effort for effort in range(EFFORTS)]
+PLACES = 2 ** int(source(r"const PLACE: f32 = \(1 << (\d+)\) as f32;"))
 RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source(r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
-require(len(POINTS) == 3 and len(RHOS) == 6, "points and ellipses")
+require(STEPS == [4, 2, 1] and MOST_POINTS % 8 == 0 and len(RHOS) == 6, "points and ellipses")
 COEFFICIENTS = int(source(r"    x: &\[f32; (\d+)\],\n    weights"))
 WEIGHT = int(source(r"weights: &\[\[f32; (\d+)\]; KINDS\]"))
 source(r"\[x0, x1, curved @ \.\.\]: &\[f32; 7\]")
@@ -65,41 +90,59 @@ def cosine(x):
 
 
 LAST_PLACE = Fraction(1, 2**53)
-worst = Fraction(0)
-for n, c in POINTS:
-    worst = max(worst, abs(Fraction(c) - cosine(PI / n)) / LAST_PLACE)
-    require(n % 2 == 0, "an even number")
-    require(all(abs(Fraction(c) + one - cosine(PI / n)) > LAST_PLACE / 2 for one in (LAST_PLACE, -LAST_PLACE)), "the neighbours are farther")
-require(worst <= Fraction(1, 2), f"cosines of pi/N: {float(worst)} last places")
-proven(f"the cosines of pi/N, N = {', '.join(str(n) for n, _ in POINTS)}, are the nearest doubles: right to {float(worst):.2f} last places")
+require(all(abs(Fraction(COSINE) - cosine(PI / MOST_POINTS)) <= abs(Fraction(COSINE) + one - cosine(PI / MOST_POINTS)) for one in (LAST_PLACE, -LAST_PLACE)), "its neighbours are no nearer")
 
-# The recurrence, as doubles compute it. Index i has the cosine of i pi / N, which is that of n pi / 2N for the degree n = 2 i.
-off, shares_off, spoilt = Fraction(0), Fraction(0), Fraction(0)
-SINGLE = Fraction(1, 2**23)
-for points, c in POINTS:
-    s, last = 1.0, c
-    t, before = 1.0, c * (1 + 2.0**-46)
-    for i in range(points + 1):
-        exact = cosine(PI * i / points)
-        off = max(off, abs(Fraction(s) - exact))
-        spoilt = max(spoilt, abs(Fraction(t) - exact))
-        half = i - HALF_DEGREE
-        if 0 <= half < DEGREES:
-            degree = 2 * (HALF_DEGREE + half)
-            require(exact == cosine(PI * degree / (2 * points)), "a share is that of its degree")
-            if degree < points:
-                shares_off = max(shares_off, abs(Fraction(s) - exact) / exact)
-            else:
-                # No bound: a share that is not above 0 ends the loop, and by a trace above 0 it gives a bound that is none.
-                require(s < 2.0**-50, f"degree {degree} with {points} points")
-        s, last = 2.0 * c * s - last, s
-        t, before = 2.0 * before * t - before if i == 0 else 2.0 * c * (1 + 2.0**-46) * t - before, t
-require(off < Fraction(1, 2**40) and shares_off < Fraction(1, 2**40), f"2^{log2(off)}")
-require(spoilt > Fraction(1, 2**40), "a cosine that is wrong by 2^-46 is seen")
-proven(f"each of the recurrence's cosines, up to {POINTS[-1][0]} steps, is within 2^{log2(off):.1f}, and the shares of degrees {2 * HALF_DEGREE} to {2 * (HALF_DEGREE + DEGREES - 1)} within 2^{log2(shares_off):.1f} of themselves")
-greatest = 2 * (HALF_DEGREE + DEGREES - 1)
-require(greatest**2 * off < Fraction(1, 2**28), "points that are a trace off")
-proven(f"so a sample is off its point by no more than 2^{log2(greatest**2 * off):.1f} of the polynomial's maximum, by Markov's inequality")
+
+# The table, as the recurrence makes it in doubles. For the degree n = 2 i and N points, a step apart, the share is the cosine
+# of n pi / 2N, which is that of i step pi / MOST_POINTS.
+def table(first):
+    cosines, s, last = [], 1.0, first
+    for _ in range(MOST_POINTS // 2 + 1):
+        cosines.append(int(s * PLACES + 0.5))
+        s, last = 2.0 * first * s - last, s
+    return cosines
+
+
+def off_table(cosines):
+    return max(abs(Fraction(c, PLACES) - cosine(PI * i / MOST_POINTS)) for i, c in enumerate(cosines))
+
+
+COSINES = table(COSINE)
+off = off_table(COSINES)
+require(off <= Fraction(1, 2 * PLACES) * (1 + Fraction(1, 2**10)) and COSINES[0] == PLACES and COSINES[-1] == 0, f"2^{log2(off)}")
+require(off_table(table(COSINE * (1 - 2.0**-40))) > off * 2, "a cosine that is wrong by 2^-40 is seen")
+proven(f"the table's {len(COSINES)} cosines are within 2^{log2(off):.2f}")
+# By how many roundings of 2^-24 a bound is too small as samples are off their points, by Markov's inequality, and the share by its
+# own error: max |p| <= (seen + tail + off n^2 max |p|) / (share + off).
+spoilt = Fraction(0)
+for step in STEPS:
+    for half in range(HALF_DEGREE, HALF_DEGREE + DEGREES):
+        if half * step < len(COSINES) - 1:
+            share = Fraction(COSINES[half * step], PLACES)
+            spoilt = max(spoilt, share / (share - off - off * (2 * half) ** 2) - 1)
+        else:
+            require(half * step == len(COSINES) - 1, "beyond the table")
+spoilt /= U
+places_off = int(source(r"that make a bound too small at most, and (\d+) for samples off their points"))
+require(places_off - 1 < spoilt <= places_off, f"{float(spoilt)} roundings for samples off their points")
+proven(f"samples off their points, and cosines off theirs, make a bound too small by {float(spoilt):.1f} roundings of 2^-24 at most")
+
+# What samples lose in integers: a coefficient less than a unit as it is cut, and so each product as it is rounded down; places are at
+# most 1, so nothing that is lost grows.
+A, B = z3.Ints("A B")
+solver = z3.Solver()
+solver.add((A * 2**32 + B) / 2**30 != 4 * A + B / 2**30)
+require(solver.check() == z3.unsat, "the product by words")
+FRACTION_BITS, TIME_BITS = (int(source(rf"const {name}_BITS: i32 = (\d+);")) for name in ("FRACTION", "TIME"))
+sample_off = Fraction(int(source(r"const SAMPLE_OFF: f32 = ([\d]+)\.0 / \(1 << TIME_BITS\) as f32;")), 2**TIME_BITS)
+require(sample_off == Fraction(4 + 3, 2**TIME_BITS), "SAMPLE_OFF")
+position = Fraction(1, 2) + Fraction(7 + 6, 2**FRACTION_BITS)
+# A tick's fraction may lose 2.
+allowed = 2 * Fraction(source(r"let noise = limits\.rounding \+ ([\d.]+) \* limits\.lost;"))
+require(Fraction(1, 2) < position <= allowed < Fraction(1, 2) * Fraction(1001, 1000), "a sample's position")
+# Up to 7 numbers below 2^60, and what is lost on the way: so a value fits, and four times a product of its upper word.
+require(7 * (2**60 + 1) < 2**63 and PLACES == 2**30, "no value beyond its words")
+proven(f"samples in integers: a time is off by at most SAMPLE_OFF = 2^{log2(sample_off):.2f} units, a position by 1/2 and 2^{log2(position - Fraction(1, 2)):.1f}; none is beyond 63 bits")
 
 # --- Degrees.
 offset, time, weight = COEFFICIENTS - 1, 3, WEIGHT - 1
@@ -213,11 +256,12 @@ for rho, low in axes_low.items():
     axes_low[rho] = count
 count = max(axes_low.values())
 allowed = (SLACK - 1) / U
+most = int(count + spoilt) + 1
 stated = int(source(r"More than the (\d+) roundings of an `f32`"))
 require(stated - 1 < count <= stated, f"as many roundings as the comment says: {float(count)}")
-require((1 - U) ** (int(count) + 1) * SLACK >= 1, f"{float(count)} roundings")
-require((1 - U) ** (int(count) + 1) * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
-proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most")
+require((1 - U) ** most * SLACK >= 1, f"{most} roundings")
+require((1 - U) ** most * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
+proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most, and the {float(spoilt):.1f} of the samples' places")
 
 # --- What a fraction may be off by: `OFF`.
 off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
@@ -259,8 +303,6 @@ code("let [_, t1, t2, t3] = self.time;", """let (thrice, most) = (3.0 * t3, t1.a
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
     let slowest = slowest - most / (1 << 20) as f32; let mut way = error / most;
     while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error { way *= 2.0; }""")
-import z3
-
 t1, t2, t3, s, a, d = z3.Reals("t1 t2 t3 s a d")
 
 

@@ -35,7 +35,7 @@ code("pub(crate) fn octave_reaches(", """&self, u: u64, octave: &OctaveU64, plat
     (words >> 1 >> octave.zeros).min((ramp >> 32) as u32).min(side) }""")
 code("pub(crate) fn line_reaches(", """&self, u: u64, plateau: &PlateauU64) -> u32 {
     (plateau.last.wrapping_sub(u) >> 32) as u32 }""")
-code("const fn center(&self) -> u64 {", """(self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64 }""")
+code("const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(FINER as i64) | self.finer as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
@@ -55,7 +55,7 @@ code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, 
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
     if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
-code("octave.c[DEGREE - k] = round(c[k] * per_step);", "")
+code("octave.c[DEGREE - k] = rounded(c[k], exponent);", "")
 code("fn nearer(u: f32) -> (usize, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (is_late as usize, core::hint::select_unpredictable(is_late, late, bits)) }""")
@@ -488,4 +488,4 @@ require(not gappa(horner(float(least + near), float(most))) and not gappa(horner
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
 require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("let middle = (c[0] * power_of_two_f64(-self.unit) - MEAN_TRUNCATION * factor as f64) as i64;", "")
+code("let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);", "")

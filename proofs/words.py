@@ -174,6 +174,28 @@ valid(
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
 )
+code("pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {", """let bits = x.to_bits();
+    let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
+    let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;
+    let units = if up > 10 { i64::MAX } else if up >= 0 { significand << (up & 63) } else if up > -64 { significand >> (-up & 63) } else { 0 };
+    if (bits as i64) < 0 { -units } else { units } }""")
+# A subnormal number, whose exponent counts as 0, has no unit: up is at most -64 where e is at least -1011.
+fits = And(up <= 10, up >= -4000, ULT(sig, 1 << 53), UGE(sig, 1 << 52))
+units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(0, 64)))
+down = If(-up > 63, BitVecVal(63, 64), -up)
+floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
+valid(
+    "fixed_f64: the whole units of a double below 2^63 of them, rounded towards 0",
+    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
+    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
+)
+code("const fn rounded(x: f64, e: i32) -> i32 {", "let halves = fixed_f64(x, e - 1); ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32 }")
+units = Real("units")
+valid(
+    "rounded: from whole halves of a unit to the nearest unit; the other sign mirrors it",
+    Implies(units >= 0, (ToInt(2 * units) + 1) / 2 == ToInt(units + Q(1, 2))),
+    Implies(units >= 0, ToInt(2 * units) / 2 == ToInt(units + Q(1, 2))),
+)
 code("pub(crate) const fn from_u32(x: u32) -> Self {", "Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32) }")
 valid(
     "from_u32: both parts have at most 24 bits, so they and their sum are exact",

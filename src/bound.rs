@@ -14,19 +14,33 @@
 //!
 //! Each sample goes the answer's own way, from the position of a fraction to the polynomial's value in 32 bits, so that
 //! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between
-//! them. All else may be in `f32`, whose rounding [`SLACK`] makes up for.
+//! them. All else may be in `f32`, whose rounding [`SLACK`] makes up for, or in integers.
 //!
 //! docs/proofs.md leads from this to what an answer is off by.
 
 use crate::octave::{DEGREE, Octave};
-use crate::path::{Path, absolute, unknown, value};
+use crate::path::{Path, absolute, unknown};
+use crate::units::{WORD, fixed_f64};
 
-/// N, which is even, for N + 1 points, and the cosine of π/N: from the cheapest bound to the closest.
-const POINTS: [(usize, f64); 3] =
-    [(22, 0.9898214418809327), (48, 0.9978589232386035), (96, 0.9994645874763657)];
+/// The greatest N, and the cosine of π/N.
+const POINTS: usize = 96;
+const COSINE: f64 = 0.9994645874763657;
 
-/// A bound is tried with so many efforts, the cheapest first.
-pub(crate) const EFFORTS: usize = POINTS.len();
+/// A bound is tried with so many efforts, the cheapest first: with every fourth point, every second, and all.
+pub(crate) const EFFORTS: usize = 3;
+
+/// The cosines of i π/N, from 1 down to 0. Each follows from the two before it. They count 2⁻³⁰, as samples' places do.
+// proofs/certificate.py
+const COSINES: &[i32; POINTS / 2 + 1] = &{
+    let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
+    while i < cosines.len() {
+        cosines[i] = (cosine * PLACE as f64 + 0.5) as i32;
+        (cosine, last) = (2.0 * COSINE * cosine - last, cosine);
+        i += 1;
+    }
+    cosines
+};
+const PLACE: f32 = (1 << 30) as f32;
 
 /// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f`
 /// has degree 11, so it may be taken away first.
@@ -43,7 +57,7 @@ const fn ellipse(rho: f32) -> [f32; 3] {
 const HALF_DEGREE: usize = 6;
 const DEGREES: usize = 7;
 
-/// More than the 181 roundings of an `f32` that make a bound too small at most.
+/// More than the 181 roundings of an `f32` that make a bound too small at most, and 27 for samples off their points.
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
@@ -56,42 +70,106 @@ pub(crate) struct Errors {
     pub(crate) most: [f32; KINDS],
 }
 
-/// The errors of an octave's polynomial along a stretch, whose fraction counts as a position does, and whose time in
-/// the unit of the coefficients. Samples are wrong by at most `noise`. For the tails, `x` has the coefficients of the
-/// offset by powers of `s`, in single precision.
+/// A sample's fraction counts 2⁻²⁰ of a position, and its time 2⁻²⁴ of a coefficient's 1.
+const FRACTION_BITS: i32 = 20;
+const TIME_BITS: i32 = 24;
+/// What the time of a sample loses at most, in the unit of the coefficients, by three products and by four numbers cut.
+// proofs/certificate.py
+pub(crate) const SAMPLE_OFF: f32 = 7.0 / (1 << TIME_BITS) as f32;
+
+/// A stretch as samples are taken from it: in integers, because a processor without doubles takes ten times as long for
+/// those.
+pub(crate) struct Sampled {
+    fraction: [i64; 7],
+    time: [i64; 4],
+}
+
+impl Sampled {
+    /// A stretch whose fraction counts as a position does, and whose time in the unit of the coefficients. None if it
+    /// has greater numbers than any that is served, or a NaN.
+    pub(crate) const fn new(along: &Path) -> Option<Self> {
+        let (mut fraction, mut time) = ([0; 7], [0; 4]);
+        let is_sampled = count(&along.fraction, FRACTION_BITS, &mut fraction)
+            & count(&along.time, TIME_BITS, &mut time);
+        if is_sampled { Some(Self { fraction, time }) } else { None }
+    }
+}
+
+/// Coefficients in units of `2^-bits`. Are all below 2⁶⁰ units, so that no value on the stretch is beyond 2⁶³?
+#[inline(never)]
+const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
+    let (mut are_counted, mut k) = (true, 0);
+    while k < c.len() && k < counted.len() {
+        counted[k] = fixed_f64(c[k], -bits);
+        are_counted &= counted[k].unsigned_abs() >> 60 == 0;
+        k = unknown(k + 1);
+    }
+    are_counted
+}
+
+/// The value at a place. Each step rounds down.
+#[inline(never)]
+const fn at(c: &[i64], place: i32) -> i64 {
+    let (mut value, mut k) = (0, c.len());
+    loop {
+        k = unknown(k).wrapping_sub(1);
+        if k >= c.len() {
+            return value;
+        }
+        // By words: the product has 93 bits.
+        let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
+        value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + c[k];
+    }
+}
+
+/// The errors of an octave's polynomial along a stretch. Samples are wrong by at most `noise`. For the tails, `x` has
+/// the coefficients of the offset by powers of `s`, in single precision.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
-    along: &Path,
+    along: &Sampled,
     x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
     effort: usize,
 ) -> Errors {
-    let (points, cosine) = POINTS[effort % EFFORTS];
-    // Each cosine follows from the two before it. Those of π/N times half a degree are what bounds divide by.
-    let (mut seen, mut shares) = ([0.0; KINDS], [0.0; DEGREES]);
-    let (mut s, mut last, mut i) = (1.0, cosine, 0);
-    while i <= points {
-        let position = nearest(value(&along.fraction, s));
-        let rest = octave.polynomial(octave.ahead_of_center(position));
-        let error = (rest as f64 - value(&along.time, s)).abs() as f32;
-        let mut kind = KINDS;
+    let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);
+    while i < COSINES.len() {
+        let mut place = COSINES[i];
+        // At both places with this cosine, but for a sign.
         loop {
-            kind = unknown(kind).wrapping_sub(1);
-            if kind >= KINDS {
+            // The nearest position, which wraps as positions do.
+            let half = 1 << (FRACTION_BITS - 1);
+            let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
+            let rest = octave.polynomial(octave.ahead_of_center(position));
+            let error = (((rest as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
+            let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
+            let error = error / (1 << TIME_BITS) as f32;
+            let mut kind = KINDS;
+            loop {
+                kind = unknown(kind).wrapping_sub(1);
+                if kind >= KINDS {
+                    break;
+                }
+                let error = error * single(&weights[kind], place as f32 / PLACE).abs();
+                // A NaN stays, and is refused.
+                seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
+            }
+            if place <= 0 {
                 break;
             }
-            let error = error * single(&weights[kind], s as f32).abs();
-            // A NaN stays, and is refused.
-            seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
+            place = -place;
         }
-        let half = i.wrapping_sub(HALF_DEGREE);
-        if half < DEGREES {
-            shares[half] = s as f32;
+        i += step;
+    }
+    let (mut tails, mut i) = ([0.0; ELLIPSES.len()], ELLIPSES.len());
+    loop {
+        i = unknown(i).wrapping_sub(1);
+        if i >= ELLIPSES.len() {
+            break;
         }
-        (s, last) = (2.0 * cosine * s - last, s);
-        i += 1;
+        let [axis, _, first] = ELLIPSES[i];
+        tails[i] = SLACK * first * bends(octave, x, axis);
     }
     let (mut errors, mut kind) = (Errors { least: seen, most: seen }, KINDS);
     loop {
@@ -101,30 +179,25 @@ pub(crate) const fn errors(
         }
         let noise = noise * absolute(&weights[kind], 1.0);
         errors.least[kind] -= noise;
-        errors.most[kind] = bound(octave, x, &weights[kind], SLACK * (seen[kind] + noise), &shares);
+        errors.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
     }
 }
 
 /// The bound that follows from the greatest sample, by the best ellipse and degree.
 #[inline(never)]
-const fn bound(
-    octave: &Octave,
-    x: &[f32; 7],
-    weight: &[f32; 4],
-    seen: f32,
-    shares: &[f32; DEGREES],
-) -> f32 {
+const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step: usize) -> f32 {
     let (mut least, mut i) = (f32::INFINITY, 0);
     while i < ELLIPSES.len() {
-        let [axis, square, first] = ELLIPSES[i];
-        let mut tail = SLACK * first * bends(octave, x, axis) * absolute(weight, axis);
-        let mut half = 0;
-        // A share of 0 or less is that of no degree below the number of points.
-        while half < DEGREES && shares[half] > 0.0 {
-            let bound = (seen + tail) / shares[half] + tail;
+        let [axis, square, _] = ELLIPSES[i];
+        let mut tail = tails[i] * absolute(weight, axis);
+        let (mut k, mut degrees) = (HALF_DEGREE * step, DEGREES);
+        while degrees > 0 && k < COSINES.len() {
+            // The cosine of π/2N times the degree: 0, and no bound, where the degree is N.
+            let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
             least = if bound < least { bound } else { least };
             tail *= square;
-            half = unknown(half + 1);
+            k += step;
+            degrees = unknown(degrees - 1);
         }
         i = unknown(i + 1);
     }
@@ -147,11 +220,6 @@ const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> 
         power *= linear;
         sum += octave.c[k].unsigned_abs() as f32 * more;
     }
-}
-
-/// The nearest integer, nearly, in 32 bits, which wraps as positions do.
-const fn nearest(x: f64) -> i32 {
-    (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i64 as i32
 }
 
 /// The value at `x` of a cubic by its coefficients, from the constant one up.

@@ -3,7 +3,7 @@
 use crate::octave::{DEGREE, Octave};
 use crate::path::{Path, Side, root, singles, unknown, value};
 use crate::span::Span;
-use crate::units::{exponent, fixed, power_of_two_f64};
+use crate::units::{exponent, fixed, fixed_f64, power_of_two_f64};
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
 pub(crate) const NODES: [f32; DEGREE + 1] = [
@@ -17,6 +17,9 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
     0.8660254,
     0.984_807_7,
 ];
+
+/// As near to a node as it has to be: a step of Newton's of up to this is the last one.
+const SHORT: f32 = 1.0 / (1 << 10) as f32;
 
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
 /// (`proofs/octaves.py`), half of that range, and its mean, which a polynomial's middle makes up for.
@@ -62,15 +65,15 @@ impl Side<'_> {
         if exponent - self.unit > 30 {
             return None;
         }
-        let (step, per_step) = (power_of_two_f64(exponent), power_of_two_f64(-exponent));
+        let step = power_of_two_f64(exponent);
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
         let mut k = DEGREE;
         while k > 0 && k <= DEGREE {
-            octave.c[DEGREE - k] = round(c[k] * per_step);
+            octave.c[DEGREE - k] = rounded(c[k], exponent);
             k = unknown(k - 1);
         }
-        let middle = (c[0] * power_of_two_f64(-self.unit) - MEAN_TRUNCATION * factor as f64) as i64;
+        let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
         let start = fixed(self.exposure.outer(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
@@ -78,7 +81,7 @@ impl Side<'_> {
             octave,
             middle: middle as f64 * power_of_two_f64(self.unit),
             step,
-            steep: steep * per_step as f32,
+            steep: steep / step as f32,
             truncated: HALF_TRUNCATION + 1.0 / factor as f32,
         })
     }
@@ -103,7 +106,7 @@ impl Span {
             // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
             // other, for its error to be small; so single precision is enough.
             offset[0] = x0 - (even + odd * NODES[i]);
-            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
+            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i], SHORT);
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.time, place);
@@ -120,7 +123,7 @@ impl Span {
             if i > DEGREE {
                 return c;
             }
-            multiply(&mut c, x[i], d[i]);
+            multiply(&mut c, DEGREE - i, x[i], d[i]);
         }
     }
 }
@@ -141,10 +144,10 @@ const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], o
     }
 }
 
-/// A polynomial times `x - root`, and a constant added.
+/// A polynomial times `x - root`, which makes its degree that, and a constant added.
 #[inline(never)]
-const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
-    let mut k = DEGREE;
+const fn multiply(c: &mut [f64; DEGREE + 1], degree: usize, root: f64, constant: f64) {
+    let mut k = degree;
     while k > 0 && k <= DEGREE {
         c[k] = c[k - 1] - c[k] * root;
         k = unknown(k - 1);
@@ -152,6 +155,8 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
     c[0] = constant - c[0] * root;
 }
 
-const fn round(x: f64) -> i32 {
-    (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
+/// The nearest number of units of `2^e`, from half of one on the greater one.
+const fn rounded(x: f64, e: i32) -> i32 {
+    let halves = fixed_f64(x, e - 1);
+    ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32
 }

@@ -1,6 +1,6 @@
 //! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
-use crate::bound::{EFFORTS, KINDS, errors};
+use crate::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::candidate::Candidate;
 use crate::path::{Path, Side, absolute, scale, singles, unknown, value};
 use crate::span::Span;
@@ -59,11 +59,11 @@ impl Side<'_> {
         // In the unit of the coefficients.
         along.time[0] -= middle;
         scale(&mut along.time, 1.0 / step, 1.0);
-        let time = singles(&along.time, 0.0, 1.0);
-        let openness = singles(&along.openness, 0.0, per_exposure);
+        let [t0, t1, t2, t3, ..] = singles(&along.time, 0.0, 1.0);
+        let [f0, f1, f2, f3, ..] = singles(&along.openness, 0.0, per_exposure);
+        let (time, openness) = ([t0, t1, t2, t3], [f0, f1, f2, f3]);
         // The error is relative to a size that follows the time, or is constant. The size's reciprocal is convex in
         // time, so it lies below the chord between both ends, here by powers of `s`.
-        let [_, t1, t2, t3] = time;
         let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);
         let mean = 0.5 * (per_size[0] + per_size[1]);
         let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];
@@ -71,7 +71,10 @@ impl Side<'_> {
         let offset = singles(&along.fraction, center, per_position);
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
-            rounding: truncated + steep * off / span.width + (ends[1] / step) as f32 * TIME_OFF,
+            rounding: truncated
+                + SAMPLE_OFF
+                + steep * off / span.width
+                + (ends[1] / step) as f32 * TIME_OFF,
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
@@ -86,9 +89,10 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
-        // A sample's position is rounded to 1/2, where a tick's fraction may lose 2.
-        let noise = limits.rounding + 0.25 * limits.lost;
+        // A sample's position is rounded to little more than 1/2, where a tick's fraction may lose 2.
+        let noise = limits.rounding + 0.2501 * limits.lost;
         let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
+        let Some(along) = Sampled::new(&along) else { return bounds };
         while effort < EFFORTS {
             let errors = errors(octave, &along, &offset, &weights, noise, effort);
             bounds = limits.share(&errors.most);

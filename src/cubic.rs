@@ -1,5 +1,7 @@
 //! Cubics in `f64`, for the construction of a curve: extremes, and the power form around a place.
 
+use crate::path::unknown;
+
 /// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
 #[derive(Clone, Copy)]
 pub(crate) struct Cubic {
@@ -43,16 +45,27 @@ impl Cubic {
 }
 
 /// The integral of the product of `f` and the slope of `t`, from the place that both are around, by powers of `p`.
+#[inline(never)]
 pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
-    let (Cubic { value: f, c: a }, b) = (f, t.c);
-    [
-        f * b[0],
-        (a[0] * b[0] + 2.0 * f * b[1]) / 2.0,
-        (a[1] * b[0] + 2.0 * a[0] * b[1] + 3.0 * f * b[2]) / 3.0,
-        (a[2] * b[0] + 2.0 * a[1] * b[1] + 3.0 * a[0] * b[2]) / 4.0,
-        (2.0 * a[2] * b[1] + 3.0 * a[1] * b[2]) / 5.0,
-        a[2] * b[2] / 2.0,
-    ]
+    const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
+    let (Cubic { value, c: [f1, f2, f3] }, t) = (f, t.c);
+    let (f, mut integral, mut k) = ([value, f1, f2, f3], [0.0; 6], COUNT.len());
+    loop {
+        k = unknown(k).wrapping_sub(1);
+        if k >= COUNT.len() {
+            break;
+        }
+        let mut j = 0;
+        while j < t.len() {
+            if k.wrapping_sub(j) < f.len() {
+                integral[k] += COUNT[j] * f[k - j] * t[j];
+            }
+            j += 1;
+        }
+        integral[k] /= COUNT[k];
+    }
+    integral[5] = f3 * t[2] / 2.0;
+    integral
 }
 
 pub(crate) const fn widened(v: [f32; 4]) -> [f64; 4] {
@@ -71,6 +84,7 @@ pub(crate) const fn differences(v: [f64; 4]) -> [f64; 3] {
 /// (a - 2b + c)`, and both parts of the divisor are positive. Of `(|ac| + b²) / (a - 2b + c)`, the size of the terms
 /// there, this loses 6 · 2⁻⁵³ at most, and 8 · 2⁻⁵³ are lost where the coefficients are raised and scaled
 /// ([`forward`](crate::lift::forward)). The trace is 16 · 2⁻⁵³.
+#[inline(never)]
 pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> (f64, f64) {
     let ends = if a < c { a } else { c };
     if b >= ends {
@@ -82,6 +96,7 @@ pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> (f64, f64) {
 
 /// The least and greatest value on [0, 1] of a cubic given in the Bernstein basis. An extremum inside that is within
 /// rounding of 0 counts as 0. Seen from both ends, so that the mirrored cubic has the same.
+#[inline(never)]
 pub(crate) const fn cubic_range([a, b, c, d]: [f64; 4]) -> (f64, f64) {
     let (there, back) = (range_from_start([a, b, c, d]), range_from_start([d, c, b, a]));
     (
@@ -102,29 +117,36 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
         let candidates = [q / square, a / q];
         let mut i = 0;
         while i < 2 {
-            let p = candidates[i];
+            let p = candidates[i & 1];
             // False for the NaN of 0/0.
             if p > 0.0 && p < 1.0 {
-                let r = 1.0 - p;
-                let [a, b, c, d] = [
-                    r * r * r * f[0],
-                    3.0 * r * r * p * f[1],
-                    3.0 * r * p * p * f[2],
-                    p * p * p * f[3],
-                ];
-                let noise = (a.abs() + b.abs() + c.abs() + d.abs()) / (1u64 << 48) as f64;
-                let value = (a + b) + (c + d);
+                let (r, mut sums, mut noise, mut k) = (1.0 - p, [0.0; 2], 0.0, 0);
+                while k < f.len() {
+                    // f[k] times Bernstein's polynomial, 1, 3, 3 or 1 times three factors `r` or `p`.
+                    let (mut term, mut j) = (if k == 1 || k == 2 { 3.0 } else { 1.0 }, k);
+                    while j < k + 3 {
+                        term *= if j < 3 { r } else { p };
+                        j = unknown(j + 1);
+                    }
+                    term *= f[k & 3];
+                    sums[k >> 1 & 1] += term;
+                    noise += term.abs();
+                    k = unknown(k + 1);
+                }
+                let noise = noise / (1u64 << 48) as f64;
+                let value = sums[0] + sums[1];
                 let value = if value.abs() <= noise { 0.0 } else { value };
                 low = if value < low { value } else { low };
                 high = if value > high { value } else { high };
             }
-            i += 1;
+            i = unknown(i + 1);
         }
     }
     (low, high)
 }
 
 /// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
+#[inline(never)]
 pub(crate) const fn sqrt(x: f64) -> f64 {
     if x == 0.0 {
         return 0.0;
@@ -134,7 +156,7 @@ pub(crate) const fn sqrt(x: f64) -> f64 {
     let mut i = 0;
     while i < 5 {
         y = 0.5 * (y + x / y);
-        i += 1;
+        i = unknown(i + 1);
     }
     y
 }

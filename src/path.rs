@@ -62,7 +62,7 @@ impl Path {
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
         let mut single = singles(&self.fraction, 0.0, 1.0);
         single[0] = (self.fraction[0] - u) as f32;
-        let [p, slope] = root(&single, [0.0, 1.0], 0.5);
+        let [p, slope] = root(&single, [0.0, 1.0], 0.5, 0.0);
         let (mut p, slope) = (p as f64, slope as f64);
         p += (u - value(&self.fraction, p)) / slope;
         // Outwards until it is certain.
@@ -118,7 +118,7 @@ const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
             above = c[j] + middle * above;
             c[j] = above;
         }
-        k += 1;
+        k = unknown(k + 1);
     }
     scale(c, 1.0, unit);
 }
@@ -136,11 +136,12 @@ pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
     }
 }
 
-/// In single precision, less `shift` and times `factor`.
+/// In single precision, less `shift` and times `factor`. It takes up to seven coefficients, and those that are not there
+/// are 0.
 #[inline(never)]
-pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f64) -> [f32; N] {
-    let (mut single, mut k) = ([0.0; N], 0);
-    while k < N {
+pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
+    let (mut single, mut k) = ([0.0; 7], 0);
+    while k < c.len() && k < single.len() {
         let c = if k == 0 { c[k] - shift } else { c[k] };
         single[k] = (c * factor) as f32;
         k = unknown(k + 1);
@@ -149,9 +150,14 @@ pub(crate) const fn singles<const N: usize>(c: &[f64; N], shift: f64, factor: f6
 }
 
 /// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside
-/// a bracket, which a step that leaves it halves.
+/// a bracket, which a step that leaves it halves. A step of up to `short` is the last one, too.
 #[inline(never)]
-pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
+pub(crate) const fn root(
+    c: &[f32; 7],
+    [mut low, mut high]: [f32; 2],
+    guess: f32,
+    short: f32,
+) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
     while steps < MOST_STEPS {
         let (mut value, mut slope, mut k) = (0.0, 0.0, 7);
@@ -166,7 +172,8 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
         *(if value < 0.0 { &mut low } else { &mut high }) = x;
         let next = x - value / slope;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        let is_there = (next - x).abs() <= CLOSE * x.abs();
+        let step = (next - x).abs();
+        let is_there = step <= short || step <= CLOSE * x.abs();
         (x, last) = (next, slope);
         steps = if is_there { MOST_STEPS } else { steps + 1 };
     }

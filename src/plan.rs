@@ -30,9 +30,7 @@ use crate::octaves;
 use crate::pair::Pair;
 use crate::shape::Shape;
 use crate::span::Span;
-use crate::units::{
-    FINE, WHOLE, exponent, fixed, floor_bits, power_of_two, power_of_two_f64, time_unit,
-};
+use crate::units::{FINE, WHOLE, exponent, fixed, fixed_f64, floor_bits, power_of_two, time_unit};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const CELLS: usize> {
@@ -71,33 +69,38 @@ impl<const CELLS: usize> Plan<CELLS> {
         let [open, close] = [exposure.inner(0), exposure.inner(1)];
         let [from, to] = exposure.joins(0);
         let (from, to) = (floor_bits(from), floor_bits(to));
-        let (mut base, mut slope, mut last, mut count) = (0, 0, to, 0);
-        let mut serves = true;
+        let mut plan = Self {
+            exposure,
+            scale: power_of_two(unit + 32),
+            last: to,
+            count: 0,
+            base: 0,
+            slope: 0,
+            tops: [[0; 2]; 2],
+            octaves: [[Octave::NONE; CELLS]; 2],
+        };
         if open < close {
             // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
-            let per_unit = power_of_two_f64(-unit);
-            base = (open as f64 * per_unit) as i64 - (shapes[0].area() * per_unit) as i64;
-            let at_1 = (close as f64 * per_unit) as i64 + (shapes[1].area() * per_unit) as i64;
-            slope = at_1 - base;
-            serves = Self::is_fine(slope);
-            if serves {
-                // 1 itself has the exact end.
-                let before_end = 1.0f32.to_bits() - 1;
-                last = if to < before_end { to } else { before_end };
-                let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
-                count = last.saturating_sub(before);
+            plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
+            plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
+            // Where the line is too coarse, so are octaves.
+            if !Self::is_fine(plan.slope) {
+                return Ok(plan);
             }
+            // 1 itself has the exact end.
+            let before_end = 1.0f32.to_bits() - 1;
+            plan.last = if to < before_end { to } else { before_end };
+            let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
+            plan.count = plan.last.saturating_sub(before);
         }
-        let (mut octaves, mut tops) = ([[Octave::NONE; CELLS]; 2], [[0; 2]; 2]);
         let mut side = 0;
-        // Where the line is too coarse, so are octaves. `CELLS > 0` lets the compiler leave the building out where
-        // there are none.
-        while CELLS > 0 && serves && side < 2 {
-            tops[side] = octaves::build(&exposure, &shapes, unit, side, &mut octaves[side]);
+        // `CELLS > 0` lets the compiler leave the building out where there are no octaves.
+        while CELLS > 0 && side < 2 {
+            let octaves = &mut plan.octaves[side];
+            plan.tops[side] = octaves::build(&plan.exposure, &shapes, unit, side, octaves);
             side += 1;
         }
-        let scale = power_of_two(unit + 32);
-        Ok(Self { exposure, scale, last, count, base, slope, tops, octaves })
+        Ok(plan)
     }
 
     /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its

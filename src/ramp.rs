@@ -15,6 +15,7 @@ use crate::cubic::integral;
 use crate::guess::guess;
 use crate::moment::Moment;
 use crate::pair::{Pair, flipped};
+use crate::path::unknown;
 use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ROUNDING, solve};
@@ -37,6 +38,12 @@ struct End {
     time: [Pair; 2],
     /// The mass in between, except for its last coefficient.
     mass: [Pair; 5],
+}
+
+impl End {
+    const fn dark(at: f32) -> Self {
+        Self { at, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] }
+    }
 }
 
 /// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. Place, mass and powers
@@ -76,47 +83,50 @@ pub(crate) struct Ramp {
 impl Ramp {
     /// A ramp of a curve with this area.
     pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
-        let times = curve.times();
+        let [start, _, _, end] = curve.times();
         let shape = Shape::new(curve);
-        let seen = [shape, shape.from(1)];
         // A ramp with less than 2⁻¹⁵⁰ of the exposure is dark: no `f32` u is reached on it.
         let share = shape.area() / area;
         let is_dark = share < 0.5 * f32::from_bits(1) as f64;
         let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
-        let per_unit = power_of_two_f64(-ramp_unit(times[0], times[3]));
+        let per_unit = power_of_two_f64(-ramp_unit(start, end));
         let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
-        let masses = [in_places(seen[0].mass(), per_mass), in_places(seen[1].mass(), per_mass)];
-        let since = [in_places(seen[0].time().c, per_unit), in_places(seen[1].time().c, per_unit)];
-        let ends = [
-            End { at: times[0], time: since[0].0, mass: masses[0].0 },
-            End { at: times[3], time: since[1].0, mass: masses[1].0 },
-        ];
-        let mut flats = [Flat::NONE; 2];
+        let mut ramp = Self {
+            ends: [End::dark(start), End::dark(end)],
+            last_of_time: Pair::ZERO,
+            last_of_mass: Pair::ZERO,
+            openness: shape.f,
+            flats: [Flat::NONE; 2],
+            share,
+        };
         let mut side = 0;
         while side < 2 {
-            let (openness, time) = (seen[side].openness(), seen[side].time());
+            let seen = shape.from(side);
+            let (openness, time, end) = (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
+            ramp.last_of_time = in_places(&time.c, per_unit, &mut end.time);
+            let last = in_places(&seen.mass(), per_mass, &mut end.mass);
+            ramp.last_of_mass = seen_from(side, last);
+            let series = Series { c: &end.mass, last };
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
             while kind < 2 {
-                let p = minima[kind];
+                let p = minima[kind & 1];
                 // A little beyond the middle, so that rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
                     let (place, p) = (p as f32 * LAST_PLACE, p as f32 as f64);
-                    let series = Series { c: &masses[side].0, last: masses[side].1 };
-                    let c = integral(openness.around(p), time.around(p));
-                    let (c, _): ([Pair; 5], Pair) = in_places(c, per_mass);
-                    flats[kind] = Flat {
+                    let mut c = [Pair::ZERO; 5];
+                    in_places(&integral(openness.around(p), time.around(p)), per_mass, &mut c);
+                    ramp.flats[kind & 1] = Flat {
                         place: seen_from(side, Pair::new(place)).hi,
                         mass: seen_from(side, series.at(place)),
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };
                 }
-                kind += 1;
+                kind = unknown(kind + 1);
             }
-            side += 1;
+            side = unknown(side + 1);
         }
-        let (last_of_time, last_of_mass) = (since[0].1, masses[0].1);
-        Self { ends, last_of_time, last_of_mass, openness: shape.f, flats, share }
+        ramp
     }
 
     /// An end by the side that it faces, which is 0 or 1.
@@ -229,20 +239,18 @@ const fn seen_from(side: usize, x: Pair) -> Pair {
     x.flipped((side as u32) << 31)
 }
 
-/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`; the last one
-/// apart.
-const fn in_places<const N: usize, const M: usize>(c: [f64; N], scale: f64) -> ([Pair; M], Pair) {
-    const { assert!(M + 1 == N) };
-    let mut scale = scale;
-    let (mut pairs, mut last) = ([Pair::ZERO; M], Pair::ZERO);
-    let mut k = 0;
-    while k < N {
+/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`, into `pairs`;
+/// the last one apart.
+#[inline(never)]
+const fn in_places(c: &[f64], mut scale: f64, pairs: &mut [Pair]) -> Pair {
+    let (mut last, mut k) = (Pair::ZERO, 0);
+    while k < c.len() {
         scale /= LAST_PLACE as f64;
         last = Pair::from_f64(c[k] * scale);
-        if k < M {
+        if k < pairs.len() {
             pairs[k] = last;
         }
-        k += 1;
+        k = unknown(k + 1);
     }
-    (pairs, last)
+    last
 }

@@ -4,11 +4,13 @@ use crate::bezier::CubicBezier;
 use crate::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
 use crate::error::{CurveError, Part};
 use crate::lift::{forward, lifted};
+use crate::path::unknown;
 
 /// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;
 
 /// Is every coordinate finite?
+#[inline(never)]
 pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), CurveError> {
     let (t, f) = (curve.times(), curve.opennesses());
     let mut i = 0;
@@ -16,7 +18,7 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
         if !t[i].is_finite() || !f[i].is_finite() {
             return Err(CurveError::NotFinite(part));
         }
-        i += 1;
+        i = unknown(i + 1);
     }
     Ok(())
 }
@@ -70,6 +72,7 @@ impl Shape {
         if side == 0 { self } else { Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] } }
     }
 
+    #[inline(never)]
     pub(crate) const fn openness(&self) -> Cubic {
         Cubic::new(self.f[0] as f64, differences(widened(self.f)))
     }
@@ -80,6 +83,7 @@ impl Shape {
     }
 
     /// The time since the end.
+    #[inline(never)]
     pub(crate) const fn time(&self) -> Cubic {
         Cubic::new(0.0, self.d)
     }
@@ -92,8 +96,12 @@ impl Shape {
     /// `∫ f dt` over the ramp, the same seen from both ends.
     pub(crate) const fn area(&self) -> f64 {
         let (m, n) = (self.mass(), self.from(1).mass());
-        let first = m[0] + m[1] + m[2] + m[3] + m[4] + m[5];
-        let last = n[0] + n[1] + n[2] + n[3] + n[4] + n[5];
+        let (mut first, mut last, mut k) = (0.0, 0.0, 0);
+        while k < m.len() {
+            first += m[k];
+            last += n[k];
+            k = unknown(k + 1);
+        }
         0.5 * (first + last)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::octave::FINER;
 use crate::path::{Path, scale};
-use crate::units::{LEAST_TOP, WORD, exponent, power_of_two};
+use crate::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 
 /// An offset counts 2⁻³² of `width`, which is the octave's power of two, but halved while `half <= FILLED * width`. So
 /// `half` is at most 0.48 of `width`. (If nothing is halved it is less than 0.47, since a top is at most 15/8 of the
@@ -52,8 +52,8 @@ impl Span {
 
     /// The middle, nearly, in 2⁻³² of the power of two, with the shift in its lowest bits: in 33 bits, of which a
     /// position has the lower 32.
-    pub(crate) const fn center(&self) -> u64 {
-        (self.middle / self.power * WORD) as u64 & !(FINER as u64) | self.finer as u64
+    pub(crate) const fn center(&self) -> i64 {
+        fixed(self.middle, exponent(self.power) - 32) & !(FINER as i64) | self.finer as i64
     }
 
     /// A stretch, its fractions counted as positions are, from the power of two on.
@@ -65,6 +65,6 @@ impl Span {
 
     /// The center as a position, and how much a position adds to the offset.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
-        (self.center() as f64 - WORD as f64, (self.power / self.width / WORD) as f64)
+        ((self.center() - (1 << 32)) as f64, (self.power / self.width / WORD) as f64)
     }
 }

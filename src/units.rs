@@ -98,6 +98,24 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     if x < 0.0 { -units } else { units }
 }
 
+/// The same for an `f64`: `i64::MAX` in size from 2⁶³ on, and for NaN.
+#[inline(never)]
+pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {
+    let bits = x.to_bits();
+    let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
+    let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;
+    let units = if up > 10 {
+        i64::MAX
+    } else if up >= 0 {
+        significand << (up & 63)
+    } else if up > -64 {
+        significand >> (-up & 63)
+    } else {
+        0
+    };
+    if (bits as i64) < 0 { -units } else { units }
+}
+
 /// The bits of the greatest `f32` at or below a non-negative `x` that is at most about 1.
 // proofs/words.py: floor_bits
 pub(crate) const fn floor_bits(x: f64) -> u32 {
