@@ -19,8 +19,9 @@
 //! docs/proofs.md leads from this to what an answer is off by.
 
 use crate::octave::{DEGREE, Octave};
-use crate::path::{Path, absolute, unknown};
+use crate::path::{Path, absolute};
 use crate::units::{WORD, fixed_f64};
+use crate::unknown::unknown;
 
 /// The greatest N, and the cosine of π/N.
 const POINTS: usize = 96;

@@ -2,9 +2,10 @@
 
 use crate::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::candidate::Candidate;
-use crate::path::{Path, Side, absolute, scale, singles, unknown, value};
+use crate::path::{Path, Side, absolute, scale, singles, value};
 use crate::span::Span;
 use crate::units::{exponent, floor_bits, power_of_two};
+use crate::unknown::unknown;
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;

@@ -2,7 +2,7 @@
 //! time never runs back and the openness is nowhere below 0.
 
 use crate::cubic::{cubic_range, quadratic_min, widened};
-use crate::path::unknown;
+use crate::unknown::unknown;
 
 /// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁴⁸ of its size for
 /// the rounding of that, less and less towards the greater end, which stays. So an opening that dips below 0 still

@@ -8,6 +8,7 @@
 use crate::cubic::Cubic;
 use crate::exposure::Exposure;
 use crate::shape::Shape;
+use crate::unknown::unknown;
 
 /// As close as single precision comes: a step of Newton's below this share of its place is the last one. One more step
 /// in `f64` comes closer.
@@ -191,11 +192,4 @@ pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
         }
         value = value * x + c[k].abs();
     }
-}
-
-/// A loop's counter, unknown to the compiler, which would unroll the loop to several times its bytes. Loops that count
-/// down end where it wraps, so that one comparison ends the loop and spares the check of a bound.
-#[inline(always)]
-pub(crate) const fn unknown(n: usize) -> usize {
-    core::hint::black_box(n)
 }

@@ -15,11 +15,11 @@ use crate::cubic::integral;
 use crate::guess::guess;
 use crate::moment::Moment;
 use crate::pair::{Pair, flipped};
-use crate::path::unknown;
 use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
+use crate::unknown::unknown;
 
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;

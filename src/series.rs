@@ -2,6 +2,7 @@
 
 use crate::exact::lost_by_product;
 use crate::pair::Pair;
+use crate::unknown::unknown;
 
 /// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients.
 ///
@@ -19,8 +20,7 @@ impl Series<'_> {
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at(self, x: f32) -> Pair {
-        // Unknown to the compiler, which would unroll the loop to several times its bytes.
-        self.value(x, core::hint::black_box(self.c.len()))
+        self.value(x, unknown(self.c.len()))
     }
 
     /// The same, where `k` is the number of coefficients in `c`: known to the compiler or not, as the caller has it.

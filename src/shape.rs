@@ -4,7 +4,7 @@ use crate::bezier::CubicBezier;
 use crate::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
 use crate::error::{CurveError, Part};
 use crate::lift::{forward, lifted};
-use crate::path::unknown;
+use crate::unknown::unknown;
 
 /// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;

@@ -10,6 +10,8 @@ mod cubic;
 #[path = "../src/lift.rs"]
 mod lift;
 mod support;
+#[path = "../src/unknown.rs"]
+mod unknown;
 
 use support::aimed::{aimed_ts, aimed_us};
 use support::cases::shutter;
