@@ -47,6 +47,8 @@ impl Cubic {
 /// The integral of the product of `f` and the slope of `t`, from the place that both are around, by powers of `p`.
 #[inline(never)]
 pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
+    // The slope has once, twice and three times the coefficients of `t`. A power is integrated by dividing by the next
+    // exponent.
     const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
     let (Cubic { value, c: [f1, f2, f3] }, t) = (f, t.c);
     let (f, mut integral, mut k) = ([value, f1, f2, f3], [0.0; 6], COUNT.len());
@@ -64,6 +66,7 @@ pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
         }
         integral[k] /= COUNT[k];
     }
+    // The same seen from the other end, to the bit.
     integral[5] = f3 * t[2] / 2.0;
     integral
 }
@@ -117,6 +120,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
         let candidates = [q / square, a / q];
         let mut i = 0;
         while i < 2 {
+            // The masks here spare the check of a bound.
             let p = candidates[i & 1];
             // False for the NaN of 0/0.
             if p > 0.0 && p < 1.0 {

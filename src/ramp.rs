@@ -110,6 +110,7 @@ impl Ramp {
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
             while kind < 2 {
+                // The masks spare the check of a bound.
                 let p = minima[kind & 1];
                 // A little beyond the middle, so that rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
