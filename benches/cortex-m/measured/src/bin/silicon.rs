@@ -2,7 +2,7 @@
 #![no_std]
 #![no_main]
 
-use core::arch::{asm, global_asm};
+use core::arch::global_asm;
 
 #[path = "../machine.rs"]
 mod machine;
@@ -84,15 +84,7 @@ fn the_call(program: Program, a: u32, b: u32, c: u32) -> u32 {
     unsafe { program(a, b, c) }
 }
 
-/// Tells the host that the next series begins.
-#[inline(never)]
-fn series_begins() {
-    // SAFETY: does nothing.
-    unsafe { asm!("nop") };
-}
-
 fn measure(program: Program, [a, b, c]: [u32; 3]) -> u32 {
-    series_begins();
     the_call(core::hint::black_box(program), a, b, c)
 }
 
