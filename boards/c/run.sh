@@ -53,7 +53,7 @@ run() {
     cargo build --quiet --locked --release --target "$target"
     local c=(-std=c99 -Os -Wall -Wextra -pedantic -Werror -ffreestanding -ffunction-sections -fdata-sections -mthumb "$@")
     arm-none-eabi-gcc "${c[@]}" -Iinclude -I"$scratch" -nostdlib -Wl,--gc-sections,-z,noexecstack -T example/link.ld \
-        example/main.c example/host.c "$target_folder/$target/release/libshutter.a" -lgcc -o "$program"
+        example/startup.c example/main.c example/host.c "$target_folder/$target/release/libshutter.a" -lgcc -o "$program"
     if arm-none-eabi-nm "$program" | grep -i panic; then
         fail "the program for $target can panic"
     fi

@@ -6,6 +6,7 @@ import { Graph } from './graph.js';
 import * as steps from './history.js';
 import { parse } from './numbers.js';
 import * as panels from './panels.js';
+import { told } from './save.js';
 import { INNER, OPTIONAL, TIMES, fromAddress, fromScene, hash, inUnit, innerOf, lampOf, perSecond, straight, tidy, withLamp, withTimes } from './scene.js';
 import { svg } from './svg.js';
 import * as take from './take.js';
@@ -214,7 +215,7 @@ function onDrag(next, isDone, key) {
 }
 
 function openPreset({ name, scene }) {
-  take.told('');
+  told('');
   page.change({ scene: fromScene(name, scene), trace: null });
   // What was refused goes as well.
   if (document.querySelector('#trace .wrong')) import('./trace.js').then((trace) => trace.show(page));
@@ -225,7 +226,7 @@ function openAddress(keep) {
   try {
     const opened = fromAddress(location.hash);
     const next = { ...opened, trace: null };
-    take.told('');
+    told('');
     const wrong = draw(next, true);
     if (!hasCurve) document.body.classList.add('void');
     if (!wrong) {

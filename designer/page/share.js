@@ -1,8 +1,8 @@
 // What others are given: a link, a picture, a frame for their page; and two curves side by side.
 
 import { $ } from './dom.js';
+import { copy, plain, save, told } from './save.js';
 import { hash } from './scene.js';
-import { copy, plain, told } from './take.js';
 
 const base = () => location.origin + location.pathname;
 const address = ({ screen: { scene, other } }) => hash(scene, other);
@@ -18,15 +18,6 @@ export function compare(page) {
   const { other, scene } = page.screen;
   page.change({ other: other ? null : scene });
   told(other ? '' : 'This curve stays, dashed: change it, or choose another one.');
-}
-
-export function save(blob, name) {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-  told(`Saved: ${name}`);
 }
 
 // The graph as it is seen, but for the handles: as text, since this page itself takes no styles but from its sheet.

@@ -1,6 +1,7 @@
 // The plan in the forms that a firmware or a script takes: shown, copied, saved.
 
 import { $ } from './dom.js';
+import { copy, plain, save } from './save.js';
 import { toml } from './scene.js';
 import * as studio from './studio.js';
 
@@ -32,7 +33,7 @@ export function start(page) {
   $('copy').onclick = async () => copy((await made).text, `Copied: ${FORMS.find(([name]) => name === form)[1]}`);
   $('save').onclick = async () => {
     const { text, file } = await made;
-    (await import('./share.js')).save(new Blob([text], { type: 'text/plain' }), file);
+    save(new Blob([text], { type: 'text/plain' }), file);
   };
   for (const id of ['link', 'svg', 'png', 'frame', 'compare']) {
     $(id).onclick = async () => {
@@ -42,11 +43,6 @@ export function start(page) {
     };
   }
   choose(form);
-}
-
-/** Tells in a line what was done. */
-export function told(words) {
-  $('told').textContent = words;
 }
 
 function choose(name) {
@@ -75,24 +71,9 @@ export function show(screen, wrong) {
   });
 }
 
-/** A scene's name as that of a file. */
-export const plain = (name) => name.replace(/[^\w-]+/g, '-') || 'shutter';
-
 async function emitted(scene, form) {
   const answer = await studio.emit(scene, form);
   // Overtaken by a newer question: that one's text is it.
   if (!answer) return made;
   return answer.Ok ?? { text: answer.Err.reason, file: 'wrong.txt' };
-}
-
-/** Copies words, and tells of it. */
-export async function copy(words, done) {
-  try {
-    await navigator.clipboard.writeText(words);
-    told(done);
-  } catch {
-    // Without the permission: what is chosen can be copied by hand.
-    getSelection().selectAllChildren($('code'));
-    told('This browser does not let a page copy: press Ctrl+C.');
-  }
 }

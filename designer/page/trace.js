@@ -2,9 +2,9 @@
 
 import { $, element } from './dom.js';
 import { parse } from './numbers.js';
+import { told } from './save.js';
 import { UNITS, fromScene, inUnit, perSecond, short } from './scene.js';
 import * as studio from './studio.js';
-import { told } from './take.js';
 
 /** Longer files are not read. */
 const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;

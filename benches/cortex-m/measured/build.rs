@@ -11,7 +11,7 @@ use support::oracle::{Curve, Exact};
 #[path = "../../../tests/support/mod.rs"]
 mod support;
 
-/// The curves with rows of their own in the report, which come first.
+/// The curves with rows of their own in the report. They come first, then the other typical ones.
 const ROWS: [&str; 3] = ["rman_soft", "raised_cosine", "box"];
 
 fn main() {
@@ -28,16 +28,20 @@ fn main() {
     let found = found.map(|case| (case.name, false, case.curve()));
     let data = named().into_iter().map(|c| (c.name, c.kind == Kind::Typical, c.curve));
     let mut curves: Vec<_> = data.chain(found).collect();
-    curves.sort_by_key(|(name, ..)| ROWS.iter().position(|row| row == name).unwrap_or(ROWS.len()));
-    let mut out = String::from("pub const CURVES: &[Curve] = &[\n");
-    for (name, is_typical, curve) in curves {
+    curves.sort_by_key(|(name, is_typical, _)| {
+        (ROWS.iter().position(|row| row == name).unwrap_or(ROWS.len()), !is_typical)
+    });
+    let typical = curves.iter().filter(|(_, is_typical, _)| *is_typical).count();
+    let mut out =
+        format!("pub const TYPICAL: usize = {typical};\npub const CURVES: &[Curve] = &[\n");
+    for (name, _, curve) in curves {
         let searches = [hardest::<0>, hardest::<4>, hardest::<8>, hardest::<16>];
         let mut hard = hard_us(&Exact::new(&curve), 0, 128);
         hard.extend(searches.iter().flat_map(|hardest| hardest(&curve)));
         let Curve { opening, closing, .. } = curve;
         writeln!(
             out,
-            "Curve {{ name: {name:?}, is_typical: {is_typical}, opening: {opening:?}, closing: {closing:?}, hard: &{hard:?} }},"
+            "Curve {{ name: {name:?}, opening: {opening:?}, closing: {closing:?}, hard: &{hard:?} }},"
         )
         .unwrap();
     }

@@ -77,17 +77,6 @@ impl Disassembly {
         Ok(Self { instructions, functions, statics })
     }
 
-    /// An instruction's place: half its address, from the first one on.
-    pub fn place(&self, address: u32) -> usize {
-        let first = self.instructions.first().map_or(0, |i| i.address);
-        (address.wrapping_sub(first) / 2) as usize
-    }
-
-    /// How many places there are.
-    pub fn places(&self) -> usize {
-        self.instructions.last().map_or(0, |i| self.place(i.address) + 1)
-    }
-
     /// The instances of the firmware's function `name`, one for each number of cells, in no order.
     pub fn named(&self, name: &str) -> Vec<u32> {
         // As both of Rust's manglings have it.

@@ -1,29 +1,62 @@
 //! All that is measured on one core.
 
-use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ};
+use std::fs::{File, write};
+
+use measured::roots::ROOTS;
+use measured::{CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TYPICAL};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
 use crate::disassembly::Disassembly;
 use crate::firmware::{Core, build, output};
-use crate::trace::{Call, Trace};
+use crate::trace::{Call, replay};
 
-pub struct Measured {
-    pub name: &'static str,
-    pub code: Disassembly,
-    pub trace: Trace,
+use Function::{Construct, InverseCdf, Root, Schedule, Static, TickStep};
+
+/// What functions are measured on.
+#[derive(Clone, Copy, PartialEq)]
+pub enum On {
+    /// Uniform inputs, on the curves with rows of their own.
+    Rows,
+    /// Uniform inputs, on all typical curves.
+    Typical,
+    /// All that there is: hard inputs on all curves, too.
+    All,
 }
 
-/// What the calls of a function cost on a typical curve, over uniform inputs.
-pub struct Typical {
-    pub name: &'static str,
-    pub mean: f64,
-    /// The share of the calls whose answers took a search.
-    pub searched: f64,
+/// The series of these functions, with each of these numbers of cells.
+pub fn series(functions: &[Function], cells: &[usize], on: On) -> Vec<Series> {
+    let mut all = Vec::new();
+    for (function, cells) in functions.iter().flat_map(|f| cells.iter().map(|c| (*f, *c))) {
+        // Of uniform inputs, of hard ones, and of those that are solved.
+        let curves = match function {
+            Root => [ROOTS.len(), 0, 0],
+            Construct => [1, 0, 0],
+            Static => [TYPICAL, TYPICAL, 0],
+            TickStep | Schedule => [TYPICAL, CURVES.len(), CURVES.len()],
+            _ => [TYPICAL, CURVES.len(), 0],
+        };
+        let most = match on {
+            On::Rows => [ROWS.len(), 0, 0],
+            On::Typical => [TYPICAL, 0, 0],
+            On::All => curves,
+        };
+        for (i, inputs) in Inputs::ALL.into_iter().enumerate() {
+            let curves = 0..curves[i].min(most[i]);
+            all.extend(curves.map(|curve| Series { function, cells, inputs, curve }));
+        }
+    }
+    all
 }
 
-/// Of the calls of a series.
-#[derive(Clone, Copy)]
+/// A series, what each of its calls took, and how deep the stack got.
+pub struct Ran {
+    pub series: Series,
+    pub calls: Vec<Call>,
+    depth: u32,
+}
+
+/// How what the calls of a series took is spread.
 pub struct Spread {
     pub min: u32,
     pub median: u32,
@@ -32,118 +65,124 @@ pub struct Spread {
     pub max: u32,
 }
 
-impl Spread {
-    fn new(mut values: Vec<u32>) -> Option<Self> {
+impl Ran {
+    /// The curve's.
+    pub fn name(&self) -> &'static str {
+        CURVES[self.series.curve].name
+    }
+
+    pub fn cycles(&self) -> Spread {
+        self.spread(|call| call.cycles)
+    }
+
+    pub fn instructions(&self) -> Spread {
+        self.spread(|call| call.instructions)
+    }
+
+    fn spread(&self, of: fn(&Call) -> u32) -> Spread {
+        let mut values: Vec<u32> = self.calls.iter().map(of).collect();
         values.sort_unstable();
         let (n, total) = (values.len(), values.iter().map(|v| f64::from(*v)).sum::<f64>());
-        Some(Self {
-            min: *values.first()?,
+        Spread {
+            min: values[0],
             median: values[n / 2],
             mean: total / n as f64,
             most: values[(n * 99 / 100).min(n - 1)],
-            max: *values.last()?,
-        })
+            max: values[n - 1],
+        }
+    }
+
+    /// The share of the calls whose answers took a search.
+    pub fn searched(&self) -> f64 {
+        let asked = asked(self.series);
+        asked.iter().filter(|(_, is_direct)| !is_direct).count() as f64 / asked.len() as f64
     }
 }
 
-/// The series of a function over uniform inputs on one of the rows.
-pub fn on_row(function: Function, row: usize, cells: usize) -> Series {
-    Series { function, cells, inputs: Inputs::Uniform, curve: row }
+pub struct Measured {
+    pub name: &'static str,
+    pub code: Disassembly,
+    ran: Vec<Ran>,
 }
 
 impl Measured {
-    pub fn new(core: Core, level: &str, selections: &[u32]) -> Result<Self> {
+    pub fn new(core: Core, level: &str, series: &[Series]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
         let elf = build(core, "cost", level)?;
-        let (code, built) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
-        let mut trace = Trace::default();
-        for selection in selections {
-            trace.add(core, &elf, &code, &built, *selection)?;
+        let (code, curves) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
+        if curves.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() * SCALES.len() {
+            return Err("the firmware's curves are not of the size that they have here".into());
         }
-        Ok(Self { name: core.name, code, trace })
+        let input = elf.with_extension("input");
+        let asked: Vec<u8> = series.iter().flat_map(|series| series.to_bytes()).collect();
+        write(&input, [curves, asked].concat())?;
+        let (calls, printed) = replay(core, &elf, &code, Some(File::open(&input)?))?;
+        let planned: usize = series.iter().map(|series| series.calls()).sum();
+        if (calls.len(), printed.lines().count()) != (planned, series.len()) {
+            return Err(format!("the firmware ran other series than planned\n{printed}").into());
+        }
+        let mut calls = calls.into_iter();
+        let ran = series.iter().zip(printed.lines()).map(|(&series, depth)| {
+            let calls = calls.by_ref().take(series.calls()).collect();
+            Ok(Ran { series, calls, depth: depth.parse()? })
+        });
+        Ok(Self { name: core.name, code, ran: ran.collect::<Result<_>>()? })
     }
 
-    pub fn cycles(&self, series: Series) -> Option<Spread> {
-        self.spread(series, |call| call.cycles)
-    }
-
-    pub fn instructions(&self, series: Series) -> Option<Spread> {
-        self.spread(series, |call| call.instructions)
-    }
-
-    fn spread(&self, series: Series, of: fn(&Call) -> u32) -> Option<Spread> {
-        Spread::new(self.trace.calls.get(&series)?.iter().map(of).collect())
-    }
-
-    /// A function's series over some inputs, with their calls.
-    fn series(
+    /// A function's series over some inputs.
+    pub fn over(
         &self,
         function: Function,
         inputs: Inputs,
         cells: usize,
-    ) -> impl Iterator<Item = (&Series, &Vec<Call>)> {
-        let is = move |s: &Series| (s.function, s.inputs, s.cells) == (function, inputs, cells);
-        self.trace.calls.iter().filter(move |(series, _)| is(series))
+    ) -> impl Iterator<Item = &Ran> {
+        let key = (function, inputs, cells);
+        self.ran.iter().filter(move |Ran { series: s, .. }| (s.function, s.inputs, s.cells) == key)
     }
 
-    /// A function's calls on each typical curve.
-    pub fn typical(&self, function: Function, cells: usize) -> Vec<Typical> {
-        let all = self.series(function, Inputs::Uniform, cells).filter_map(|(series, _)| {
-            let asked = asked(*series);
-            let searched = asked.iter().filter(|(_, is_searched)| *is_searched).count();
-            let searched = searched as f64 / asked.len() as f64;
-            let (name, mean) = (CURVES[series.curve].name, self.cycles(*series)?.mean);
-            Some(Typical { name, mean, searched })
-        });
-        all.collect()
+    /// The one over uniform inputs on one of the curves.
+    pub fn on(&self, function: Function, curve: usize, cells: usize) -> Option<&Ran> {
+        self.over(function, Inputs::Uniform, cells).find(|ran| ran.series.curve == curve)
     }
 
-    /// The mean of the cycles over all typical curves.
-    pub fn typical_mean(&self, function: Function, cells: usize) -> Option<f64> {
-        self.over_typical(function, cells, |call| call.cycles)
-    }
-
-    /// The mean of the instructions.
-    pub fn typical_instructions(&self, function: Function, cells: usize) -> Option<f64> {
-        self.over_typical(function, cells, |call| call.instructions)
-    }
-
-    fn over_typical(&self, function: Function, cells: usize, of: fn(&Call) -> u32) -> Option<f64> {
-        let means = self.series(function, Inputs::Uniform, cells);
-        let means: Vec<f64> = means.filter_map(|(s, _)| Some(self.spread(*s, of)?.mean)).collect();
-        (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
+    /// The mean over all typical curves.
+    pub fn typical(&self, function: Function, cells: usize, of: fn(&Ran) -> Spread) -> Option<f64> {
+        let means = self.over(function, Inputs::Uniform, cells).map(|ran| of(ran).mean);
+        let (count, sum) = means.fold((0, 0.0), |(count, sum), mean| (count + 1, sum + mean));
+        (count > 0).then(|| sum / f64::from(count))
     }
 
     /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
     /// ones, too; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
-        let of = |inputs| self.series(function, inputs, cells);
-        let calls = of(Inputs::Uniform).chain(of(Inputs::Hard)).flat_map(|(series, calls)| {
-            let calls = asked(*series).into_iter().zip(calls);
-            calls.map(|((u, is_searched), call)| (call.cycles, series.curve, u, is_searched))
+        let ran =
+            [Inputs::Uniform, Inputs::Hard].into_iter().flat_map(|i| self.over(function, i, cells));
+        let calls = ran.flat_map(|ran| {
+            let calls = asked(ran.series).into_iter().zip(&ran.calls);
+            calls.map(|((u, is_direct), call)| (is_direct, call.cycles, ran.name(), u))
         });
-        let direct = calls.filter(|(.., is_searched)| !is_searched);
-        let (cycles, curve, u, _) = direct.max_by_key(|(cycles, ..)| *cycles)?;
-        Some((cycles, format!("{}, u = {u}", CURVES[curve].name)))
+        let (_, cycles, name, u) = calls.filter(|call| call.0).max_by_key(|call| call.1)?;
+        Some((cycles, format!("{name}, u = {u}")))
     }
 
-    /// The most cycles of a call over all curves and these hard inputs, and the curve.
+    /// The most cycles of a call over these hard inputs on each curve, and the curve: the worst first.
     pub fn worst(
         &self,
         function: Function,
         inputs: Inputs,
         cells: usize,
-    ) -> Option<(u32, &'static str)> {
-        let calls = self.series(function, inputs, cells).flat_map(|(series, calls)| {
-            calls.iter().map(|call| (call.cycles, CURVES[series.curve].name))
-        });
-        calls.max()
+    ) -> Vec<(u32, &'static str)> {
+        let curves = self.over(function, inputs, cells);
+        let mut curves: Vec<_> = curves.map(|ran| (ran.cycles().max, ran.name())).collect();
+        curves.sort_unstable_by(|a, b| b.cmp(a));
+        curves
     }
 
-    /// The same over all hard inputs.
+    /// The worst over all hard inputs.
     pub fn worst_of_all(&self, function: Function, cells: usize) -> Option<(u32, &'static str)> {
-        let worst = [Inputs::Hard, Inputs::Solved].map(|i| self.worst(function, i, cells));
-        worst.into_iter().flatten().max()
+        let worst =
+            [Inputs::Hard, Inputs::Solved].map(|inputs| self.worst(function, inputs, cells));
+        worst.concat().into_iter().max()
     }
 
     pub fn code_bytes(&self, function: Function, cells: usize) -> Option<u32> {
@@ -157,17 +196,17 @@ impl Measured {
 
     /// The same as painted.
     pub fn stack_painted(&self, function: Function, cells: usize) -> Option<u32> {
-        self.trace.painted.get(&(function, cells)).copied().filter(|depth| *depth > 0)
+        let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, cells));
+        all.map(|ran| ran.depth).max()
     }
 
     fn instance(&self, function: Function, cells: usize) -> Option<u32> {
-        let mut all = self.trace.instances.iter();
-        all.find(|(s, _)| (s.function, s.cells) == (function, cells)).map(|(_, address)| *address)
+        Some(self.over(function, Inputs::Uniform, cells).next()?.calls[0].called)
     }
 }
 
 /// The calls of a series, in order, as the host tells, whose answers have the same bits: each the fraction of the exposure that
-/// it asked for, and whether the answer took more than a polynomial or the plateau's line; none for functions other than the
+/// it asked for, and whether a polynomial or the plateau's line answered it; none for functions other than the
 /// inverse and the step of a frame's triggers.
 fn asked(series: Series) -> Vec<(f64, bool)> {
     match series.cells {
@@ -182,14 +221,12 @@ fn with<const CELLS: usize>(series: Series) -> Vec<(f64, bool)> {
     let (opening, closing) = CURVES[series.curve].ramps(SCALES[series.scale()]);
     let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
     match series.function {
-        Function::InverseCdf | Function::Static => {
-            series.us().map(|u| (u.into(), !curve.is_direct(u))).collect()
-        }
-        Function::TickStep => {
+        InverseCdf | Static => series.us().map(|u| (u.into(), curve.is_direct(u))).collect(),
+        TickStep => {
             let steps = series.frames().flat_map(|(n, steps)| {
                 let frame = curve.trigger_ticks(n, TICK_HZ).expect("a good rate");
                 let u = move |i| (2.0 * f64::from(i) + 1.0) / (2.0 * f64::from(n));
-                (0..steps).map(move |i| (u(i), !frame.is_direct(i)))
+                (0..steps).map(move |i| (u(i), frame.is_direct(i)))
             });
             steps.collect()
         }

@@ -13,7 +13,7 @@
 use crate::disassembly::{Instruction, registers};
 
 /// What of an instruction's cost is known before it runs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Copy, Default)]
 pub struct Cost {
     cycles: u32,
     /// A single load of a core register: one behind another takes a cycle less, unless the first is a literal and the

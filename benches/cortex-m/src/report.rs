@@ -2,15 +2,12 @@
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{
-    CELLS, CURVES, DEFAULT, Function, Inputs, ON_HARD, ON_ROWS, ON_TYPICAL, ROWS, Series, TRIGGERS,
-};
+use measured::{CELLS, CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, ROWS, TRIGGERS, TYPICAL};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
-use crate::measure::{Measured, on_row};
-use crate::trace::selection;
+use crate::measure::{Measured, On, Ran, series};
 
 use Function::{
     Cdf, Construct, InverseCdf, Newton, Opening, Root, Schedule, Static, Table, TickStep,
@@ -47,25 +44,25 @@ const CALLS: [(&str, Function); 8] = [
 ];
 
 pub fn run() -> Result {
-    let selections = [
-        selection(&CELLS, &[InverseCdf, TickStep, Schedule], ON_TYPICAL | ON_HARD),
-        selection(&[DEFAULT], &[Static, Cdf, Opening, Newton, Table], ON_TYPICAL | ON_HARD),
-        selection(&CELLS, &[Construct, Root], ON_ROWS),
+    let plan = [
+        series(&[InverseCdf, TickStep, Schedule], &CELLS, On::All),
+        series(&[Static, Cdf, Opening, Newton, Table], &[DEFAULT], On::All),
+        series(&[Construct], &CELLS, On::All),
+        series(&[Root], &[DEFAULT], On::All),
     ];
-    let m4f = Measured::new(M4F, OPT_LEVEL, &selections)?;
-    let rest: Vec<_> =
-        Function::ALL.into_iter().filter(|f| ![InverseCdf, Static].contains(f)).collect();
-    let selections = [
-        selection(&[DEFAULT], &[InverseCdf, Static], ON_TYPICAL),
-        selection(&[0, 4, 16], &[InverseCdf], ON_ROWS),
-        selection(&CELLS, &rest, ON_ROWS),
+    let m4f = Measured::new(M4F, OPT_LEVEL, &plan.concat())?;
+    let plan = [
+        series(&[InverseCdf, Static], &[DEFAULT], On::Typical),
+        series(&[InverseCdf], &[0, 4, 16], On::Rows),
+        series(&[TickStep, Schedule, Construct], &CELLS, On::Rows),
+        series(&[Cdf, Opening, Newton, Table], &[DEFAULT], On::Rows),
     ];
-    let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &selections));
+    let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
     let others = others.into_iter().collect::<Result<Vec<_>>>()?;
     let cores: Vec<&Measured> = [&m4f].into_iter().chain(&others).collect();
 
-    let building = selection(&[16], &[Construct], ON_ROWS);
-    let for_size = Measured::new(M4F, "z", &[building])?.code_bytes(Construct, 16);
+    let building = series(&[Construct], &[16], On::All);
+    let for_size = Measured::new(M4F, "z", &building)?.code_bytes(Construct, 16);
     let report = [
         overview(&cores),
         format!("Made by `cargo run --release` in `benches/cortex-m`, with {}.", made_with()?),
@@ -113,8 +110,8 @@ fn overview(cores: &[&Measured]) -> String {
     let calls = CALLS.map(|(name, function)| (name, function, DEFAULT));
     let without = ("`inverse_cdf`, `CELLS = 0`", InverseCdf, 0);
     let rows = calls.into_iter().chain([without]).map(|(name, function, cells)| {
-        let on_rows = [0, 1, 2].map(|row| Some(m4f.cycles(on_row(function, row, cells))?.mean));
-        let means = on_rows.into_iter().chain([m4f.typical_mean(function, cells)]);
+        let on_rows = [0, 1, 2].map(|row| Some(m4f.on(function, row, cells)?.cycles().mean));
+        let means = on_rows.into_iter().chain([m4f.typical(function, cells, Ran::cycles)]);
         let counts = [
             m4f.worst_of_all(function, cells).map(|(cycles, _)| cycles),
             m4f.worst_direct(function, cells).map(|(cycles, _)| cycles),
@@ -132,30 +129,30 @@ fn overview(cores: &[&Measured]) -> String {
     for (name, function) in &CALLS[..2] {
         for (row, curve) in ["soft", "all ramp", "typical"].into_iter().enumerate() {
             let counts = cores.iter().map(|core| {
-                let instructions = match curve {
-                    "typical" => core.typical_instructions(*function, DEFAULT)?,
-                    _ => core.instructions(on_row(*function, row, DEFAULT))?.mean,
+                let mean = match curve {
+                    "typical" => core.typical(*function, DEFAULT, Ran::instructions),
+                    _ => core.on(*function, row, DEFAULT).map(|ran| ran.instructions().mean),
                 };
-                Some(grouped(instructions))
+                mean.map(grouped)
             });
             rows.push(format!("{curve}: {name} | {}", figures(counts)));
         }
     }
     let everywhere = table(&format!("mean instructions | {}", names(cores)), 1, rows);
 
-    let bytes = [0, DEFAULT, 4, 16].map(|cells| m4f.trace.curve_bytes.get(&cells).copied());
-    let bytes = figures(bytes);
+    let [with_0, with_4, with_8, with_16] = CURVE_BYTES;
     let baselines = [size_of::<TextbookNewton>(), size_of::<InverseTable<256>>()];
+    let bytes = [with_0, with_8, with_4, with_16].into_iter().chain(baselines).map(Some);
     let errors = [0, 1].map(|row| {
         let errors = [Newton, Table].map(|function| Some(format!("{:.1e}", error(row, function))));
         format!("largest error on {} | | | | | {}", ROWS[row], figures(errors))
     });
-    let bytes = format!("bytes of a curve | {bytes} | {}", figures(baselines.map(Some)));
+    let bytes = format!("bytes of a curve | {}", figures(bytes));
     let header = "| `CELLS = 0` | 8 | 4 | 16 | textbook Newton in `f32` | linear table of 256";
     let curves = table(header, 1, [bytes].into_iter().chain(errors));
     format!(
         "The calls with `CELLS = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
-over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *typical* is the mean over {} curves.
+over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *typical* is the mean over {TYPICAL} curves.
 *Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that is answered by a polynomial or the
 plateau's line, as all of a frame of `direct_triggers()` are. Calls are by a reference that the compiler cannot see through, but
 in the second row: there each curve is a `static`, as firmware has it, whose values the compiler puts into the code. Its worst
@@ -169,8 +166,7 @@ The same on other cores, in instructions:
 
 What a curve takes, and the largest error over 65 537 equally spaced `u`, as a share of the interval:
 
-{curves}",
-        m4f.typical(InverseCdf, DEFAULT).len()
+{curves}"
     )
 }
 
@@ -195,16 +191,17 @@ fn calls(cores: &[&Measured]) -> String {
     for ((name, function), cells) in CALLS.iter().flat_map(|call| CELLS.map(|cells| (call, cells)))
     {
         for (row, curve) in ROWS.iter().enumerate() {
-            let series = on_row(*function, row, cells);
+            let on = |core: &Measured| core.on(*function, row, cells).map(Ran::instructions);
             // What has no cells is measured with the default ones.
-            let Some(s) = cores[0].cycles(series) else { continue };
+            let Some(s) = cores[0].on(*function, row, cells).map(Ran::cycles) else { continue };
             let cycles =
                 format!("{} | {} | **{:.0}** | {} | {}", s.min, s.median, s.mean, s.most, s.max);
-            let counts = cores.iter().map(|core| Some(grouped(core.instructions(series)?.mean)));
+            let counts = cores.iter().map(|core| Some(grouped(on(core)?.mean)));
             rows.push(format!("{name} | {curve} | {cells} | {cycles} | {}", figures(counts)));
         }
         for inputs in [Inputs::Hard, Inputs::Solved] {
-            let Some((worst, curve)) = cores[0].worst(*function, inputs, cells) else { continue };
+            let worst = cores[0].worst(*function, inputs, cells);
+            let Some((worst, curve)) = worst.first() else { continue };
             let blank = " | ".repeat(cores.len());
             rows.push(format!("{name} | {inputs:?}: {curve} | {cells} | | | | | {worst} {blank}"));
         }
@@ -237,13 +234,13 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
             rows.push(format!("{name} | {what} | {counts}"));
         };
         if function == Construct {
-            row("instructions", &|core| Some(core.instructions(on_row(function, 0, cells))?.mean));
+            row("instructions", &|core| Some(core.on(function, 0, cells)?.instructions().mean));
         }
         row("code", &|core| core.code_bytes(function, cells).map(f64::from));
         row("stack", &|core| core.stack_said(function, cells).map(f64::from));
     }
     let table = table(&format!("| | {}", names(cores)), 2, rows);
-    let cycles = cores[0].cycles(on_row(Construct, 0, DEFAULT)).map(|cycles| grouped(cycles.mean));
+    let cycles = cores[0].on(Construct, 0, DEFAULT).map(|ran| grouped(ran.cycles().mean));
     format!(
         "## Building a curve at run time, flash and stack
 
@@ -263,12 +260,12 @@ figures. The library has no statics: `.data` and `.bss` hold {} bytes.
 }
 
 fn typical(m4f: &Measured) -> String {
-    let [inverse, of_static, ticks] =
-        [InverseCdf, Static, TickStep].map(|function| m4f.typical(function, DEFAULT));
-    let rows = inverse.iter().zip(&of_static).zip(&ticks).map(|((inverse, of_static), tick)| {
-        let [one, other] =
-            [inverse, tick].map(|c| format!("{:.0} | {:.1} %", c.mean, 100.0 * c.searched));
-        format!("{} | {:.0} | {one} | {other}", inverse.name, of_static.mean)
+    let over = |function| m4f.over(function, Inputs::Uniform, DEFAULT);
+    let rows = over(InverseCdf).zip(over(Static)).zip(over(TickStep));
+    let rows = rows.map(|((inverse, of_static), tick)| {
+        let [one, other] = [inverse, tick]
+            .map(|ran| format!("{:.0} | {:.1} %", ran.cycles().mean, 100.0 * ran.searched()));
+        format!("{} | {:.0} | {one} | {other}", inverse.name(), of_static.cycles().mean)
     });
     let header = "curve | of a `static` | `inverse_cdf` | searched | tick | searched";
     let table = table(header, 1, rows);
@@ -291,9 +288,9 @@ fn roots(m4f: &Measured) -> String {
             (f64::from((root.of)(x, DIVISOR)) / exact - 1.0).abs()
         });
         let (most, sum) = errors.fold((0.0f64, 0.0), |(most, sum), e| (most.max(e), sum + e));
-        let series = Series { function: Root, cells: DEFAULT, inputs: Inputs::Uniform, curve: i };
-        let cycles = m4f.cycles(series).map(|s| format!("{:.0} | {}", s.mean, s.max));
-        let code = m4f.trace.instances.get(&series).map(|start| m4f.code.code_bytes(*start));
+        let ran = m4f.on(Root, i, DEFAULT);
+        let cycles = ran.map(Ran::cycles).map(|s| format!("{:.0} | {}", s.mean, s.max));
+        let code = ran.map(|ran| m4f.code.code_bytes(ran.calls[0].called));
         let (mean, cost) = (sum / f64::from(COUNT), [cycles, code.map(|code| code.to_string())]);
         format!("{} | {} | {most:.1e} | {mean:.1e} | {}", root.k, root.way, figures(cost))
     });

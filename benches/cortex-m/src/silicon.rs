@@ -41,10 +41,10 @@ pub fn run() -> Result {
     }
     let elf = program(M4F, "silicon");
     let (calls, _) = replay(M4F, &elf, &Disassembly::of(M4F, &elf)?, None)?;
-    let [(.., nothing), calls @ ..] = &calls[..] else { return Err("nothing was called".into()) };
+    let [nothing, calls @ ..] = &calls[..] else { return Err("nothing was called".into()) };
     println!("| program | board | model | ratio | source |\n|---|--:|--:|--:|---|");
     let mut logarithms = 0.0;
-    for ((name, board, source), (.., call)) in PROGRAMS.iter().zip(calls) {
+    for ((name, board, source), call) in PROGRAMS.iter().zip(calls) {
         let model = f64::from(call.cycles - nothing.cycles);
         let root = if source.starts_with('/') { COMPENDIUM } else { "" };
         println!("| {name} | {board} | {model} | {:.2} | {root}{source} |", model / board);

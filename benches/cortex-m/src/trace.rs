@@ -3,12 +3,10 @@
 //! QEMU translates a block of instructions, tells which (`-d in_asm`), and tells of each time that it
 //! executes one (`-d exec,nochain`).
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-
-use measured::{CELLS, Function, Series, series};
 
 use crate::Result;
 use crate::disassembly::Disassembly;
@@ -19,85 +17,26 @@ use crate::model::{Cost, Fetch, KINDS};
 /// return, that included.
 #[derive(Clone, Copy, Default)]
 pub struct Call {
+    /// The address of what was called.
+    pub called: u32,
     pub instructions: u32,
     pub cycles: u32,
     /// Those cycles by [`KINDS`] of instructions.
     pub by_kind: [u32; KINDS.len()],
 }
 
-/// A call, by how many series have begun before its own, with the address of what was called.
-pub type InSeries = (usize, u32, Call);
-
-#[derive(Default)]
-pub struct Trace {
-    pub calls: BTreeMap<Series, Vec<Call>>,
-    /// The function's instance that a series called.
-    pub instances: BTreeMap<Series, u32>,
-    /// The bytes of a curve, by its cells, and how deep a function's stack got.
-    pub curve_bytes: BTreeMap<usize, u32>,
-    pub painted: BTreeMap<(Function, usize), u32>,
-}
-
-/// What the firmware is asked to run; the kinds of inputs as bits of its own.
-pub fn selection(cells: &[usize], functions: &[Function], inputs: u32) -> u32 {
-    let places = CELLS.iter().enumerate().filter(|(_, c)| cells.contains(c));
-    let bits = places.map(|(place, _)| 1 << place).chain(functions.iter().map(|f| f.bit()));
-    bits.fold(inputs, |mask, bit| mask | bit)
-}
-
-impl Trace {
-    /// Has the program run the series that are selected, and adds them; `built` is what its first run left, all curves.
-    pub fn add(
-        &mut self,
-        core: Core,
-        elf: &Path,
-        code: &Disassembly,
-        built: &[u8],
-        selection: u32,
-    ) -> Result {
-        let input = elf.with_extension("input");
-        std::fs::write(&input, [&selection.to_le_bytes(), built].concat())?;
-        let keys: Vec<Series> = series(selection).collect();
-        let (calls, printed) = replay(core, elf, code, Some(File::open(&input)?))?;
-        if calls.last().is_none_or(|(place, ..)| place + 1 != keys.len()) {
-            return Err(format!("the firmware ran other series than planned\n{printed}").into());
-        }
-        for (place, address, call) in calls {
-            let key = *keys.get(place).ok_or("more series than planned")?;
-            self.calls.entry(key).or_default().push(call);
-            self.instances.insert(key, address);
-        }
-        self.note(&printed)
-    }
-
-    /// A line a number of cells, the bytes of a curve and of the functions' stacks: `1376 [160, 320, ...]`.
-    fn note(&mut self, printed: &str) -> Result {
-        for (cells, line) in CELLS.into_iter().zip(printed.lines()) {
-            let numbers = line.split([' ', ',', '[', ']']).filter(|number| !number.is_empty());
-            let numbers = numbers.map(str::parse).collect::<Result<Vec<u32>, _>>()?;
-            let (bytes, depths) = numbers.split_first().ok_or("the firmware printed nothing")?;
-            self.curve_bytes.insert(cells, *bytes);
-            for (function, depth) in Function::ALL.into_iter().zip(depths) {
-                let deepest = self.painted.entry((function, cells)).or_default();
-                *deepest = (*deepest).max(*depth);
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Runs a program and tells of each call of its `the_call`, in order, and what it printed.
+/// Runs a program and tells of each call of its functions `the_call`, in order, and what it printed.
 pub fn replay(
     core: Core,
     elf: &Path,
     code: &Disassembly,
     input: Option<File>,
-) -> Result<(Vec<InSeries>, String)> {
-    let options = ["-d", "in_asm,exec,nochain"];
-    let mut child = start(core, elf, input, &options)?;
-    let mut replay = Replay::new(code);
+) -> Result<(Vec<Call>, String)> {
+    let mut child = start(core, elf, input, &["-d", "in_asm,exec,nochain"])?;
+    let steps = steps(code);
+    let mut replay = Replay::default();
     // The instructions of each block, by QEMU's number for it; and of the one just translated.
-    let mut blocks: HashMap<u64, Vec<u32>> = HashMap::new();
+    let mut blocks: HashMap<u64, Vec<Step>> = HashMap::new();
     let mut translated = Vec::new();
     // The block that is about to run, unless the next line says that it was stopped.
     let mut block: Option<u64> = None;
@@ -114,8 +53,8 @@ pub fn replay(
         }
         let next = block_number(text);
         if is_over || next.is_some() {
-            for address in block.iter().flat_map(|block| &blocks[block]) {
-                replay.execute(*address)?;
+            for step in block.iter().flat_map(|block| &blocks[block]) {
+                replay.execute(*step);
             }
             block = next;
         }
@@ -130,7 +69,9 @@ pub fn replay(
                 return Err(format!("QEMU does not tell a block's instructions: {text}").into());
             }
         } else if let Some(address) = instruction_address(text) {
-            translated.push(address);
+            let step = steps.get(&address);
+            let unknown = "QEMU executes what the disassembly does not have";
+            translated.push(*step.ok_or_else(|| format!("{unknown}: {text}"))?);
         } else if text.starts_with("IN:") {
             translated.clear();
         } else if !text.starts_with("---") {
@@ -146,104 +87,62 @@ pub fn replay(
 }
 
 /// An instruction as the replay needs it.
+#[derive(Clone, Copy, Default)]
 struct Step {
-    cost: Cost,
+    address: u32,
     length: u32,
-    measured: bool,
+    cost: Cost,
+    /// Does it begin what is measured?
     begins: bool,
 }
 
+/// The instructions by their addresses.
+fn steps(code: &Disassembly) -> HashMap<u32, Step> {
+    let begin = code.named("the_call");
+    let steps = code.instructions.iter().map(|i| {
+        let begins = begin.contains(&i.address);
+        (i.address, Step { address: i.address, length: i.length, cost: Cost::new(i), begins })
+    });
+    steps.collect()
+}
+
 /// The state of a replay.
-struct Replay<'a> {
-    code: &'a Disassembly,
-    /// By the instructions' places.
-    steps: Vec<Option<Step>>,
-    begun: usize,
-    calls: Vec<InSeries>,
-    /// The call that runs, what was called, and where it returns to.
-    call: Option<(Call, u32, u32)>,
-    last: Option<u32>,
-    before: Option<u32>,
+#[derive(Default)]
+struct Replay {
+    calls: Vec<Call>,
+    /// The call that runs, and where it returns to.
+    call: Option<(Call, u32)>,
+    /// The last instruction, and within a call the cost of the one before.
+    last: Step,
+    before: Cost,
     fetch: Fetch,
 }
 
-impl<'a> Replay<'a> {
-    fn new(code: &'a Disassembly) -> Self {
-        let mut steps: Vec<Option<Step>> = Vec::new();
-        steps.resize_with(code.places(), || None);
-        for i in &code.instructions {
-            let cost = Cost::new(i);
-            let step = Step { cost, length: i.length, measured: false, begins: false };
-            steps[code.place(i.address)] = Some(step);
-        }
-        let mut mark = |name: &str, set: fn(&mut Step)| {
-            for address in code.named(name) {
-                steps[code.place(address)].as_mut().map(set);
-            }
-        };
-        mark("series_begins", |step| step.begins = true);
-        mark("the_call", |step| step.measured = true);
-        let (call, last, before) = (None, None, None);
-        Self {
-            code,
-            steps,
-            begun: 0,
-            calls: Vec::new(),
-            call,
-            last,
-            before,
-            fetch: Fetch::default(),
-        }
-    }
-
-    fn step(&self, address: u32) -> Result<&Step> {
-        let step = self.steps.get(self.code.place(address)).and_then(Option::as_ref);
-        let known = "QEMU executes what the disassembly does not have, at";
-        step.ok_or_else(|| format!("{known} {address:#x}").into())
-    }
-
-    /// The instruction at `address` follows: charges the last one, then sees where a call starts or ends.
-    fn execute(&mut self, address: u32) -> Result {
-        if let (Some((mut call, called, back)), Some(last)) = (self.call, self.last) {
-            let step = self.step(last)?;
-            let mut cycles = match self.before {
-                Some(before) => step.cost.behind(&self.step(before)?.cost),
-                None => step.cost.behind(&Cost::default()),
-            };
-            let (kind, length) = (step.cost.kind, step.length);
-            if address != last + length {
+impl Replay {
+    /// The instruction follows: charges the last one, then sees whether a call ends or starts.
+    fn execute(&mut self, step: Step) {
+        let last = std::mem::replace(&mut self.last, step);
+        if let Some((call, back)) = &mut self.call {
+            let mut cycles = last.cost.behind(&self.before);
+            if step.address != last.address + last.length {
                 // Where the caller's next instruction lies is not the call's fault.
-                let target = if address == back { 0 } else { self.step(address)?.length };
-                cycles += step.cost.refill(address, target);
+                let target = if step.address == *back { 0 } else { step.length };
+                cycles += last.cost.refill(step.address, target);
             }
-            cycles += self.fetch.stalls(last, length, address);
-            self.before = Some(last);
+            cycles += self.fetch.stalls(last.address, last.length, step.address);
+            self.before = last.cost;
             call.instructions += 1;
             call.cycles += cycles;
-            call.by_kind[kind] += cycles;
-            self.call = Some((call, called, back));
-        }
-        match self.call {
-            Some((done, called, back)) if address == back => {
-                let place = self.begun.checked_sub(1).ok_or("a call before its series")?;
-                self.calls.push((place, called, done));
+            call.by_kind[last.cost.kind] += cycles;
+            if step.address == *back {
+                self.calls.push(*call);
                 self.call = None;
             }
-            Some(_) => {}
-            None => {
-                let step = self.step(address)?;
-                if step.measured {
-                    let last = self.last.ok_or("a call from nowhere")?;
-                    self.call = Some((Call::default(), address, last + self.step(last)?.length));
-                    self.before = None;
-                    self.fetch = Fetch::default();
-                } else if step.begins {
-                    self.begun += 1;
-                }
-            }
+        } else if step.begins {
+            let call = Call { called: step.address, ..Call::default() };
+            self.call = Some((call, last.address + last.length));
+            (self.before, self.fetch) = (Cost::default(), Fetch::default());
         }
-        self.last = Some(address);
-        Ok(())
     }
 }
 

@@ -9,50 +9,6 @@ use crate::support::oracle::Curve;
 use crate::sweep::Sweep;
 use crate::{Result, sweep_t, sweep_u};
 
-/// A sweep as a line of `docs/every-f32.csv`. What a function has no figure for stays empty.
-#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
-pub struct Row {
-    pub function: String,
-    pub curve: String,
-    pub kind: String,
-    pub cells: usize,
-    pub count: u64,
-    pub out_of_range: u64,
-    pub steps_back: Option<u64>,
-    pub error: f64,
-    pub judged: f64,
-    pub forward: Option<f64>,
-    pub without_floor: Option<f64>,
-    pub evaluations: Option<u32>,
-    pub seconds: f64,
-}
-
-pub const INVERSE: &str = "inverse_cdf";
-pub const CDF: &str = "cdf";
-pub const OPENING: &str = "opening";
-
-impl Row {
-    fn new(function: &str, named: &Named, cells: usize, sweep: Sweep, seconds: f64) -> Self {
-        let is = |name| function == name;
-        Self {
-            function: function.into(),
-            curve: named.0.into(),
-            kind: named.1.into(),
-            cells,
-            count: sweep.count,
-            out_of_range: sweep.out_of_range,
-            // The openness may fall.
-            steps_back: (!is(OPENING)).then_some(sweep.steps_back),
-            error: sweep.error,
-            judged: sweep.judged,
-            forward: is(INVERSE).then_some(sweep.forward),
-            without_floor: is(CDF).then_some(sweep.without_floor),
-            evaluations: is(INVERSE).then_some(sweep.evaluations),
-            seconds,
-        }
-    }
-}
-
 /// A curve with its name and its kind.
 type Named = (&'static str, &'static str, Curve);
 
@@ -85,29 +41,29 @@ fn curves(names: &[&str]) -> Vec<Named> {
 }
 
 /// The cdf and the openness on four curves, then the inverse on ten: 8 octaves on every `f32`, and other counts where
-/// octaves serve. `found` hears of all rows so far.
-pub fn every_f32(found: impl Fn(&[Row]) -> Result) -> Result {
-    let mut rows = Vec::new();
-    for named in curves(&IN_TIME) {
+/// octaves serve. `found` hears of all sweeps so far.
+pub fn every_f32(found: impl Fn(&[Sweep]) -> Result) -> Result {
+    let mut all = Vec::new();
+    for (curve, kind, points) in curves(&IN_TIME) {
         let since = Instant::now();
-        let [cdf, opening] = sweep_t::sweep(&named.2);
+        let both = sweep_t::sweep(&points);
         // Half of the time that both took together.
         let seconds = 0.5 * since.elapsed().as_secs_f64();
-        rows.push(Row::new(CDF, &named, 8, cdf, seconds));
-        rows.push(Row::new(OPENING, &named, 8, opening, seconds));
-        found(&rows)?;
+        all.extend(both.map(|sweep| Sweep { curve, kind, seconds, ..sweep }));
+        found(&all)?;
     }
     for cells in [8, 0, 4, 16] {
-        for named in curves(&IN_U) {
+        for (curve, kind, points) in curves(&IN_U) {
             let since = Instant::now();
             let sweep = match cells {
-                8 => sweep_u::sweep::<8>(&named.2, 0.0),
-                0 => sweep_u::sweep::<0>(&named.2, LOWEST_OCTAVE),
-                4 => sweep_u::sweep::<4>(&named.2, LOWEST_OCTAVE),
-                _ => sweep_u::sweep::<16>(&named.2, LOWEST_OCTAVE),
+                8 => sweep_u::sweep::<8>(&points, 0.0),
+                0 => sweep_u::sweep::<0>(&points, LOWEST_OCTAVE),
+                4 => sweep_u::sweep::<4>(&points, LOWEST_OCTAVE),
+                _ => sweep_u::sweep::<16>(&points, LOWEST_OCTAVE),
             };
-            rows.push(Row::new(INVERSE, &named, cells, sweep, since.elapsed().as_secs_f64()));
-            found(&rows)?;
+            let seconds = since.elapsed().as_secs_f64();
+            all.push(Sweep { curve, kind, cells, seconds, ..sweep });
+            found(&all)?;
         }
     }
     Ok(())

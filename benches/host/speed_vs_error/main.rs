@@ -17,6 +17,7 @@ mod support;
 mod sweep;
 mod sweep_t;
 mod sweep_u;
+mod table;
 mod timing;
 
 use methods::CURVES;
@@ -45,18 +46,18 @@ fn main() -> Result {
 fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
     std::fs::create_dir_all(folder)?;
     let curves = accuracy::curves(random);
-    let scene = Picture::new(&timing::curve(0));
+    let scene = Picture::new(&CURVES[0].1);
     let rendering =
         (6..=12).map(|k| (1 << k, PULSES.map(|pulses| rendered(&scene, pulses, 1 << k))));
     let measured = Measured {
         curves: curves.len(),
         samples,
         figures: accuracy::measure(&curves, samples),
-        times: (0..CURVES.len()).map(|i| timing::times(&timing::curve(i), repeats)).collect(),
+        times: CURVES.map(|(_, curve)| timing::times(&curve, repeats)),
         cost: std::fs::read_to_string("docs/cost.md")?,
         rendering: rendering.collect(),
-        finds: table("docs/search.csv")?,
-        every_f32: table("docs/every-f32.csv")?,
+        search: table::read("docs/search.csv")?,
+        every_f32: table::read("docs/every-f32.csv")?,
     };
     pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
     pictures::rendering(&format!("{folder}/rendering.svg"));
@@ -78,9 +79,4 @@ fn save<T: serde::Serialize>(path: &str, rows: &[T]) -> Result {
     let mut file = csv::Writer::from_path(path)?;
     rows.iter().try_for_each(|row| file.serialize(row))?;
     Ok(file.flush()?)
-}
-
-/// The rows of a table that another run left.
-fn table<T: serde::de::DeserializeOwned>(path: &str) -> Result<Vec<T>> {
-    Ok(csv::Reader::from_path(path)?.into_deserialize().collect::<Result<_, _>>()?)
 }

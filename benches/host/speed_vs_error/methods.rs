@@ -1,29 +1,32 @@
 //! The methods under comparison, each behind the same trait, and the curves that they are timed on.
-#![allow(dead_code)] // The other bench needs a part.
 
 use std::hint::black_box;
 
 use shutter_curve::ShutterCurve;
 
-use crate::support::baseline::{InverseTable, Ramp, TextbookNewton};
+use crate::support::baseline::{InverseTable, TextbookNewton};
 use crate::support::cases::shutter;
 use crate::support::curves::Rng;
 use crate::support::oracle::Curve;
 use crate::support::peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
 
 /// About a third of the mass in ramps; all of it; none.
-pub const CURVES: [(&str, Ramp, Ramp); 3] = [
+pub const CURVES: [(&str, Curve); 3] = [
     (
         "soft",
-        [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)],
-        [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
+        Curve {
+            opening: [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)],
+            closing: [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
+        },
     ),
     (
         "all ramp",
-        [(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)],
-        [(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)],
+        Curve {
+            opening: [(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)],
+            closing: [(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)],
+        },
     ),
-    ("box", [(0.0, 1.0); 4], [(1.0, 1.0); 4]),
+    ("box", Curve { opening: [(0.0, 1.0); 4], closing: [(1.0, 1.0); 4] }),
 ];
 
 /// Fractions in no order: more than a branch predictor learns by heart, so that every branch on u is taken by surprise.

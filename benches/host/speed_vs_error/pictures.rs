@@ -7,13 +7,12 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
-use crate::methods::METHODS;
+use crate::methods::{CURVES, METHODS};
 use crate::report::{Measured, cycles, name};
 use crate::support::cases::{judge, shutter};
 use crate::support::curves::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
 use crate::support::rendering::{PIXELS, PULSES, Picture};
-use crate::timing;
 
 /// Drawn at twice the size, since the pen moves by whole units.
 const SCALE: i32 = 2;
@@ -232,7 +231,7 @@ pub fn worst_cases(path: &str, curves: u64) {
 pub fn rendering(path: &str) {
     const SHOWN: u32 = 32;
     picture(path, (700, 430), "A moving bar exposed in pulses", |strips| {
-        let scene = Picture::new(&timing::curve(0));
+        let scene = Picture::new(&CURVES[0].1);
         let rows = [("exact".to_string(), scene.exact().to_vec())].into_iter().chain(
             PULSES.map(|pulses| (name(pulses).to_string(), scene.exposed(pulses, SHOWN, 1))),
         );

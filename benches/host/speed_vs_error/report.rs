@@ -1,13 +1,13 @@
 //! The report's text.
 
 use crate::accuracy::Figures;
-use crate::every_f32::{INVERSE, Row};
 use crate::methods::{CURVES, FORWARDS, METHODS, TEXTBOOK};
-use crate::search::Find;
 use crate::support::cases::{CASES, judge, shutter};
 use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
 use crate::support::rendering::{PULSES, Pulses};
+use crate::sweep_u::INVERSE;
+use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
 /// Everything measured.
@@ -16,12 +16,12 @@ pub struct Measured {
     pub samples: usize,
     pub figures: Vec<Figures>,
     /// By curve.
-    pub times: Vec<Times>,
+    pub times: [Times; 3],
     /// The text of `docs/cost.md`.
     pub cost: String,
     /// The error of the pictures in so many pulses.
     pub rendering: Vec<(u32, [f64; 3])>,
-    pub finds: Vec<Find>,
+    pub search: Vec<Row>,
     pub every_f32: Vec<Row>,
 }
 
@@ -36,41 +36,6 @@ pub fn write(measured: &Measured) -> String {
         rendering(measured),
     ];
     sections.join("\n\n") + "\n"
-}
-
-/// A figure as one reads it.
-pub fn number(x: f64) -> String {
-    match x.abs() {
-        _ if !x.is_finite() => "∞".into(),
-        0.0 => "0".into(),
-        ..0.01 | 1e6.. => {
-            let text = format!("{x:.1e}");
-            let (digits, exponent) = text.split_once('e').expect("an exponent");
-            format!("{digits}·10<sup>{exponent}</sup>")
-        }
-        ..0.1 => format!("{x:.3}"),
-        ..10.0 => format!("{x:.2}"),
-        ..100.0 => format!("{x:.1}"),
-        _ => format!("{x:.0}"),
-    }
-}
-
-/// The same of whole numbers and of figures that a table may lack.
-fn text(x: Option<impl Into<f64>>) -> String {
-    x.map_or_else(|| "-".into(), |x| number(x.into()))
-}
-
-fn whole(x: Option<u64>) -> String {
-    x.map_or_else(|| "-".into(), |x| x.to_string())
-}
-
-/// A table, its columns' names between bars: so many columns of text, the others of figures.
-fn table(header: &str, texts: usize, rows: impl IntoIterator<Item = Vec<String>>) -> String {
-    let header = format!("| {header} |");
-    let figures = header.matches('|').count() - 1 - texts;
-    let ruled = format!("|{}{}", "---|".repeat(texts), "---:|".repeat(figures));
-    let rows = rows.into_iter().map(|row| format!("\n| {} |", row.join(" | ")));
-    format!("{header}\n{ruled}{}", rows.collect::<String>())
 }
 
 fn introduction(measured: &Measured) -> String {
@@ -253,30 +218,14 @@ in ulp(t) is large where the density is next to nothing: there a small ulp(u) is
 }
 
 fn search(measured: &Measured) -> String {
-    let (bred, aimed): (Vec<&Find>, Vec<&Find>) =
-        measured.finds.iter().partition(|find| find.is_bred);
-    let tried = [&bred, &aimed].map(|finds| finds.first().map_or(0, |find| find.curves));
-    let bred = bred.into_iter().map(|find| {
-        let whole = find.evaluations.map(u64::from).or(find.steps_back).map(|n| n as f64);
-        let worst = find.forward.or(find.backward).or(find.round_trip).or(whole);
-        vec![find.what.clone(), text(worst), find.at.clone()]
-    });
+    let (bred, aimed): (Vec<_>, Vec<_>) =
+        measured.search.iter().partition(|row| row["is_bred"] == "true");
+    let tried = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
+    let bred = bred.into_iter().map(|row| shown(row, "what worst at"));
     let bred = table("aim | worst found | control points of the opening; of the closing", 1, bred);
-    let aimed = aimed.into_iter().map(|find| {
-        vec![
-            find.what.clone(),
-            text(find.backward),
-            whole(find.evaluations.map(u64::from)),
-            whole(find.steps_back),
-            whole(find.cdf_steps_back),
-            whole(find.tick_steps_back),
-            text(find.cdf),
-            text(find.density),
-            text(find.few_ticks),
-            text(find.many_ticks),
-            whole(find.breaches),
-        ]
-    });
+    let columns = "what backward evaluations steps_back cdf_steps_back tick_steps_back cdf density \
+                   few_ticks many_ticks breaches";
+    let aimed = aimed.into_iter().map(|row| shown(row, columns));
     let header = "family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
                   | of openness and pdf | of ticks, up to 2<sup>24</sup> | more | promises broken";
     let aimed = table(header, 1, aimed);
@@ -298,24 +247,21 @@ Then it judges all that is promised on curves and inputs that meet difficulties 
 }
 
 fn every_f32(measured: &Measured) -> String {
-    let minutes = measured.every_f32.iter().map(|row| row.seconds).sum::<f64>() / 60.0;
-    let answers: u64 = measured.every_f32.iter().map(|row| row.count).sum();
-    let head = |row: &Row| [row.curve.clone(), row.kind.clone()];
-    let counts = |row: &Row| [Some(row.count), Some(row.out_of_range), row.steps_back].map(whole);
-    let (of_inverse, of_values): (Vec<&Row>, Vec<&Row>) =
-        measured.every_f32.iter().partition(|row| row.function == INVERSE);
-    let of_inverse = of_inverse.into_iter().map(|row| {
-        let errors = [row.forward, Some(row.error), Some(row.judged)].map(text);
-        let last = whole(row.evaluations.map(u64::from));
-        [&head(row)[..], &[row.cells.to_string()], &counts(row), &errors, &[last]].concat()
-    });
+    let figures =
+        |column| measured.every_f32.iter().flat_map(move |row| row[column].parse::<f64>());
+    let (answers, minutes) =
+        (figures("count").sum::<f64>(), figures("seconds").sum::<f64>() / 60.0);
+    let (of_inverse, of_values): (Vec<_>, Vec<_>) =
+        measured.every_f32.iter().partition(|row| row["function"] == INVERSE);
+    let columns = "curve kind cells count out_of_range steps_back forward error judged evaluations";
+    let of_inverse = of_inverse.into_iter().map(|row| shown(row, columns));
     let header = "curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) \
                   | judged | evaluations: worst of every 16th f32";
     let of_inverse = table(header, 2, of_inverse);
-    let of_values = of_values.into_iter().map(|row| {
-        let errors = [Some(row.error), Some(row.judged), row.without_floor].map(text);
-        [&[format!("`{}`", row.function)], &head(row)[..], &counts(row), &errors].concat()
-    });
+    let columns = "curve kind count out_of_range steps_back error judged without_floor";
+    let of_values = of_values
+        .into_iter()
+        .map(|row| [vec![format!("`{}`", row["function"])], shown(row, columns)].concat());
     let header = "function | curve | kind | answers | out of range | steps back | error, ulp | judged | without the floor";
     let of_values = table(header, 3, of_values);
     format!(

@@ -23,18 +23,17 @@ const AIMS: [&str; 5] = [
 
 /// What was found, as a line of `docs/search.csv`: of curves that were bred for an aim, the worst in it alone; of an aimed
 /// family, the worst in all that is promised.
-#[derive(Clone, Debug, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, Default, serde::Serialize)]
 pub struct Find {
     /// The aim, or the family.
     pub what: String,
     pub is_bred: bool,
     pub curves: u64,
-    pub forward: Option<f64>,
+    pub worst: Option<f64>,
     pub backward: Option<f64>,
     pub evaluations: Option<u32>,
+    /// Of the inverse between fractions, of the cdf between times, and of the ticks of a frame.
     pub steps_back: Option<u64>,
-    pub round_trip: Option<f64>,
-    /// Of the cdf between times, and of the ticks of a frame.
     pub cdf_steps_back: Option<u64>,
     pub tick_steps_back: Option<u64>,
     /// In ulp, and in ticks of an interval of up to 2²⁴ and of more.
@@ -128,16 +127,11 @@ pub fn search(curves: u64) -> Vec<Find> {
     let text = |points: Points| points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ");
     let finds = worst.iter().enumerate().map(|(aim, worst)| {
         let (worst, curve) = worst[0];
-        let is = |place| (aim == place).then_some(worst);
         Find {
             what: AIMS[aim].into(),
             is_bred: true,
             curves: tried,
-            forward: is(0),
-            backward: is(1),
-            evaluations: is(2).map(|worst| worst as u32),
-            steps_back: is(3).map(|worst| worst as u64),
-            round_trip: is(4),
+            worst: Some(worst),
             at: format!("{}; {}", text(curve.opening), text(curve.closing)),
             ..Find::default()
         }

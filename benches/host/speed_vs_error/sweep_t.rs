@@ -39,14 +39,16 @@ pub fn sweep(curve: &Curve) -> [Sweep; 2] {
 
 fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2] {
     let count = (to - from) as u64 + 1;
-    let [mut cdf, mut opening] = [Sweep { count, ..Sweep::default() }; 2];
+    let [mut cdf, mut opening] =
+        ["cdf", "opening"].map(|function| Sweep { function, cells: 8, count, ..Sweep::default() });
+    let (mut steps_back, mut without_floor) = (0, 0.0f64);
     let mut truth = Truth::new(exact.curve(), from);
     let mut last = if at(from) > shutter.open_start() { shutter.cdf(at(from - 1)) } else { 0.0 };
     let mut worst = [from; 2];
     for place in from..=to {
         let t = at(place);
         let got = [shutter.cdf(t), shutter.opening(t)];
-        cdf.steps_back += u64::from(got[0] < last);
+        steps_back += u64::from(got[0] < last);
         last = got[0];
         for (sweep, got) in [&mut cdf, &mut opening].into_iter().zip(got) {
             sweep.out_of_range += u64::from(!(0.0..=1.0).contains(&got));
@@ -58,7 +60,7 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
             (cdf.error, worst[0]) = (error, place);
         }
         if missed.0 > 0.0 {
-            cdf.without_floor = cdf.without_floor.max(missed.0 / ulp_f32(missed.1));
+            without_floor = without_floor.max(missed.0 / ulp_f32(missed.1));
         }
         let missed = self::missed(got[1], opennesses);
         let error = missed.0 / ulp_f32(missed.1).max(truth.least_ulp);
@@ -66,18 +68,16 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
             (opening.error, worst[1]) = (error, place);
         }
         if place % SAMPLED == 0 {
-            judge(&mut cdf, exact.cdf_ulp(got[0], t, CDF_FLOOR));
-            judge(&mut opening, exact.openness_ulp(got[1], t));
+            cdf.judge(exact.cdf_ulp(got[0], t, CDF_FLOOR));
+            opening.judge(exact.openness_ulp(got[1], t));
         }
     }
     let [of_cdf, of_opening] = worst.map(at);
-    judge(&mut cdf, exact.cdf_ulp(shutter.cdf(of_cdf), of_cdf, CDF_FLOOR));
-    judge(&mut opening, exact.openness_ulp(shutter.opening(of_opening), of_opening));
+    cdf.judge(exact.cdf_ulp(shutter.cdf(of_cdf), of_cdf, CDF_FLOOR));
+    opening.judge(exact.openness_ulp(shutter.opening(of_opening), of_opening));
+    cdf.steps_back = Some(steps_back);
+    cdf.without_floor = Some(without_floor);
     [cdf, opening]
-}
-
-fn judge(sweep: &mut Sweep, error: f64) {
-    sweep.judged = sweep.judged.max(error);
 }
 
 /// By how much a value misses a range, and the bound that it misses.

@@ -7,6 +7,9 @@ use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, rounding_cell, ulp_f32};
 use crate::sweep::{SAMPLED, Sweep, in_parts};
 
+/// As the report knows it.
+pub const INVERSE: &str = "inverse_cdf";
+
 /// Sweeps the `f32` from `first` to 1.
 pub fn sweep<const CELLS: usize>(curve: &Curve, first: f32) -> Sweep {
     let (shutter, exact) = (shutter::<CELLS>(curve), Exact::new(curve));
@@ -22,7 +25,9 @@ fn part<const CELLS: usize>(
     from: u32,
     to: u32,
 ) -> Sweep {
-    let mut found = Sweep { count: u64::from(to - from) + 1, ..Sweep::default() };
+    let count = u64::from(to - from) + 1;
+    let mut found = Sweep { function: INVERSE, count, ..Sweep::default() };
+    let (mut steps_back, mut greatest, mut evaluations) = (0, 0.0, 0);
     let mut follower = Follower::new(exact.curve());
     let (start, end) = (shutter.open_start(), shutter.close_end());
     // The neighbour below, so that no pair is left out between two parts.
@@ -32,26 +37,31 @@ fn part<const CELLS: usize>(
         let u = f32::from_bits(bits);
         let t = shutter.inverse_cdf(u);
         found.out_of_range += u64::from(!(t >= start && t <= end));
-        found.steps_back += u64::from(t < last);
+        steps_back += u64::from(t < last);
         last = t;
         if bits % 16 == 0 {
-            found.evaluations = found.evaluations.max(shutter.evaluations(u));
+            evaluations = evaluations.max(shutter.evaluations(u));
         }
         let (forward, backward) = errors(&mut follower, u, t);
-        if forward > found.forward {
-            (found.forward, worst[0]) = (forward, bits);
+        if forward > greatest {
+            (greatest, worst[0]) = (forward, bits);
         }
         if backward > found.error {
             (found.error, worst[1]) = (backward, bits);
         }
         if i64::from(bits) % SAMPLED == 0 {
-            found.judged = found.judged.max(exact.judge(u, t).backward);
+            found.judge(exact.judge(u, t).backward);
         }
     }
     for u in worst.map(f32::from_bits) {
-        found.judged = found.judged.max(exact.judge(u, shutter.inverse_cdf(u)).backward);
+        found.judge(exact.judge(u, shutter.inverse_cdf(u)).backward);
     }
-    found
+    Sweep {
+        steps_back: Some(steps_back),
+        forward: Some(greatest),
+        evaluations: Some(evaluations),
+        ..found
+    }
 }
 
 /// The errors of `t`: in ulp(t), and in ulp(u) once half an ulp(t) is forgiven.

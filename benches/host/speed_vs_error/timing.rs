@@ -4,13 +4,8 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
 
-use crate::methods::{CURVES, FORWARDS, METHODS, fractions};
+use crate::methods::{FORWARDS, METHODS, fractions};
 use crate::support::oracle::{Curve, Exact};
-
-pub fn curve(index: usize) -> Curve {
-    let (_, opening, closing) = CURVES[index];
-    Curve::shutter(opening, closing)
-}
 
 /// Nanoseconds a sample.
 #[derive(Clone, Copy, Debug)]
@@ -53,28 +48,28 @@ pub fn times(curve: &Curve, repeats: usize) -> Times {
     let ts: Vec<f32> = u.iter().map(|u| curve.open_start() + u * length).collect();
     let methods = METHODS.map(|method| (method.build)(curve));
     let forwards = FORWARDS.map(|(_, build)| build(curve));
-    let mut out = vec![vec![0.0; u.len()]; METHODS.len() + FORWARDS.len()];
     let (u, ts) = (&u, &ts);
     let mut calls: Vec<Box<dyn FnMut(Range<usize>)>> = Vec::new();
-    let (of_inverses, of_forwards) = out.split_at_mut(METHODS.len());
-    for (method, out) in methods.iter().zip(of_inverses) {
+    for method in &methods {
+        let mut out = vec![0.0; u.len()];
         calls.push(Box::new(|run| method.singles(&u[run])));
-        calls.push(Box::new(|run| method.slice(&u[run.clone()], black_box(&mut out[run]))));
+        calls.push(Box::new(move |run| method.slice(&u[run.clone()], black_box(&mut out[run]))));
     }
-    for (forward, out) in forwards.iter().zip(of_forwards) {
-        calls.push(Box::new(|run| forward(&ts[run.clone()], black_box(&mut out[run]))));
+    for forward in &forwards {
+        let mut out = vec![0.0; u.len()];
+        calls.push(Box::new(move |run| forward(&ts[run.clone()], black_box(&mut out[run]))));
     }
     let medians = medians(&mut calls, u.len(), repeats);
-    drop(calls);
-    let (inverses, forwards) = medians.split_at(2 * METHODS.len());
+    let (inverses, times) = medians.split_at(2 * METHODS.len());
     let inverses = inverses.chunks(2).map(|pair| Time { single: pair[0], slice: pair[1] });
     let exact = Exact::new(curve);
-    let forwards =
-        forwards.iter().zip(&out[METHODS.len()..]).enumerate().map(|(i, (time, out))| {
-            let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
-            let errors =
-                ts.iter().zip(out).step_by(8).map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
-            (*time, errors.fold(0.0, f64::max))
-        });
+    let forwards = forwards.iter().zip(times).enumerate().map(|(i, (forward, time))| {
+        let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
+        let mut out = vec![0.0; ts.len()];
+        forward(ts, &mut out);
+        let some = ts.iter().zip(&out).step_by(8);
+        let errors = some.map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
+        (*time, errors.fold(0.0, f64::max))
+    });
     (inverses.collect(), forwards.collect())
 }

@@ -1,7 +1,7 @@
 //! What the firmware measures and the host reports: the calls, the curves, the inputs and their order.
 #![no_std]
 
-use shutter_curve::CubicBezier;
+use shutter_curve::{CubicBezier, ShutterCurve};
 
 pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
@@ -11,29 +11,15 @@ pub mod roots;
 /// A curve of the reference data or found by search.
 pub struct Curve {
     pub name: &'static str,
-    /// As scenes hold it, by the reference data.
-    pub is_typical: bool,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
     /// The hard inputs; see the build script.
     pub hard: &'static [f32],
 }
 
+// `CURVES`, first those with rows of their own in the report, and `TYPICAL`: so many of them are as scenes hold them, by the
+// reference data; these are the first, too.
 include!(concat!(env!("OUT_DIR"), "/curves.rs"));
-
-/// The places of the typical ones in [`CURVES`].
-pub const TYPICAL: [usize; 15] = {
-    let (mut places, mut found, mut i) = ([0; 15], 0, 0);
-    while i < CURVES.len() {
-        if CURVES[i].is_typical {
-            places[found] = i;
-            found += 1;
-        }
-        i += 1;
-    }
-    assert!(found == places.len());
-    places
-};
 
 impl Curve {
     /// The ramps, on a scale of time.
@@ -46,7 +32,7 @@ impl Curve {
     }
 }
 
-/// The curves with rows of their own in the report, as the reader knows them: the first of [`CURVES`].
+/// The first of [`CURVES`] as the reader knows them.
 pub const ROWS: [&str; 3] = ["soft", "all ramp", "box"];
 
 /// Uniform inputs a series.
@@ -59,7 +45,7 @@ pub fn uniform(i: u32) -> f32 {
 }
 
 /// A function whose calls are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
     InverseCdf,
     /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a reference.
@@ -79,15 +65,10 @@ impl Function {
         use Function::*;
         [InverseCdf, Static, Cdf, Opening, TickStep, Schedule, Construct, Newton, Table, Root]
     };
-
-    /// Its bit in a selection.
-    pub const fn bit(self) -> u32 {
-        1 << (4 + self as u32)
-    }
 }
 
 /// What a series of calls runs over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inputs {
     /// Uniform inputs, on a typical curve.
     Uniform,
@@ -97,8 +78,12 @@ pub enum Inputs {
     Solved,
 }
 
+impl Inputs {
+    pub const ALL: [Self; 3] = [Self::Uniform, Self::Hard, Self::Solved];
+}
+
 /// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of [`roots::ROOTS`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy)]
 pub struct Series {
     pub function: Function,
     /// What has no cells counts as having [`DEFAULT`].
@@ -108,26 +93,24 @@ pub struct Series {
 }
 
 impl Series {
-    fn is_selected(self, selection: u32) -> bool {
-        use Function::{Construct, Newton, Root, Schedule, Static, Table, TickStep};
+    /// As the host tells the firmware of it.
+    pub fn to_bytes(self) -> [u8; 4] {
         let Self { function, cells, inputs, curve } = self;
-        let exists = match function {
-            Root => inputs == Inputs::Uniform && cells == DEFAULT && curve < roots::ROOTS.len(),
-            Construct => inputs == Inputs::Uniform && curve == 0,
-            Static => inputs != Inputs::Solved && cells == DEFAULT && CURVES[curve].is_typical,
-            TickStep | Schedule => true,
-            Newton | Table => inputs != Inputs::Solved && cells == DEFAULT,
-            _ => inputs != Inputs::Solved,
-        };
-        let kind = match inputs {
-            Inputs::Hard | Inputs::Solved => ON_HARD,
-            Inputs::Uniform if function == Root || curve < ROWS.len() => ON_ROWS | ON_TYPICAL,
-            Inputs::Uniform if CURVES[curve].is_typical => ON_TYPICAL,
-            Inputs::Uniform => 0,
-        };
-        let cells = 1 << CELLS.iter().position(|c| *c == cells).unwrap_or(CELLS.len());
-        let has = |bits| selection & bits != 0;
-        exists && has(kind) && has(cells) && has(function.bit())
+        [function as u8, cells as u8, inputs as u8, curve as u8]
+    }
+
+    pub fn from_bytes(bytes: [u8; 4]) -> Self {
+        let [function, cells, inputs, curve] = bytes.map(usize::from);
+        Self { function: Function::ALL[function], cells, inputs: Inputs::ALL[inputs], curve }
+    }
+
+    /// How many calls it makes.
+    pub fn calls(self) -> usize {
+        match self.function {
+            Function::Construct | Function::Schedule => 1,
+            Function::TickStep => self.frames().map(|(_, steps)| steps as usize).sum(),
+            _ => self.us().count(),
+        }
     }
 
     /// The fractions that are asked for, in order.
@@ -166,23 +149,14 @@ pub const SCALES: [Option<u32>; 3] = [None, Some(0), Some(6)];
 pub const TRIGGERS: u32 = 64;
 pub const TICK_HZ: u32 = 1_000_000;
 
-/// The numbers of cells measured, the first four bits of a selection, and the crate's default.
+/// The numbers of cells measured, and the crate's default.
 pub const CELLS: [usize; 4] = [0, 4, 8, 16];
 pub const DEFAULT: usize = 8;
 
-/// The kinds of inputs in a selection: uniform ones on the rows and on all typical curves, and the hard ones.
-pub const ON_ROWS: u32 = 1 << 29;
-pub const ON_TYPICAL: u32 = 1 << 30;
-pub const ON_HARD: u32 = 1 << 31;
-
-/// The series that are selected, in the order in which the firmware runs them.
-pub fn series(selection: u32) -> impl Iterator<Item = Series> {
-    let of_cells = |cells| Function::ALL.into_iter().map(move |function| (cells, function));
-    let inputs = [Inputs::Uniform, Inputs::Hard, Inputs::Solved];
-    let all = CELLS.into_iter().flat_map(of_cells).flat_map(move |(cells, function)| {
-        inputs.into_iter().flat_map(move |inputs| {
-            (0..CURVES.len()).map(move |curve| Series { function, cells, inputs, curve })
-        })
-    });
-    all.filter(move |series| series.is_selected(selection))
-}
+/// The bytes of a curve with each of them.
+pub const CURVE_BYTES: [usize; 4] = [
+    size_of::<ShutterCurve<0>>(),
+    size_of::<ShutterCurve<4>>(),
+    size_of::<ShutterCurve<8>>(),
+    size_of::<ShutterCurve<16>>(),
+];

@@ -1,10 +1,10 @@
-//! What a line asks for.
+//! What a line asks for, and the settings that it leads to.
 
 use crate::curves::CURVES;
 use crate::duration::{Rounding, parse};
 use crate::limits::MIN_PULSE;
 use crate::refused::Refused;
-use crate::settings::{Edge, Frames, Light};
+use crate::settings::{Curve, Edge, Frames, Light, Numbers, Settings};
 
 /// What a line asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,6 +90,28 @@ impl Change {
             Some("curve") => curve(words).ok_or(Refused::Numbers),
             _ => Err(Refused::Unknown),
         }
+    }
+}
+
+impl Settings {
+    /// These settings with a change. It may build a curve, which takes a tenth of a second or two.
+    ///
+    /// # Errors
+    /// Numbers that are not a curve.
+    pub fn with(&self, change: Change) -> Result<Self, Refused> {
+        let mut settings = self.clone();
+        match change {
+            Change::Pulses(pulses) => settings.pulses = pulses,
+            Change::Gap(gap) => settings.gap = gap,
+            Change::Light(light) => settings.light = light,
+            Change::Delay(delay) => settings.delay = delay,
+            Change::Edge(edge) => settings.edge = edge,
+            Change::Frames(frames) => settings.frames = frames,
+            Change::Stored(i) => settings.curve = Curve::Stored(i),
+            Change::Linear(numbers) => settings.curve = Numbers::Four(numbers).build()?,
+            Change::Built(numbers) => settings.curve = Numbers::Twelve(numbers).build()?,
+        }
+        Ok(settings)
     }
 }
 

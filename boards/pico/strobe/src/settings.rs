@@ -4,7 +4,6 @@ use core::fmt;
 
 use shutter_curve::ShutterCurve;
 
-use crate::change::Change;
 use crate::curves::CURVES;
 use crate::duration::Duration;
 use crate::refused::Refused;
@@ -89,7 +88,7 @@ impl Numbers {
     }
 
     /// Builds the curve, which takes a tenth of a second or two.
-    fn build(self) -> Result<Curve, Refused> {
+    pub(crate) fn build(self) -> Result<Curve, Refused> {
         let curve = match self {
             Numbers::Four([a, b, c, d]) => ShutterCurve::linear(a, b, c, d),
             Numbers::Twelve([a, b, c, d, inner @ ..]) => {
@@ -111,26 +110,6 @@ impl Curve {
 }
 
 impl Settings {
-    /// These settings with a change. It may build a curve, which takes a tenth of a second or two.
-    ///
-    /// # Errors
-    /// Numbers that are not a curve.
-    pub fn with(&self, change: Change) -> Result<Self, Refused> {
-        let mut settings = self.clone();
-        match change {
-            Change::Pulses(pulses) => settings.pulses = pulses,
-            Change::Gap(gap) => settings.gap = gap,
-            Change::Light(light) => settings.light = light,
-            Change::Delay(delay) => settings.delay = delay,
-            Change::Edge(edge) => settings.edge = edge,
-            Change::Frames(frames) => settings.frames = frames,
-            Change::Stored(i) => settings.curve = Curve::Stored(i),
-            Change::Linear(numbers) => settings.curve = Numbers::Four(numbers).build()?,
-            Change::Built(numbers) => settings.curve = Numbers::Twelve(numbers).build()?,
-        }
-        Ok(settings)
-    }
-
     /// Everything, the numbers of a curve of one's own as well.
     pub fn in_full(&self) -> InFull<'_> {
         InFull(self)

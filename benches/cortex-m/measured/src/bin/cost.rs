@@ -1,9 +1,8 @@
-//! Runs the series of calls that are selected, for the host to count in QEMU's trace, and prints, for each number of cells,
-//! the size of a curve and how deep each function's stack gets.
+//! Runs the series of calls that it is asked for, for the host to count in QEMU's trace, and prints how deep the stack gets in each.
 //!
 //! Building all curves takes a thousand times the instructions of what is measured, too many to trace. So the firmware runs
-//! twice: where its input is empty it builds them and prints their bytes, which are the second run's input behind the
-//! selection.
+//! twice: where its input is empty it builds them and prints their bytes. These begin the second run's input, and the series
+//! follow.
 #![no_std]
 #![no_main]
 
@@ -14,9 +13,7 @@ use core::mem::MaybeUninit;
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{
-    CELLS, CURVES, DEFAULT, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL,
-};
+use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
 
 #[path = "../machine.rs"]
@@ -43,7 +40,7 @@ const EACH_ROOT: [fn(f32) -> f32; ROOTS.len()] = each!(0 1 2 3 4 5 6 7 8 9 10 11
 macro_rules! each_static {
     ($($i:literal)*) => { [$({
         static CURVE: ShutterCurve = {
-            let measured::Curve { opening, closing, .. } = CURVES[TYPICAL[$i]];
+            let measured::Curve { opening, closing, .. } = CURVES[$i];
             valid(ShutterCurve::new(CubicBezier::new(opening), CubicBezier::new(closing)))
         };
         // Named so that the host finds it.
@@ -54,15 +51,7 @@ macro_rules! each_static {
         the_call as fn(f32) -> f32
     }),*] };
 }
-const EACH_STATIC: [fn(f32) -> f32; TYPICAL.len()] =
-    each_static!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
-
-/// Tells the host that the next series begins.
-#[inline(never)]
-fn series_begins() {
-    // SAFETY: does nothing; any Arm core or RISC-V knows it.
-    unsafe { asm!("nop") };
-}
+const EACH_STATIC: [fn(f32) -> f32; TYPICAL] = each_static!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
 
 const PAINT: u32 = 0xA5A5_5A5A;
 /// More than any call takes.
@@ -97,46 +86,36 @@ fn depth<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) ->
 /// All curves with so many cells, on each of the scales.
 type Curves<const C: usize> = [[ShutterCurve<C>; CURVES.len()]; SCALES.len()];
 
-fn run_with<const C: usize>(selection: u32, input: &mut In) {
-    let mut curves = MaybeUninit::<Curves<C>>::zeroed();
-    let place = curves.as_mut_ptr();
-    if selection == 0 {
-        let built = SCALES.iter().flat_map(|scale| CURVES.iter().map(|curve| curve.ramps(*scale)));
-        for (i, (opening, closing)) in built.enumerate() {
+/// The first run's curves; or else they are built, and written for the next.
+fn curves<'a, const C: usize>(
+    input: &mut In,
+    place: &'a mut MaybeUninit<Curves<C>>,
+) -> &'a Curves<C> {
+    let first = place.as_mut_ptr();
+    // SAFETY: of that length, and zeroed.
+    let bytes = || unsafe { core::slice::from_raw_parts_mut(first.cast(), size_of::<Curves<C>>()) };
+    if input.read(bytes()) == 0 {
+        let ramps = SCALES.iter().flat_map(|scale| CURVES.iter().map(|curve| curve.ramps(*scale)));
+        for (i, (opening, closing)) in ramps.enumerate() {
             let curve = ShutterCurve::with_cells(opening, closing).expect("a good curve");
             // SAFETY: there are so many.
-            unsafe { place.cast::<ShutterCurve<C>>().add(i).write(curve) };
+            unsafe { first.cast::<ShutterCurve<C>>().add(i).write(curve) };
         }
+        write(bytes());
     }
-    // SAFETY: of that length, and zeroed before anything was written.
-    let bytes = unsafe { core::slice::from_raw_parts_mut(place.cast(), size_of::<Curves<C>>()) };
-    if selection == 0 {
-        return write(bytes);
-    }
-    assert_eq!(input.read(bytes), bytes.len(), "the curves of the first run");
-    // SAFETY: written by the first run of this very program.
-    let curves = unsafe { curves.assume_init_ref() };
-    let mut deepest = [0; Function::ALL.len()];
-    for series in measured::series(selection).filter(|series| series.cells == C) {
-        series_begins();
-        let deepest = &mut deepest[series.function as usize];
-        *deepest = run_series(series, &curves[series.scale()][series.curve]).max(*deepest);
-    }
-    let _ = writeln!(Out, "{} {deepest:?}", size_of::<ShutterCurve<C>>());
+    // SAFETY: written here, or by the first run of this very program.
+    unsafe { place.assume_init_ref() }
 }
 
-fn run_series<const C: usize>(series: Series, curve: &ShutterCurve<C>) -> u32 {
+fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
     let data = &CURVES[series.curve];
-    let curve = black_box(curve);
+    let curve = black_box(&curves[series.scale()][series.curve]);
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let us = series.us();
     let ts = series.us().map(|u| start + length * u);
     match series.function {
         Function::InverseCdf => depth(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
-        Function::Static => {
-            let place = TYPICAL.iter().position(|place| *place == series.curve);
-            depth(us, EACH_STATIC[place.expect("a typical curve")])
-        }
+        Function::Static => depth(us, EACH_STATIC[series.curve]),
         Function::Cdf => depth(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
         Function::Opening => depth(ts, |t| the_call(ShutterCurve::opening, curve, t)),
         Function::TickStep => depth(series.frames(), |(n, steps)| {
@@ -182,12 +161,25 @@ fn run_series<const C: usize>(series: Series, curve: &ShutterCurve<C>) -> u32 {
 
 fn run() {
     let mut input = In::new();
-    let mut selection = [0; 4];
-    input.read(&mut selection);
-    let selection = u32::from_le_bytes(selection);
-    const { assert!(matches!(CELLS, [0, 4, DEFAULT, 16])) };
-    run_with::<0>(selection, &mut input);
-    run_with::<4>(selection, &mut input);
-    run_with::<8>(selection, &mut input);
-    run_with::<16>(selection, &mut input);
+    let mut places = (
+        MaybeUninit::zeroed(),
+        MaybeUninit::zeroed(),
+        MaybeUninit::zeroed(),
+        MaybeUninit::zeroed(),
+    );
+    let with_0 = curves::<0>(&mut input, &mut places.0);
+    let with_4 = curves::<4>(&mut input, &mut places.1);
+    let with_8 = curves::<8>(&mut input, &mut places.2);
+    let with_16 = curves::<16>(&mut input, &mut places.3);
+    let mut bytes = [0; 4];
+    while input.read(&mut bytes) == bytes.len() {
+        let series = Series::from_bytes(bytes);
+        let depth = match series.cells {
+            0 => run_series(series, with_0),
+            4 => run_series(series, with_4),
+            8 => run_series(series, with_8),
+            _ => run_series(series, with_16),
+        };
+        let _ = writeln!(Out, "{depth}");
+    }
 }

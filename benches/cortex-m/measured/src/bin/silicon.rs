@@ -2,78 +2,46 @@
 #![no_std]
 #![no_main]
 
-use core::arch::{asm, global_asm};
+use core::arch::naked_asm;
 
 #[path = "../machine.rs"]
 mod machine;
 
 use machine::panicked;
 
-// Each begins at a word.
-global_asm!(
-    ".macro program name",
-    ".p2align 2",
-    ".global \\name",
-    ".type \\name, %function",
-    "\\name:",
-    ".endm",
-    "program nothing",
-    "bx lr",
-    // A loop from a 32-bit instruction across two words, and one from a 16-bit instruction.
-    "program wide_loop",
-    "mov r2, r0",
-    "mov.w r0, #1",
-    "2: mul r0, r0, r2",
-    "sub.w r1, r1, #1",
-    "cmp r1, #0",
-    "bne 2b",
-    "bx lr",
-    "program narrow_loop",
-    "mov r2, r0",
-    "mov.w r0, #1",
-    "2: add r0, r2",
-    "sub.w r1, r1, #1",
-    "cmp r1, #0",
-    "bne 2b",
-    "bx lr",
-    // 32-bit instructions across two words each, and not.
-    "program split",
-    "mov r8, r8",
-    "mov.w r8, r8",
-    "mov.w r8, r8",
-    "mov.w r8, r8",
-    "bx lr",
-    "program whole",
-    "mov.w r8, r8",
-    "mov.w r8, r8",
-    "mov.w r8, r8",
-    "mov.w r8, r8",
-    "bx lr",
-    "program delay",
-    "2: subs r0, #1",
-    "bne 2b",
-    "bx lr",
-    "program delay_nop",
-    "2: nop",
-    "subs r0, #1",
-    "bne 2b",
-    "bx lr",
-);
-
-#[cfg(p256)]
-global_asm!(include_str!(env!("P256")), options(raw));
-
 type Program = unsafe extern "C" fn(u32, u32, u32) -> u32;
 
+/// A program of these instructions, which begins at a word.
+macro_rules! program {
+    ($name:ident: $($instruction:literal)*) => {
+        #[unsafe(naked)]
+        extern "C" fn $name(_: u32, _: u32, _: u32) -> u32 {
+            naked_asm!($($instruction),*)
+        }
+    };
+}
+
+program!(nothing: "bx lr");
+// A loop from a 32-bit instruction across two words, and one from a 16-bit instruction.
+program!(wide_loop:
+    "mov r2, r0" "mov.w r0, #1" "2: mul r0, r0, r2"
+    "sub.w r1, r1, #1" "cmp r1, #0" "bne 2b" "bx lr"
+);
+program!(narrow_loop:
+    "mov r2, r0" "mov.w r0, #1" "2: add r0, r2"
+    "sub.w r1, r1, #1" "cmp r1, #0" "bne 2b" "bx lr"
+);
+// 32-bit instructions across two words each, and not.
+program!(split: "mov r8, r8" "mov.w r8, r8" "mov.w r8, r8" "mov.w r8, r8" "bx lr");
+program!(whole: "mov.w r8, r8" "mov.w r8, r8" "mov.w r8, r8" "mov.w r8, r8" "bx lr");
+program!(delay: "2: subs r0, #1" "bne 2b" "bx lr");
+program!(delay_nop: "2: nop" "subs r0, #1" "bne 2b" "bx lr");
+
+#[cfg(p256)]
+core::arch::global_asm!(include_str!(env!("P256")), options(raw));
+
+#[cfg(p256)]
 unsafe extern "C" {
-    fn nothing(a: u32, b: u32, c: u32) -> u32;
-    fn wide_loop(a: u32, b: u32, c: u32) -> u32;
-    fn narrow_loop(a: u32, b: u32, c: u32) -> u32;
-    fn split(a: u32, b: u32, c: u32) -> u32;
-    fn whole(a: u32, b: u32, c: u32) -> u32;
-    fn delay(a: u32, b: u32, c: u32) -> u32;
-    fn delay_nop(a: u32, b: u32, c: u32) -> u32;
-    #[cfg(p256)]
     fn P256_decompress_point(y: u32, x: u32, parity: u32) -> u32;
 }
 
@@ -84,15 +52,7 @@ fn the_call(program: Program, a: u32, b: u32, c: u32) -> u32 {
     unsafe { program(a, b, c) }
 }
 
-/// Tells the host that the next series begins.
-#[inline(never)]
-fn series_begins() {
-    // SAFETY: does nothing.
-    unsafe { asm!("nop") };
-}
-
 fn measure(program: Program, [a, b, c]: [u32; 3]) -> u32 {
-    series_begins();
     the_call(core::hint::black_box(program), a, b, c)
 }
 
