@@ -38,10 +38,11 @@ code("let noise = noise * absolute(&weights[kind], 1.0);", """errors.least[kind]
 code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * bends(octave, x, axis);")
 code("let [axis, square, _] = ELLIPSES[i];", """
     let mut tail = tails[i] * absolute(weight, axis);
-    let (mut k, mut degrees) = (HALF_DEGREE * step, DEGREES);
+    let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
     while degrees > 0 && k < COSINES.len() {
     let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
-    least = if bound < least { bound } else { least }; tail *= square; k += step; degrees = unknown(degrees - 1); }""")
+    degrees = if bound < last { unknown(degrees - 1) } else { 0 };
+    least = if bound < least { bound } else { least }; (last, tail) = (bound, tail * square); k += step; }""")
 code("let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
     let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
     loop { k = unknown(k).wrapping_sub(1); if k >= DEGREE { return sum; }

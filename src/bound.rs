@@ -191,14 +191,15 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
     while i < ELLIPSES.len() {
         let [axis, square, _] = ELLIPSES[i];
         let mut tail = tails[i] * absolute(weight, axis);
-        let (mut k, mut degrees) = (HALF_DEGREE * step, DEGREES);
+        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
         while degrees > 0 && k < COSINES.len() {
             // The cosine of π/2N times the degree: 0, and no bound, where the degree is N.
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
+            // Once it is no less than the one before, so are the next ones.
+            degrees = if bound < last { unknown(degrees - 1) } else { 0 };
             least = if bound < least { bound } else { least };
-            tail *= square;
+            (last, tail) = (bound, tail * square);
             k += step;
-            degrees = unknown(degrees - 1);
         }
         i = unknown(i + 1);
     }

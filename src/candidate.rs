@@ -19,9 +19,6 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
     0.984_807_7,
 ];
 
-/// As near to a node as it has to be: a step of Newton's of up to this is the last one.
-const SHORT: f32 = 1.0 / (1 << 10) as f32;
-
 /// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
 /// (`proofs/octaves.py`), half of that range, and its mean, which a polynomial's middle makes up for.
 const HALF_TRUNCATION: f32 = 1.328;
@@ -107,7 +104,7 @@ impl Span {
             // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
             // other, for its error to be small; so single precision is enough.
             offset[0] = x0 - (even + odd * NODES[i]);
-            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i], SHORT);
+            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.time, place);

@@ -63,7 +63,7 @@ impl Path {
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
         let mut single = singles(&self.fraction, 0.0, 1.0);
         single[0] = (self.fraction[0] - u) as f32;
-        let [p, slope] = root(&single, [0.0, 1.0], 0.5, 0.0);
+        let [p, slope] = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
         p += (u - value(&self.fraction, p)) / slope;
         // Outwards until it is certain.
@@ -151,14 +151,9 @@ pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
 }
 
 /// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside
-/// a bracket, which a step that leaves it halves. A step of up to `short` is the last one, too.
+/// a bracket, which a step that leaves it halves.
 #[inline(never)]
-pub(crate) const fn root(
-    c: &[f32; 7],
-    [mut low, mut high]: [f32; 2],
-    guess: f32,
-    short: f32,
-) -> [f32; 2] {
+pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
     while steps < MOST_STEPS {
         let (mut value, mut slope, mut k) = (0.0, 0.0, 7);
@@ -173,8 +168,7 @@ pub(crate) const fn root(
         *(if value < 0.0 { &mut low } else { &mut high }) = x;
         let next = x - value / slope;
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        let step = (next - x).abs();
-        let is_there = step <= short || step <= CLOSE * x.abs();
+        let is_there = (next - x).abs() <= CLOSE * x.abs();
         (x, last) = (next, slope);
         steps = if is_there { MOST_STEPS } else { steps + 1 };
     }
