@@ -90,6 +90,9 @@ pub fn cargo(core: Core, program: &str, level: &str) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(folder()).args(["build", "--quiet", "--release", "--package", "measured"]);
     cargo.args(["--bin", program, "--target", core.target]);
+    if program == "cost" {
+        cargo.args(["--features", "cost"]);
+    }
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not stable. On a board
     // each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
     let flags = match core.runs_in {

@@ -6,6 +6,7 @@ use shutter_curve::CubicBezier;
 pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
 pub mod baseline;
+#[cfg(feature = "cost")]
 pub mod roots;
 
 /// A curve of the reference data or found by search.
@@ -15,7 +16,7 @@ pub struct Curve {
     pub is_typical: bool,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
-    /// The hard inputs; see the build script.
+    /// The hard inputs; see `hardest`.
     pub hard: &'static [f32],
 }
 
@@ -97,7 +98,7 @@ pub enum Inputs {
     Solved,
 }
 
-/// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of [`roots::ROOTS`].
+/// A series of calls on one curve; of [`Function::Root`] on no curve, but in one of so many [`WAYS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Series {
     pub function: Function,
@@ -112,7 +113,7 @@ impl Series {
         use Function::{Construct, Newton, Root, Schedule, Static, Table, TickStep};
         let Self { function, cells, inputs, curve } = self;
         let exists = match function {
-            Root => inputs == Inputs::Uniform && cells == DEFAULT && curve < roots::ROOTS.len(),
+            Root => inputs == Inputs::Uniform && cells == DEFAULT && curve < WAYS,
             Construct => inputs == Inputs::Uniform && curve == 0,
             Static => inputs != Inputs::Solved && cells == DEFAULT && CURVES[curve].is_typical,
             TickStep | Schedule => true,
@@ -157,6 +158,9 @@ impl Series {
         }
     }
 }
+
+/// The ways to a root that are measured, which are in `roots`.
+pub const WAYS: usize = 12;
 
 /// The scales of time on which curves are built: as they are, and with intervals of 2ᵏ seconds up to twice that,
 /// for the rate of the timer is the same for all.

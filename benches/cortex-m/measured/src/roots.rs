@@ -2,6 +2,8 @@
 
 use micromath::F32Ext;
 
+use crate::WAYS;
+
 #[allow(dead_code, unused_imports)] // Its tests are the crate's.
 #[path = "../../../../src/guess.rs"]
 mod guess;
@@ -18,7 +20,7 @@ const fn root(way: &'static str, k: i32, of: fn(f32, f32) -> f32) -> Root {
 }
 
 /// The crate's own takes the least root over a series' coefficients up to the k-th, the others but 0.
-pub const ROOTS: [Root; 12] = [
+pub const ROOTS: [Root; WAYS] = [
     root("this crate", 2, |x, c| guess::guess(&[0.0, c], x)),
     root("`libm`: `sqrtf`", 2, |x, c| libm::sqrtf(x / c)),
     root("`micromath`: `sqrt`", 2, |x, c| F32Ext::sqrt(x / c)),
