@@ -20,7 +20,8 @@ scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 # The thumb target's settings of the root are for its own example.
 target_folder=$(cargo metadata --no-deps --format-version 1 | sed -n 's/.*"target_directory":"\([^"]*\)".*/\1/p')
-plan() { (cd $root && cargo run --quiet --package shutter -- plan "$@"); }
+# By the host's own compiler, where .ci/thumb.sh has brought another.
+plan() { (cd $root && env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo run --quiet --package shutter -- plan "$@"); }
 
 say "planning on the host (its first build takes half a minute) ..."
 speeds=("$PWD/speeds/leaf.toml" "$PWD/speeds/fast.toml")

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::thread;
 
 use crate::Result;
-use crate::firmware::{CORES, OPT_LEVEL, build, folder, output, succeeded};
+use crate::firmware::{CORES, OPT_LEVEL, build, folder, host_rustc, output, succeeded};
 
 pub fn run() -> Result {
     // Those of `.ci/matrix.sh`, and without it all.
@@ -37,6 +37,9 @@ pub fn run() -> Result {
 
 fn host(release: &[&str]) -> Result<String> {
     let mut cargo = Command::new("cargo");
+    if let Some(rustc) = host_rustc() {
+        cargo.env("RUSTC", rustc);
+    }
     cargo.current_dir(folder()).args(["run", "--quiet", "--package", "measured"]);
     let output = cargo.args(["--bin", "answers"]).args(release).output();
     Ok(text(succeeded("cargo", output)?.stdout))

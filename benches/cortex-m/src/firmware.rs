@@ -1,5 +1,6 @@
 //! Builds what is measured, for each processor, and runs it there.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -85,11 +86,25 @@ pub fn program(core: Core, program: &str) -> PathBuf {
     target.join(core.target).join("release").join(format!("{program}{suffix}"))
 }
 
+/// The machine's own compiler, where `.ci/thumb.sh` has brought another.
+pub fn host_rustc() -> Option<OsString> {
+    std::env::var_os("HOST_RUSTC")
+}
+
+fn has_target(rustc: &OsStr, target: &str) -> bool {
+    let folder =
+        Command::new(rustc).args(["--print", "target-libdir", "--target", target]).output();
+    folder.is_ok_and(|folder| Path::new(String::from_utf8_lossy(&folder.stdout).trim()).is_dir())
+}
+
 /// The command that builds a program.
 pub fn cargo(core: Core, program: &str, level: &str) -> Command {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(folder()).args(["build", "--quiet", "--release", "--package", "measured"]);
     cargo.args(["--bin", program, "--target", core.target]);
+    if program == "cost" {
+        cargo.args(["--features", "cost"]);
+    }
     // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not stable. On a board
     // each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
     let flags = match core.runs_in {
@@ -103,6 +118,10 @@ pub fn cargo(core: Core, program: &str, level: &str) -> Command {
     cargo.env("RUSTFLAGS", flags).env("RUSTC_BOOTSTRAP", "1");
     cargo.env("CARGO_PROFILE_RELEASE_PANIC", "abort").env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level);
     if core == WASM {
+        // The machine's own compiler has the target where rustup could add it, and is the faster one.
+        if let Some(rustc) = host_rustc().filter(|rustc| has_target(rustc, core.target)) {
+            cargo.env("RUSTC", rustc);
+        }
         // On one processor of 32 bits overflows are checked, as they are on the host where it is debugged.
         cargo.env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", "true");
     }

@@ -6,6 +6,7 @@ use shutter_curve::{CubicBezier, ShutterCurve};
 pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
 pub mod baseline;
+#[cfg(feature = "cost")]
 pub mod roots;
 
 /// A curve of the reference data or found by search.
@@ -13,7 +14,7 @@ pub struct Curve {
     pub name: &'static str,
     pub opening: baseline::Ramp,
     pub closing: baseline::Ramp,
-    /// The hard inputs; see the build script.
+    /// The hard inputs; see `hardest`.
     pub hard: &'static [f32],
 }
 
@@ -82,7 +83,7 @@ impl Inputs {
     pub const ALL: [Self; 3] = [Self::Uniform, Self::Hard, Self::Solved];
 }
 
-/// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of [`roots::ROOTS`].
+/// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of `roots`.
 #[derive(Clone, Copy)]
 pub struct Series {
     pub function: Function,
