@@ -1,4 +1,4 @@
-"""src/certificate.rs and fit.rs: the numbers and inequalities of an octave's certificate, in exact rational arithmetic.
+"""src/certificate.rs and bound.rs: the numbers and inequalities of an octave's certificate, in exact rational arithmetic.
 
 Taken as known: a polynomial of degree n < N is on [-1, 1] at most 1 / cos(n pi / 2N) times its greatest value at the points cos(i
 pi / N) (Ehlich and Zeller 1964); a function that is at most M on the ellipse with the half axes (rho +- 1/rho) / 2 is within
@@ -23,8 +23,8 @@ code("let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);", """
     while i < COSINES.len() { let mut place = COSINES[i]; loop {
     let half = 1 << (FRACTION_BITS - 1);
     let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
-    let rest = octave.polynomial(octave.ahead_of_center(position));
-    let error = (((rest as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
+    let value = octave.polynomial(octave.ahead_of_center(position));
+    let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
     let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
     let error = error / (1 << TIME_BITS) as f32;""")
 code("if place <= 0 { break; }", "place = -place; } i += step; }")
@@ -33,8 +33,8 @@ code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut k) = 
     loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; }
     let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
     value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + c[k]; } }""")
-code("let noise = noise * absolute(&weights[kind], 1.0);", """errors.least[kind] -= noise;
-    errors.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
+code("let noise = noise * absolute(&weights[kind], 1.0);", """found.least[kind] -= noise;
+    found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
 code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * bends(octave, x, axis);")
 code("let [axis, square, _] = ELLIPSES[i];", """
     let mut tail = tails[i] * absolute(weight, axis);
@@ -114,7 +114,7 @@ require(off <= Fraction(1, 2 * PLACES) * (1 + Fraction(1, 2**10)) and COSINES[0]
 require(off_table(table(COSINE * (1 - 2.0**-40))) > off * 2, "a cosine that is wrong by 2^-40 is seen")
 proven(f"the table's {len(COSINES)} cosines are within 2^{log2(off):.2f}")
 # By how many roundings of 2^-24 a bound is too small as samples are off their points, by Markov's inequality, and the share by its
-# own error: max |p| <= (seen + tail + off n^2 max |p|) / (share + off).
+# own error: max |p| <= (seen + tail + off n^2 max |p|) / (share - off).
 spoilt = Fraction(0)
 for step in STEPS:
     for half in range(HALF_DEGREE, HALF_DEGREE + DEGREES):

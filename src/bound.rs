@@ -23,7 +23,7 @@ use crate::path::{Path, absolute};
 use crate::units::{WORD, fixed_f64};
 use crate::unknown::unknown;
 
-/// The greatest N, and the cosine of π/N.
+/// The greatest N: there is one point more. And the cosine of π/N.
 const POINTS: usize = 96;
 const COSINE: f64 = 0.9994645874763657;
 
@@ -41,6 +41,7 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
     }
     cosines
 };
+/// The place 1.
 const PLACE: f32 = (1 << 30) as f32;
 
 /// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f`
@@ -108,9 +109,9 @@ const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     are_counted
 }
 
-/// The value at a place. Each step rounds down.
+/// The value at a place, in 2⁻³⁰. Each step rounds down, and as no place is beyond ±1, nothing that is lost grows.
 #[inline(never)]
-const fn at(c: &[i64], place: i32) -> i64 {
+pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     let (mut value, mut k) = (0, c.len());
     loop {
         k = unknown(k).wrapping_sub(1);
@@ -137,13 +138,13 @@ pub(crate) const fn errors(
     let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
-        // At both places with this cosine, but for a sign.
+        // At this cosine and at its negative.
         loop {
-            // The nearest position, which wraps as positions do.
+            // The nearest position, in 2⁻³² throughout, as if doubled where it has to be. It wraps as positions do.
             let half = 1 << (FRACTION_BITS - 1);
             let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
-            let rest = octave.polynomial(octave.ahead_of_center(position));
-            let error = (((rest as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
+            let value = octave.polynomial(octave.ahead_of_center(position));
+            let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;
             let mut kind = KINDS;
@@ -172,15 +173,15 @@ pub(crate) const fn errors(
         let [axis, _, first] = ELLIPSES[i];
         tails[i] = SLACK * first * bends(octave, x, axis);
     }
-    let (mut errors, mut kind) = (Errors { least: seen, most: seen }, KINDS);
+    let (mut found, mut kind) = (Errors { least: seen, most: seen }, KINDS);
     loop {
         kind = unknown(kind).wrapping_sub(1);
         if kind >= KINDS {
-            return errors;
+            return found;
         }
         let noise = noise * absolute(&weights[kind], 1.0);
-        errors.least[kind] -= noise;
-        errors.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
+        found.least[kind] -= noise;
+        found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
     }
 }
 
@@ -195,7 +196,8 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
         while degrees > 0 && k < COSINES.len() {
             // The cosine of π/2N times the degree: 0, and no bound, where the degree is N.
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
-            // Once it is no less than the one before, so are the next ones.
+            // It is convex in the degree: once it is no less than the one before, so are the next ones. (A bound that is
+            // too great would only refuse more.)
             degrees = if bound < last { unknown(degrees - 1) } else { 0 };
             least = if bound < least { bound } else { least };
             (last, tail) = (bound, tail * square);

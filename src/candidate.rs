@@ -50,7 +50,8 @@ impl Side<'_> {
         while k > 0 && k <= DEGREE {
             steep = steep * reach + bound;
             bound = c[k].abs() as f32 + bound * reach;
-            most = if bound > most { bound } else { most };
+            // A NaN stays.
+            most = if bound <= most { most } else { bound };
             k = unknown(k - 1);
         }
         steep = steep * reach + bound;
@@ -72,6 +73,10 @@ impl Side<'_> {
             k = unknown(k - 1);
         }
         let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
+        // The middle lies between nodes, so this is nearly a time of the ramp, and the sum below fits.
+        if middle.unsigned_abs() > 1 << 62 {
+            return None;
+        }
         let start = fixed(self.exposure.outer(self.side), self.unit);
         octave.middle = if self.side == 0 { start + middle } else { start - middle };
         octave.factor = if self.side == 0 { factor } else { -factor };
@@ -142,7 +147,7 @@ const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], o
     }
 }
 
-/// A polynomial times `x - root`, which makes its degree that, and a constant added.
+/// A polynomial times `x - root`, after which it has this degree, and a constant added.
 #[inline(never)]
 const fn multiply(c: &mut [f64; DEGREE + 1], degree: usize, root: f64, constant: f64) {
     let mut k = degree;
@@ -153,7 +158,7 @@ const fn multiply(c: &mut [f64; DEGREE + 1], degree: usize, root: f64, constant:
     c[0] = constant - c[0] * root;
 }
 
-/// The nearest number of units of `2^e`, from half of one on the greater one.
+/// The nearest number of units of `2^e`; of two that are as near, the one away from 0.
 const fn rounded(x: f64, e: i32) -> i32 {
     let halves = fixed_f64(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32

@@ -20,10 +20,17 @@ pub(crate) const ULP_ERROR: f32 = 0.49;
 /// path, where it is a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
+/// The greatest `x`, in 2³² of its units; a word ends at 1/2.
+// proofs/octaves.py
+const MOST_OFFSET: f32 = 0.4999;
 /// How far off a time may be on a path, as a share of it: it is a sum of terms up to 14 times as great
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 // proofs/certificate.py has their product
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
+
+/// What rounds the value of a weight, as a share of its coefficients without signs: 10 roundings of an `f32`. The chord
+/// of sizes has coefficients up to five times as great as the greater size.
+const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
@@ -70,6 +77,9 @@ impl Side<'_> {
         let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];
         let (center, per_position) = span.offsets();
         let offset = singles(&along.fraction, center, per_position);
+        // Only while `x` fits its word are the samples those of a polynomial. It is greatest at an end.
+        let [x0, x1, x2, x3, x4, x5, x6] = offset;
+        let fits = (x0 + x2 + x4 + x6).abs() + (x1 + x3 + x5).abs() < MOST_OFFSET;
         let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
             rounding: truncated
@@ -90,14 +100,17 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
-        // A sample's position is rounded to little more than 1/2, where a tick's fraction may lose 2.
+        // A sample's position is rounded to little more than 1/2. That of a tick, cut and then doubled, may lose 2.
         let noise = limits.rounding + 0.2501 * limits.lost;
         let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
-        let Some(along) = Sampled::new(&along) else { return bounds };
+        let Some(sampled) = Sampled::new(&along) else { return bounds };
+        if !fits {
+            return bounds;
+        }
         while effort < EFFORTS {
-            let errors = errors(octave, &along, &offset, &weights, noise, effort);
+            let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
             bounds = limits.share(&errors.most);
-            // If the samples alone are too wrong, no closer bound helps.
+            // If the samples alone are too wrong, no closer bound helps. (Where one might, a search answers instead.)
             effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
                 EFFORTS
             } else {
@@ -168,6 +181,7 @@ impl Limits {
     #[inline(never)]
     const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 4] {
         let error = time + self.rounding;
+        let rounding = self.rounding + error * WEIGHT_OFF;
         // How far along the ramp so much time leads at most: the `way` (docs/proofs.md, "From time to exposure"). A way
         // `d` takes at least `d` times the least slope and, where time bends upwards, at least t3 d³ / 4, as around a
         // point where it stands still. One of these has to be as much.
@@ -184,9 +198,9 @@ impl Limits {
         let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
         [
             (error + self.lost) * self.per_tick,
-            relative + self.rounding * self.per_size,
+            relative + rounding * self.per_size,
             // The last term: on the way the openness may become greater.
-            exposed + self.rounding * absolute(&self.openness, 1.0) + error * way * bends,
+            exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,
             error * self.beyond,
         ]
     }

@@ -66,7 +66,7 @@ pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
         }
         integral[k] /= COUNT[k];
     }
-    // The same seen from the other end, to the bit.
+    // Three sixths are a half, with a rounding less, and the same bits seen from the other end.
     integral[5] = f3 * t[2] / 2.0;
     integral
 }
@@ -133,6 +133,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
                         j = unknown(j + 1);
                     }
                     term *= f[k & 3];
+                    // In pairs, as the mirrored cubic adds them.
                     sums[k >> 1 & 1] += term;
                     noise += term.abs();
                     k = unknown(k + 1);
@@ -149,7 +150,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
     (low, high)
 }
 
-/// The square root of `x >= 0` by Newton's method; `core` has none in a constant.
+/// The square root of 0 or a normal `x` above by Newton's method; `core` has none in a constant.
 #[inline(never)]
 pub(crate) const fn sqrt(x: f64) -> f64 {
     if x == 0.0 {

@@ -31,8 +31,8 @@
 
 // To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve.
 //
-// Numbers    `units`: the scales. `exact`: what a sum and a product lose. `pair`: two `f32` as one number. `unknown`: what
-//            keeps loops small. `series`: polynomials of pairs.
+// Numbers    `units`: the scales. `exact`: what a sum and a product lose. `pair`: two `f32` as one number. `unknown`:
+//            what keeps loops small. `series`: polynomials of pairs.
 // Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
 // A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
 //            is found. `ramp`: when a mass has been collected. `quick`: a place for a time without a search. `by_time`:

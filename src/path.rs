@@ -10,12 +10,13 @@ use crate::exposure::Exposure;
 use crate::shape::Shape;
 use crate::unknown::unknown;
 
-/// As close as single precision comes: a step of Newton's below this share of its place is the last one. One more step
-/// in `f64` comes closer.
+/// As close as single precision comes: a step of Newton's below this share of its place is the last one.
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
-const CLOSER: f64 = 1.0 / (1u64 << 36) as f64;
-/// Bisections alone would come as close.
+/// So many bisections alone would come as close to places from 2⁻²⁰ on. What is not as close takes more steps outwards,
+/// or costs a certificate.
 const MOST_STEPS: usize = 40;
+/// The first step outwards from a place that one more step of Newton's, in `f64`, has brought closer, as a share of it.
+const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A side of the curve, as its octaves are built.
 pub(crate) struct Side<'a> {
@@ -32,7 +33,9 @@ impl Side<'_> {
     }
 }
 
-/// A ramp, or a stretch of one, by powers of a place on it.
+/// A ramp, or a stretch of one, by powers of a place on it. A ramp has fractions of the exposure and times of the curve;
+/// the stretch of an octave has positions ([`Span::counted`](crate::span::Span::counted)), and for its certificate the
+/// unit of time in which the polynomial has its coefficients.
 #[derive(Clone, Copy)]
 pub(crate) struct Path {
     pub(crate) openness: [f64; 4],
@@ -57,17 +60,16 @@ impl Path {
         Self { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
     }
 
-    /// A place in [0, 1] at which the fraction is `u` at most or, if `up`, at least; 0 or 1 where there is none. Close,
-    /// but not the closest.
+    /// A place in [0, 1] at which the fraction is `u` at most or, if `up`, at least; 0 or 1 where none is found. Close,
+    /// but not the closest: farther out, a certificate is only stricter.
     #[inline(never)]
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
-        let mut single = singles(&self.fraction, 0.0, 1.0);
-        single[0] = (self.fraction[0] - u) as f32;
+        let single = singles(&self.fraction, u, 1.0);
         let [p, slope] = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
         p += (u - value(&self.fraction, p)) / slope;
         // Outwards until it is certain.
-        let mut step = if up { p * CLOSER } else { -p * CLOSER };
+        let mut step = if up { p * OUTWARDS } else { -p * OUTWARDS };
         loop {
             p += step;
             if !(p > 0.0 && p < 1.0) {

@@ -83,7 +83,7 @@ impl<const CELLS: usize> Plan<CELLS> {
             // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // Where the line is too coarse, so are octaves.
+            // Too coarse a line is not served, nor are octaves of such a curve: all of it is searched for.
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
             }

@@ -41,7 +41,8 @@ struct End {
 }
 
 impl End {
-    const fn dark(at: f32) -> Self {
+    /// Without its series.
+    const fn new(at: f32) -> Self {
         Self { at, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] }
     }
 }
@@ -92,7 +93,7 @@ impl Ramp {
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
         let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
         let mut ramp = Self {
-            ends: [End::dark(start), End::dark(end)],
+            ends: [End::new(start), End::new(end)],
             last_of_time: Pair::ZERO,
             last_of_mass: Pair::ZERO,
             openness: shape.f,
@@ -102,11 +103,12 @@ impl Ramp {
         let mut side = 0;
         while side < 2 {
             let seen = shape.from(side);
-            let (openness, time, end) = (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
-            ramp.last_of_time = in_places(&time.c, per_unit, &mut end.time);
-            let last = in_places(&seen.mass(), per_mass, &mut end.mass);
+            let (openness, time, at) = (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
+            // Both last coefficients are the same from either side, to the bit.
+            ramp.last_of_time = in_places(&time.c, per_unit, &mut at.time);
+            let last = in_places(&seen.mass(), per_mass, &mut at.mass);
             ramp.last_of_mass = seen_from(side, last);
-            let series = Series { c: &end.mass, last };
+            let series = Series { c: &at.mass, last };
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
             while kind < 2 {
@@ -115,7 +117,7 @@ impl Ramp {
                 // A little beyond the middle, so that rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
                     let (place, p) = (p as f32 * LAST_PLACE, p as f32 as f64);
-                    let mut c = [Pair::ZERO; 5];
+                    let mut c = [Pair::ZERO; 4];
                     in_places(&integral(openness.around(p), time.around(p)), per_mass, &mut c);
                     ramp.flats[kind & 1] = Flat {
                         place: seen_from(side, Pair::new(place)).hi,
