@@ -1,7 +1,7 @@
 //! `shutter fit` on files that are broken in many ways: it ends with 0 or 2, says no number that is none, and soon.
 //!
 //! Each file is a trace in a form that an instrument writes, with some bytes, fields or lines changed. The same files come every
-//! time; `SEED=7` before it makes others, and `FILES=10000` more of them: as many as CI has.
+//! time; `SEED=7` before it makes others, and `FILES=10000` more of them.
 
 // The tables need the rest of it.
 #[allow(dead_code)]
