@@ -5,7 +5,7 @@ Bounds are shares of the sum of the series' terms without their signs, |c_k| |x|
 
 from majorant import *
 
-code("pub(crate) const fn at(self, x: f32) -> Pair {", "self.value(x, core::hint::black_box(self.c.len())) }")
+code("pub(crate) const fn at(self, x: f32) -> Pair {", "self.value(x, unknown(self.c.len())) }")
 code("const fn value(self, x: f32, mut k: usize) -> Pair {", """let Pair { mut hi, mut lo } = self.last;
     loop { let product = hi * x; lo = lo * x + lost_by_product(product, hi, x); k = k.wrapping_sub(1); if k >= self.c.len() { return Pair { hi: product, lo }; }
     let sum = Pair::sum(self.c[k].hi, product); hi = sum.hi; lo += self.c[k].lo + sum.lo; } }""")
