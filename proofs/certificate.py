@@ -277,6 +277,13 @@ terms, roundings = (int(x) for x in source(r"a sum of terms up to (\d+) times as
 require(time_off / 2 < terms * roundings * LAST_PLACE <= time_off, "TIME_OFF")
 proven(f"{roundings} roundings of an f64, as many as were counted, in terms {terms} times as great are at most TIME_OFF = 2^{log2(time_off):g}")
 
+# What an exposure is held against, ULP_ERROR ulp less `off`, is above 0, also at the least octave: it begins at half of LEAST_TOP.
+least = Fraction(1, 2 ** (int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);")) + 1))
+ulp_error = Fraction(source(r"const ULP_ERROR: f32 = ([\d.]+);"))
+for begin in (least * 2**i for i in range(30)):
+    require(ulp_error * begin / 2**23 > Fraction(3, 2) * (off0 + off1 * 2 * begin), "ULP_ERROR less off")
+proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave")
+
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
 code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;

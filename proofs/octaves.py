@@ -46,7 +46,8 @@ code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """
     while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
 code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
-    let top = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP } + steps * TOP_STEP;
+    let least = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP };
+    let top = least + steps * TOP_STEP;
     let beyond = top.wrapping_sub(floor_bits(from));
     if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }""")
 code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);

@@ -63,7 +63,8 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The products of the error with cubics: 1 first, which is the error itself.
+/// The products of the error with cubics: with 1, which is the error itself, with the openness, and with a bound of the
+/// time's reciprocal.
 pub(crate) const KINDS: usize = 3;
 
 /// The greatest errors: what they are at least, by the samples, and at most.

@@ -31,7 +31,7 @@ pub(crate) struct Candidate {
     pub(crate) middle: f64,
     /// The time of a coefficient's 1.
     pub(crate) step: f64,
-    /// A bound of its slope.
+    /// A bound of its slope, in the unit of the coefficients over a width of the span.
     pub(crate) steep: f32,
     /// What rounding adds to it, in the unit of the coefficients: Horner's, and less than a unit of time where the
     /// outer end is cut to such units.

@@ -58,7 +58,9 @@ impl Side<'_> {
         );
         let single_step = step as f32;
         let per_tick = single_step / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
-        // In `f64`, since a faint curve has an area of as little as 2⁻¹²⁶.
+        // In `f64`, since a faint curve has an area of as little as 2⁻¹²⁶. What `off` leaves is above 0: no span begins
+        // below LEAST_TOP / 2.
+        // proofs/certificate.py
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         let per_size = [
             single_step / self.size_of_time(ends[0]) / FORWARD_ERROR,
@@ -100,7 +102,7 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
-        // A sample's position is rounded to little more than 1/2. That of a tick, cut and then doubled, may lose 2.
+        // A sample's position is rounded to 1/2 and a trace. That of a tick, cut and then doubled, may lose 2.
         let noise = limits.rounding + 0.2501 * limits.lost;
         let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
         let Some(sampled) = Sampled::new(&along) else { return bounds };
@@ -139,14 +141,14 @@ impl Side<'_> {
 
     /// A bound of the openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
     #[inline(never)]
-    const fn greatest_beyond(&self, ramp: usize, time: f32) -> f64 {
+    pub(crate) const fn greatest_beyond(&self, ramp: usize, time: f32) -> f64 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
         // Seen from there.
         let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
-        let (f0, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
+        let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
         let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
         while doublings > 0
             && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
@@ -154,9 +156,9 @@ impl Side<'_> {
             p *= 2.0;
             doublings = unknown(doublings - 1);
         }
-        // f' is three times a mean of the differences.
-        let bends = (f1 - f0).abs() + (f2 - f1).abs() + (f3 - f2).abs();
-        f0 as f64 + 3.0 * p as f64 * bends as f64
+        // f' is three times a mean of the differences. Their sum is the same seen from either end.
+        let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();
+        at_join as f64 + 3.0 * p as f64 * bends as f64
     }
 }
 

@@ -79,7 +79,7 @@ impl<const CELLS: usize> Plan<CELLS> {
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; CELLS]; 2],
         };
-        if open < close {
+        if plan.exposure.has_plateau() {
             // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;

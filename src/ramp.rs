@@ -82,7 +82,7 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    /// A ramp of a curve with this area.
+    /// A ramp of a curve whose whole area is this.
     pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
         let [start, _, _, end] = curve.times();
         let shape = Shape::new(curve);
@@ -103,12 +103,13 @@ impl Ramp {
         let mut side = 0;
         while side < 2 {
             let seen = shape.from(side);
-            let (openness, time, at) = (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
-            // Both last coefficients are the same from either side, to the bit.
-            ramp.last_of_time = in_places(&time.c, per_unit, &mut at.time);
-            let last = in_places(&seen.mass(), per_mass, &mut at.mass);
+            let (openness, time, seen_end) =
+                (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
+            // Both last coefficients are the same from either side, to the bit, but for the sign of the mass.
+            ramp.last_of_time = in_places(&time.c, per_unit, &mut seen_end.time);
+            let last = in_places(&seen.mass(), per_mass, &mut seen_end.mass);
             ramp.last_of_mass = seen_from(side, last);
-            let series = Series { c: &at.mass, last };
+            let series = Series { c: &seen_end.mass, last };
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
             while kind < 2 {

@@ -18,7 +18,7 @@ use crate::plan::Plan;
 /// no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
 ///
 /// `CELLS` is the number of octaves of `u` on either side, from the start and from the end; each has a polynomial that
-/// answers it. A curve takes 480 bytes, and 96 more for each two of these. With 8 a side at most one `u` in 256 of a
+/// answers it. A curve takes 480 bytes, and 96 more for each of `CELLS`. With 8 a side at most one `u` in 256 of a
 /// typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64
 /// do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another
 /// number than 8 end in `with_cells`.
@@ -110,7 +110,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
     /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
-    /// 2⁻¹²⁶. Openness and time may pass their bounds by 2⁻²², for the rounding of control points.
+    /// 2⁻¹²⁶. The openness and the slope of time may pass their bounds by 2⁻²², for the rounding of
+    /// control points.
     pub const fn with_cells(
         opening: CubicBezier,
         closing: CubicBezier,

@@ -63,7 +63,7 @@ impl Span {
         stretch
     }
 
-    /// The center as a position, and how much a position adds to the offset.
+    /// The center as a position, and how much a position adds to the offset, in widths.
     pub(crate) const fn offsets(&self) -> (f64, f64) {
         ((self.center() - (1 << 32)) as f64, (self.power / self.width / WORD) as f64)
     }

@@ -1,6 +1,6 @@
 //! The scales on which the inside counts, and the steps from one to another. All are powers of two, so that no step
 //! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
-//! collected on one ramp, a fraction too; only while a curve is built it is not yet divided by the whole. Other
+//! collected on one ramp, a fraction too; only `Shape::mass` is not yet divided by the whole. Other
 //! scales stand elsewhere: an openness has its own in [`by_time`](crate::by_time), a tiny sum in
 //! [`moment`](crate::moment), and, while a curve is built, places in [`path`](crate::path), samples in
 //! [`bound`](crate::bound), and a polynomial's coefficients in [`candidate`](crate::candidate).

@@ -10,7 +10,7 @@ use crate::path::{Path, Side};
 use crate::shape::Shape;
 use crate::span::Span;
 use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::curves::{Rng, named, random_hard, random_typical};
+use crate::support::curves::{Rng, hard_openness, hard_times, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
 use crate::units::{WORD, fixed, power_of_two_f64, time_unit};
 
@@ -176,4 +176,51 @@ fn a_certificate_is_never_below_the_truth() {
         judge(name, &mut (0..25 * times).map(|i| aimed(family, 31, i)));
     }
     assert!(all > 10_000, "only {all} octaves");
+}
+
+/// Without a plateau, what an error may add on the other ramp is bounded by the openness there: by no less than it is anywhere within
+/// that time, also on ramps that are darkest where they meet, and whichever ramp is asked.
+#[test]
+fn the_openness_beyond_a_join_is_bounded() {
+    let mut judged = 0;
+    let mut judge = |t: [f64; 4], f: [f64; 4], time: f32| {
+        let opening: [_; 4] = std::array::from_fn(|k| (t[k] as f32, f[k] as f32));
+        let closing = std::array::from_fn(|k| (2.0 - opening[3 - k].0, opening[3 - k].1));
+        let ramps = [opening, closing].map(CubicBezier::new);
+        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else { return };
+        let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
+        let bounds = [0, 1].map(|ramp| {
+            Side { exposure: &exposure, shapes: &shapes, side: ramp, unit: 0 }
+                .greatest_beyond(ramp, time)
+        });
+        assert_eq!(bounds[0], bounds[1], "a mirrored curve, {t:?} {f:?} {time:e}");
+        let shape = shapes[1];
+        let [openness, since] = [shape.openness(), shape.time()];
+        for i in 0..=4096 {
+            // Ever nearer to the join.
+            let p = (f64::from(i) / 4096.0).powi(4);
+            if since.around(p).value < f64::from(time) {
+                let there = openness.around(p).value * (1.0 - 1e-5) - 1e-12;
+                assert!(
+                    bounds[0] >= there,
+                    "{} < {there} at {p:e}: {t:?} {f:?} {time:e}",
+                    bounds[0]
+                );
+            }
+        }
+        judged += 1;
+    };
+    for time in [1e-9, 1e-8, 1e-6, 1e-3, 0.1] {
+        judge([0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0], time);
+        judge([0.0, 1.0, 1.0, 1.0], [1.0, 0.0, 0.0, 0.0], time);
+        judge([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0], [1.0, 0.0, 0.0, 0.0], time);
+        judge([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0], [0.0, 0.0, 0.0, 1.0], time);
+    }
+    let mut rng = Rng::new(33, 0);
+    for _ in 0..2000 {
+        let (t, f) = (hard_times(&mut rng), hard_openness(&mut rng));
+        let reversed = if rng.chance(0.5) { [f[3], f[2], f[1], f[0]] } else { f };
+        judge(t, reversed, rng.power_of_ten(-9.0, -1.0) as f32);
+    }
+    assert!(judged > 1000, "only {judged}");
 }
