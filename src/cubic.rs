@@ -12,7 +12,8 @@ pub(crate) struct Cubic {
 impl Cubic {
     /// From its value at 0 and the differences of its Bernstein coefficients.
     pub(crate) const fn new(value: f64, [d0, d1, d2]: [f64; 3]) -> Self {
-        // The last one is symmetric, so of a time it has the same bits seen from the other end, of an openness minus these.
+        // The last one is symmetric: seen from the other end it has the same bits for a time, and the other sign for an
+        // openness.
         Self { value, c: [3.0 * d0, 3.0 * (d1 - d0), (d0 + d2) - 2.0 * d1] }
     }
 
