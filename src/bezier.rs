@@ -59,8 +59,8 @@ impl CubicBezier {
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
         let (start, end) = (open_start as f64, close_end as f64);
         // An inner point at its ramp's inner end, as a fraction in decimals, comes out beyond it by what rounding makes
-        // of the fraction and of the times. It is meant to be there.
-        let trace = (start.abs() + end.abs()) / (1 << 23) as f64;
+        // of the fraction, of start and end, and of that inner end: 2^-24 of each at most. It is meant to be there.
+        let trace = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;
         let at = [
             snapped(start + (end - start) * t1 as f64, open_end as f64, trace),
             snapped(start + (end - start) * t2 as f64, open_end as f64, trace),

@@ -569,20 +569,22 @@ fn the_forward_error_of_plain_ramps() {
 #[test]
 fn inner_points_at_the_inner_ends_are_accepted() {
     let mut refused = Vec::new();
-    for (length, decimals) in [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 0), (0.02, 4)] {
+    for (length, decimals) in [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 0), (0.02, 4), (2.13, 2), (8.1, 1)] {
         // As a person writes it, and a program reads it.
         let read = |x: f64, decimals| -> f32 { format!("{x:.decimals$}").parse().unwrap() };
-        for (open, close) in (1..50).flat_map(|i| (51..100).map(move |k| (i, k))) {
+        for (open, close) in (1..100).flat_map(|i| (i..100).step_by(3).map(move |k| (i, k))) {
             let parts = [open, close].map(|part| f64::from(part) / 100.0);
             let [open, close] = parts.map(|part| read(part, 2));
-            let [opened, closes] = parts.map(|part| read(length * part, decimals + 2));
-            let times = [0.0, opened, closes, read(length, decimals)];
-            for inner in [
-                [0.0, 0.0, open, 1.0, close, 1.0, 1.0, 0.0],
-                [open, 0.0, open, 1.0, close, 1.0, close, 0.0],
-            ] {
-                let curve = ShutterCurve::<0>::shutteropening_with_cells(times, inner);
-                refused.extend(curve.err().map(|error| (error, times, inner)));
+            for start in [0.0, -2.0 * length, length] {
+                let [opened, closes] = parts.map(|part| read(start + length * part, decimals + 2));
+                let times = [read(start, decimals), opened, closes, read(start + length, decimals)];
+                for inner in [
+                    [0.0, 0.0, open, 1.0, close, 1.0, 1.0, 0.0],
+                    [open, 0.0, open, 1.0, close, 1.0, close, 0.0],
+                ] {
+                    let curve = ShutterCurve::<0>::shutteropening_with_cells(times, inner);
+                    refused.extend(curve.err().map(|error| (error, times, inner)));
+                }
             }
         }
     }
