@@ -43,9 +43,9 @@ code("fn in_units(&self, t: f32) -> Option<i64> {", """let (bits, sign) = (t.to_
     let units = ((word >> 1 >> (31 - up)) as i64) << 32 | (word << up) as i64;
     Some((units ^ sign).wrapping_sub(sign))""")
 code("pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {", """
-    let both = [bits, bits.wrapping_add(1)];
-    let [before_last, next_before_last] = both.map(|bits| self.last.wrapping_sub(bits));
-    let [(side, a), (other, b)] = both.map(|bits| Self::nearer(f32::from_bits(bits)));
+    let both = [bits, bits.wrapping_add(1)].map(f32::from_bits);
+    let [before_last, next_before_last] = both.map(|u| self.before_last(u));
+    let [(side, a), (other, b)] = both.map(Self::nearer);
     let is_one_ramp = side == other && before_last >> 31 == next_before_last >> 31;
     let on_line = before_last < self.count || next_before_last < self.count;
     if self.runs_across_0() || !is_one_ramp || on_line { return None; }

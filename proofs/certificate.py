@@ -138,7 +138,7 @@ FRACTION_BITS, TIME_BITS = (int(source(rf"const {name}_BITS: i32 = (\d+);")) for
 sample_off = Fraction(int(source(r"const SAMPLE_OFF: f32 = ([\d]+)\.0 / \(1 << TIME_BITS\) as f32;")), 2**TIME_BITS)
 require(sample_off == Fraction(4 + 3, 2**TIME_BITS), "SAMPLE_OFF")
 position = Fraction(1, 2) + Fraction(7 + 6, 2**FRACTION_BITS)
-# A tick's fraction may lose 2.
+# `lost` is of 2 positions.
 allowed = 2 * Fraction(source(r"let noise = limits\.rounding \+ ([\d.]+) \* limits\.lost;"))
 require(Fraction(1, 2) < position <= allowed < Fraction(1, 2) * Fraction(1001, 1000), "a sample's position")
 # Up to 7 numbers below 2^60, and what is lost on the way: so a value fits, and four times a product of its upper word.

@@ -64,7 +64,7 @@ code("fn before_last(&self, u: f32) -> u32 {", "self.last.wrapping_sub(u.to_bits
 code("fn by_octave(&self, u: f32, before_last: u32) -> i64 {", """let (side, bits) = Self::nearer(u); let ramp = (before_last >> 31) as usize;
     match self.look_up(side, ramp, bits) { Some((octave, position)) if octave.exists() => octave.time(octave.offset(position)), _ => NO_TIME, } }""")
 code("pub(crate) fn plateau_u64(&self) -> PlateauU64 {", """let [near, far] = self.exposure.joins_u64();
-    let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
+    let last = far.saturating_sub(!self.exposure.has_plateau() as u64);
     let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
     let serves = Self::is_fine(self.slope);
     PlateauU64 { last, count: if serves { last.saturating_sub(before) } else { 0 } } }""")

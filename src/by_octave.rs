@@ -110,9 +110,9 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The time, in units, of the middle between the `f32` with these bits and the next one, if one polynomial serves
     /// both.
     pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {
-        let both = [bits, bits.wrapping_add(1)];
-        let [before_last, next_before_last] = both.map(|bits| self.last.wrapping_sub(bits));
-        let [(side, a), (other, b)] = both.map(|bits| Self::nearer(f32::from_bits(bits)));
+        let both = [bits, bits.wrapping_add(1)].map(f32::from_bits);
+        let [before_last, next_before_last] = both.map(|u| self.before_last(u));
+        let [(side, a), (other, b)] = both.map(Self::nearer);
         let is_one_ramp = side == other && before_last >> 31 == next_before_last >> 31;
         let on_line = before_last < self.count || next_before_last < self.count;
         if self.runs_across_0() || !is_one_ramp || on_line {

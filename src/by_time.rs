@@ -77,6 +77,7 @@ impl Ramp {
                 let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest);
                 let (back, sought) = (sought.to_bits() & BACK, sought.abs());
                 let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
+                // A cubic loses less than a mass, so this is enough around any place (proofs/solve.py).
                 anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
             }
         }

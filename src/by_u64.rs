@@ -43,7 +43,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let [near, far] = self.exposure.joins_u64();
         // With a plateau both joins count as on the line, also one at 1/2. Without one, a `u` at the join counts as on
         // the closing ramp. At 1/2 it has to: `direct_u64` counts 1/2 from side 1.
-        let last = if self.exposure.has_plateau() { far } else { far.saturating_sub(1) };
+        let last = far.saturating_sub(!self.exposure.has_plateau() as u64);
         let before = near.saturating_sub(1).max(FINE_DOUBLE_WORD);
         // By the slope, not by `count`: a plateau too short for an `f32` may hold fractions of 64 bits.
         let serves = Self::is_fine(self.slope);

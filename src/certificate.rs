@@ -28,8 +28,8 @@ const MOST_OFFSET: f32 = 0.4999;
 // proofs/certificate.py has their product
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// What rounds the value of a weight, as a share of its coefficients without signs: 10 roundings of an `f32`. The chord
-/// of sizes has coefficients up to five times as great as the greater size.
+/// What rounds the value of a weight, as a share of its coefficients without signs: 10 roundings of an `f32`. (Those of
+/// the chord of reciprocals are together at most twice the greater reciprocal, on paper; five times is allowed.)
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
 /// 1, but for what single precision rounds.
@@ -88,6 +88,7 @@ impl Side<'_> {
                 + SAMPLE_OFF
                 + steep * off / span.width
                 + (ends[1] / step) as f32 * TIME_OFF,
+            // A tick's position is cut, which costs less than 1; 2 are counted.
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
@@ -102,13 +103,10 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
-        // A sample's position is rounded to 1/2 and a trace. That of a tick, cut and then doubled, may lose 2.
+        // A sample's position is rounded to 1/2 and a trace: a quarter of the 2 that are lost.
         let noise = limits.rounding + 0.2501 * limits.lost;
         let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
-        let Some(sampled) = Sampled::new(&along) else { return bounds };
-        if !fits {
-            return bounds;
-        }
+        let (Some(sampled), true) = (Sampled::new(&along), fits) else { return bounds };
         while effort < EFFORTS {
             let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
             bounds = limits.share(&errors.most);

@@ -121,7 +121,6 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
         let candidates = [q / square, a / q];
         let mut i = 0;
         while i < 2 {
-            // The masks here spare the check of a bound.
             let p = candidates[i & 1];
             // False for the NaN of 0/0.
             if p > 0.0 && p < 1.0 {

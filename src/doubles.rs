@@ -26,7 +26,7 @@ struct Line {
 impl Line {
     #[inline(always)]
     fn new<const CELLS: usize>(plan: &Plan<CELLS>) -> Self {
-        let (base, slope, unit, [from, to]) = plan.line();
+        let ([base, slope, unit], [from, to]) = (plan.line(), plan.served_by_line());
         Self { base, slope, slack: SLACK * unit, from, to }
     }
 

@@ -157,6 +157,10 @@ pub enum ScheduleError {
     },
 }
 
+const fn plural(n: u32) -> &'static str {
+    if n == 1 { "" } else { "s" }
+}
+
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -174,7 +178,7 @@ impl fmt::Display for ScheduleError {
                 write!(out, "more triggers than the {capacity} that the schedule can hold")
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
-                let plural = if *gap == 1 { "" } else { "s" };
+                let plural = plural(*gap);
                 write!(
                     out,
                     "trigger {trigger} comes {gap} tick{plural} after the one before, and {min_gap} are required"
@@ -182,7 +186,7 @@ impl fmt::Display for ScheduleError {
             }
             Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {
-                let plural = if *length == 1 { "" } else { "s" };
+                let plural = plural(*length);
                 write!(
                     out,
                     "pulse {pulse} lasts {length} tick{plural}, and {min_pulse} are required"

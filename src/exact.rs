@@ -3,7 +3,8 @@
 //! With floats these are Knuth's sum (1969), in 6 operations, and Dekker's product (1971), in 11, as a mask cuts the
 //! halves. Where floats are emulated, each operation is a call of about a hundred instructions. There the same numbers
 //! come from integers: what is lost fits a word, so only the lowest word of the exact sum or product is needed, and
-//! that wraps. Numbers so small that something may be subnormal, infinite ones and NaN are left to the floats.
+//! that wraps. Numbers so small that something may be subnormal, infinite ones and NaN are left to the floats, except
+//! that beside a 0 nothing is lost.
 
 /// Are floats emulated? (A stable compiler does not tell of a RISC-V core whether it has floats. But one that has them
 /// has registers to control them, and of these it tells.) Where this is wrong, the bits are the same, only later.

@@ -29,7 +29,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the exponent and the significand's upper bits, as they stand.
 /// The sign bit of a negative number makes it less by 256, and the root greater by a factor of at least 2^(256/6).
-/// So that is never the least one, as no term of an increasing series is that much greater than the sum.
+/// So that is never the least one, as no term of an increasing series is that much greater than the sum. A 0 counts as
+/// 2⁻¹²⁷, whose root is far beyond the others, too.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE

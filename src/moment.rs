@@ -8,7 +8,8 @@ use crate::units::power_of_two;
 ///
 /// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless
 /// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of what the sum
-/// of the first numbers leaves (`rest`): no promise is as fine as that.
+/// of the first numbers leaves (`rest`): no promise is as fine as that. (Up to 3/8 ulp every middle is told by its rest,
+/// also below a power of two, where `f32` are half an ulp apart.)
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {

@@ -29,8 +29,8 @@ pub(crate) struct Octave {
     pub(crate) c: [i32; DEGREE],
 }
 
-/// The time, in units, that stands for none: that of an octave without a polynomial. (Where a polynomial gives this
-/// very time, the search that follows keeps the promise, too.)
+/// The time, in units, that stands for none. (Where a polynomial gives this very time, the search that follows keeps
+/// the promise, too.)
 pub(crate) const NO_TIME: i64 = 1;
 
 pub(crate) const DEGREE: usize = 8;
@@ -56,7 +56,7 @@ pub(crate) const fn doubled(position: i32) -> i32 {
 }
 
 impl Octave {
-    pub(crate) const NONE: Self = Self { middle: NO_TIME, factor: 0, center: 0, c: [0; DEGREE] };
+    pub(crate) const NONE: Self = Self { middle: 0, factor: 0, center: 0, c: [0; DEGREE] };
 
     /// Is there a polynomial?
     #[inline(always)]

@@ -83,7 +83,8 @@ impl<const CELLS: usize> Plan<CELLS> {
             // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // Too coarse a line is not served, nor are octaves of such a curve: all of it is searched for.
+            // Too coarse a line does not serve, and then nothing may: without it, fractions of the plateau would be looked
+            // up in a ramp's octaves, whose top lies beyond the ramp's end.
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
             }
@@ -104,7 +105,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its
-    /// length, that its area is less than 2⁴⁰ units, every `u` is searched for.
+    /// length, that its area is less than 2⁴⁰ units, every `u` is searched for. From there on an error of a few units is
+    /// less than 2⁻⁶ ulp of the least `u` on the line.
     pub(crate) const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
@@ -179,7 +181,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// of a negative `u` or a NaN are at least 2²⁹ away from `last`, and `count` is below 2²⁷. The top bit is set
     /// beyond the plateau.
     #[inline(always)]
-    fn before_last(&self, u: f32) -> u32 {
+    pub(crate) fn before_last(&self, u: f32) -> u32 {
         self.last.wrapping_sub(u.to_bits())
     }
 
@@ -301,13 +303,17 @@ impl<const CELLS: usize> Plan<CELLS> {
         least
     }
 
-    /// The plateau's line in doubles: its time at `u = 0`, its slope, the time of a unit, and the `u` that it serves:
-    /// above the first, up to the second.
+    /// The plateau's line in doubles: its time at `u = 0`, its slope, and the time of a unit.
     #[inline(always)]
-    pub(crate) fn line(&self) -> (f64, f64, f64, [f32; 2]) {
+    pub(crate) fn line(&self) -> [f64; 3] {
         let unit = power_of_two(self.unit()) as f64;
-        let bounds = [self.last.wrapping_sub(self.count), self.last].map(f32::from_bits);
-        (self.base as f64 * unit, self.slope as f64 * unit, unit, bounds)
+        [self.base as f64 * unit, self.slope as f64 * unit, unit]
+    }
+
+    /// The `u` that it serves: above the first, up to the second.
+    #[inline(always)]
+    pub(crate) fn served_by_line(&self) -> [f32; 2] {
+        [self.last.wrapping_sub(self.count), self.last].map(f32::from_bits)
     }
 }
 

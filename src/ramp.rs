@@ -113,7 +113,6 @@ impl Ramp {
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
             while kind < 2 {
-                // The masks spare the check of a bound.
                 let p = minima[kind & 1];
                 // A little beyond the middle, so that rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
@@ -121,7 +120,7 @@ impl Ramp {
                     let mut c = [Pair::ZERO; 4];
                     in_places(&integral(openness.around(p), time.around(p)), per_mass, &mut c);
                     ramp.flats[kind & 1] = Flat {
-                        place: seen_from(side, Pair::new(place)).hi,
+                        place: flipped(place, (side as u32) << 31),
                         mass: seen_from(side, series.at(place)),
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };

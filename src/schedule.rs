@@ -305,7 +305,7 @@ impl<const CELLS: usize> Times<'_, CELLS> {
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {
-        let n = self.fractions.n;
+        let n = self.n();
         if n <= EXACT_HALVES {
             self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
         } else {

@@ -30,7 +30,6 @@ impl Series<'_> {
         loop {
             let product = hi * x;
             lo = lo * x + lost_by_product(product, hi, x);
-            // At the end it wraps: one comparison ends the loop and spares the check of a bound.
             k = k.wrapping_sub(1);
             if k >= self.c.len() {
                 return Pair { hi: product, lo };

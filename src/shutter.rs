@@ -259,9 +259,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at
     /// the ends exactly, and never steps back as `u` grows.
     ///
-    /// On the plateau the formula is `t = open_end + u/K - cdf₀(1)`, where `cdf₀(1)` is the opening
-    /// ramp's area. (The formula is sometimes written as `t = u/K`, which holds only where that area
-    /// equals `open_end`.)
+    /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
+    /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀` equals
+    /// `open_end`.)
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;

@@ -20,7 +20,8 @@ use crate::pair::{Pair, flipped};
 use crate::series::Series;
 use crate::units::LAST_PLACE;
 
-/// After so many evaluations every place is measured in pairs, and each halves the bracket.
+/// After so many evaluations, twice what any search for an `f32` in the tests takes, every place is measured in pairs,
+/// and each halves the bracket.
 const FREE: u32 = 10;
 /// Bisections that bring any bracket between 0 and [`LAST_PLACE`] down to neighbours, taken by their bits; each takes
 /// two evaluations, of the slopes and in pairs.
@@ -38,7 +39,7 @@ const LEAST_STEP: i32 = -2 << 23;
 const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
 /// What rounding makes of the first two Taylor coefficients, as a share of their terms, around the end of the ramp from
-/// which the pairs count; around other anchors it is more ([`Anchor::rounding`]).
+/// which the pairs count; around a mass's other anchors it is more ([`Anchor::rounding`]).
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 

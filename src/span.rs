@@ -6,8 +6,8 @@ use crate::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 
 /// An offset counts 2⁻³² of `width`, which is the octave's power of two, but halved while `half <= FILLED * width`. So
 /// `half` is at most 0.48 of `width`. (If nothing is halved it is less than 0.47, since a top is at most 15/8 of the
-/// power.) That leaves 0.02 · 2³² of the word on either side: more than a center's lowest five bits, shifted by the
-/// most.
+/// power.) That leaves 0.02 · 2³² of the word on either side. A center is off by 2⁸, as its middle is rounded, and by
+/// its lowest five bits, 31: shifted by the most, 17, that is 0.009 · 2³², of the 0.01 that a candidate's reach leaves.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;

@@ -12,7 +12,8 @@ use crate::units::fixed;
 /// In an interval of more than 2^`DIRECT_TICKS` ticks a polynomial may be off by more than a quarter of a tick: there
 /// all triggers are searched for.
 const DIRECT_TICKS: i32 = 24;
-/// An interval has at most 2^`MOST_TICKS` ticks.
+/// An interval has at most 2^`MOST_TICKS` ticks: half of what a timer of 32 bits counts, so that it tells before from
+/// after.
 const MOST_TICKS: i32 = 31;
 /// In frames of more triggers all are searched for. Up to here triggers are four ulp of an `f32` apart or more, so that
 /// polynomials, whose error in `u` is up to half of one, keep their order.
@@ -186,7 +187,8 @@ impl TickScale {
     fn tick_of_delay(&self, delay: i64) -> u32 {
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
         let low = ((low * self.power as u64) >> 32) as u32;
-        // Not below 0, whatever the last units of a time are.
+        // Not below 0, whatever the last units of a time are. And below 2³¹: no answer is beyond the end, where all of
+        // its fraction would be missing (docs/proofs.md, "An octave's certificate").
         let delay = (high.wrapping_mul(self.power).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32

@@ -59,14 +59,15 @@ pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
 
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
-    // The exponent of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark.
+    // The exponent of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark. There the factor is 2¹²⁶ and the one
+    // back 2⁻¹²⁶, the last that are normal numbers: so WHOLE and the 2⁸⁰ depend on each other.
     const DARK: i32 = WHOLE_EXPONENT - 150;
     let exponent = exponent(share);
     80 - if exponent < DARK { DARK } else { exponent }
 }
 
 /// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its
-/// length is subnormal).
+/// length is subnormal), so that the second number of its last coefficient, for the cube of a place, is normal.
 #[inline(always)]
 pub(crate) const fn ramp_unit(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64

@@ -569,7 +569,9 @@ fn the_forward_error_of_plain_ramps() {
 #[test]
 fn inner_points_at_the_inner_ends_are_accepted() {
     let mut refused = Vec::new();
-    for (length, decimals) in [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 0), (0.02, 4), (2.13, 2), (8.1, 1)] {
+    for (length, decimals) in
+        [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 0), (0.02, 4), (2.13, 2), (8.1, 1)]
+    {
         // As a person writes it, and a program reads it.
         let read = |x: f64, decimals| -> f32 { format!("{x:.decimals$}").parse().unwrap() };
         for (open, close) in (1..100).flat_map(|i| (i..100).step_by(3).map(move |k| (i, k))) {
