@@ -6,7 +6,6 @@
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
 //! cargo run --release -- --silicon # the model against cycles that others have measured on boards
-//! cargo run --release -- --quick [CELLS [FUNCTION]] # the tuner's loop: the inverse, or one function
 //! ```
 //!
 //! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
@@ -19,7 +18,6 @@ mod firmware;
 mod links;
 mod measure;
 mod model;
-mod quick;
 mod report;
 mod silicon;
 mod trace;
@@ -37,9 +35,6 @@ fn main() -> ExitCode {
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
         ["--silicon"] => silicon::run(),
-        ["--quick"] => quick::both(),
-        ["--quick", cells] => quick::run(cells, "InverseCdf"),
-        ["--quick", cells, function] => quick::run(cells, function),
         _ => Err("usage: see src/main.rs".into()),
     };
     match result {

@@ -26,38 +26,15 @@ pub struct Cost {
     reads: u32,
     /// What it takes to refill the pipeline from where this branches to.
     refill: u32,
-    /// Of [`KINDS`].
-    pub kind: usize,
 }
-
-/// The kinds of instructions that a tuner asks for.
-pub const KINDS: [&str; 7] = [
-    "saved registers",
-    "branches",
-    "constants",
-    "memory",
-    "float",
-    "moves to or from floats",
-    "integers",
-];
 
 impl Cost {
     pub fn new(instruction: &Instruction) -> Self {
         let name = instruction.name.trim_end_matches(".w").trim_end_matches(".n");
         let operands = instruction.operands.as_str();
         let is = |names: &[&str]| names.iter().any(|n| name.starts_with(n));
-        let kind = match () {
-            _ if is(&["push", "pop", "vpush", "vpop"]) => 0,
-            _ if is(&["b", "cb", "tb"]) && !is(&["bic", "bfi", "bfc"]) => 1,
-            _ if is(&["movw", "movt"]) || is(&["mov", "mvn"]) && operands.contains('#') => 2,
-            _ if is(&["vmov.f32"]) && operands.contains('#') || operands.contains("[pc") => 2,
-            _ if is(&["ldr", "str", "ldm", "stm", "vldr", "vstr", "vldm", "vstm"]) => 3,
-            _ if is(&["vmov", "vmrs"]) && !is(&["vmov.f32"]) => 5,
-            _ if name.starts_with('v') => 4,
-            _ => 6,
-        };
         if name.starts_with('v') {
-            return Self { kind, ..Self::float(name, operands) };
+            return Self::float(name, operands);
         }
 
         // With an immediate offset the next instruction runs while the data is written.
@@ -78,7 +55,7 @@ impl Cost {
         };
         let load = is(&["ldr"]) && !is(&["ldrd"]);
         let literal = load && operands.contains("[pc");
-        Self { cycles, load, literal, late: 0, reads: 0, refill, kind }
+        Self { cycles, load, literal, refill, ..Self::default() }
     }
 
     fn float(name: &str, operands: &str) -> Self {

@@ -11,7 +11,7 @@ use std::path::Path;
 use crate::Result;
 use crate::disassembly::Disassembly;
 use crate::firmware::{Core, start};
-use crate::model::{Cost, Fetch, KINDS};
+use crate::model::{Cost, Fetch};
 
 /// What one call took, within the called function and what it calls: from its first instruction to its
 /// return, that included.
@@ -21,8 +21,6 @@ pub struct Call {
     pub called: u32,
     pub instructions: u32,
     pub cycles: u32,
-    /// Those cycles by [`KINDS`] of instructions.
-    pub by_kind: [u32; KINDS.len()],
 }
 
 /// Runs a program and tells of each call of its functions `the_call`, in order, and what it printed.
@@ -133,7 +131,6 @@ impl Replay {
             self.before = last.cost;
             call.instructions += 1;
             call.cycles += cycles;
-            call.by_kind[last.cost.kind] += cycles;
             if step.address == *back {
                 self.calls.push(*call);
                 self.call = None;
