@@ -57,8 +57,8 @@ pub fn run() -> Result {
     Ok(())
 }
 
-/// The assembly of P256-Cortex-M4 (MIT licence, Emil Lenngren), out of the crate that cargo has fetched, without the C
-/// preprocessor: its conditions as the assembler's own.
+/// The assembly of P256-Cortex-M4 (MIT licence, Emil Lenngren), out of the crate that cargo has fetched, as the machine's own
+/// compiler for C preprocesses it for a processor with floats.
 fn p256() -> Result<String> {
     let mut cargo = Command::new("cargo");
     cargo.current_dir(folder()).args(["metadata", "--format-version", "1"]);
@@ -67,21 +67,10 @@ fn p256() -> Result<String> {
     let mut strings = metadata.split('"');
     let manifest = strings.find(|s| s.contains("p256-cortex-m4-sys-") && s.ends_with("Cargo.toml"));
     let manifest = manifest.ok_or("cargo knows no p256-cortex-m4-sys")?;
-    let path = manifest.replace("Cargo.toml", "P256-Cortex-M4/p256-cortex-m4-asm-gcc.S");
-    let text = std::fs::read_to_string(path)?;
-    let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
-    let mut parts: Vec<&str> = words.filter(|word| word.starts_with("include_p256")).collect();
-    parts.sort_unstable();
-    parts.dedup();
-    let switches = parts.into_iter().map(|part| (part, 1));
-    let switches = switches.chain([("has_fpu", 1), ("has_d_cache", 0), ("use_mul_for_sqr", 0)]);
-    let switches = switches.map(|(name, value)| format!(".equ {name}, {value}\n"));
+    let mut cc = Command::new("cc");
+    cc.args(["-E", "-P", "-undef", "-D__ARM_FP"]);
+    cc.arg(manifest.replace("Cargo.toml", "P256-Cortex-M4/p256-cortex-m4-asm-gcc.S"));
+    let text = String::from_utf8(succeeded("cc", cc.output())?.stdout)?;
     // Other assembly may follow this one's end.
-    let is_kept = |line: &&str| !line.starts_with("#include") && line.trim() != ".end";
-    let lines = text.lines().filter(is_kept);
-    let lines = lines.map(|line| match line.strip_prefix('#') {
-        Some(condition) => format!(".{condition}\n"),
-        None => format!("{line}\n"),
-    });
-    Ok(switches.chain(lines).collect())
+    Ok(text.replace("\n .end\n", "\n"))
 }
