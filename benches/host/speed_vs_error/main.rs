@@ -5,7 +5,6 @@
 //! `f32` on a dozen curves. The last two leave tables in `docs`, which the next report takes in.
 
 mod accuracy;
-mod aimed;
 mod every_f32;
 mod follower;
 mod methods;
@@ -14,7 +13,6 @@ mod report;
 mod search;
 #[path = "../../../tests/support/mod.rs"]
 mod support;
-mod sweep;
 mod sweep_t;
 mod sweep_u;
 mod table;
@@ -29,15 +27,14 @@ type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 fn main() -> Result {
     // All paths are the repository's; cargo starts a bench in its package, and adds an argument.
     std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+    // The report says how long so many took.
+    rayon::ThreadPoolBuilder::new().num_threads(2).build_global()?;
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => report("docs", 200, 4000, 101),
         // Rough figures are to be looked at, not to be kept.
         ["--quick"] => report("target/speed-vs-error", 20, 500, 5),
-        ["--search", curves] => {
-            let finds = [search::search(curves.parse()?), aimed::search(curves.parse()?)];
-            save("docs/search.csv", &finds.concat())
-        }
+        ["--search", curves] => save("docs/search.csv", &search::search(curves.parse()?)),
         ["--every-f32"] => every_f32::every_f32(|rows| save("docs/every-f32.csv", rows)),
         _ => Err("usage: see speed_vs_error/main.rs".into()),
     }

@@ -1,11 +1,16 @@
-//! A search for the worst curves: random ones, then uphill from the worst of them. The other half of `--search` is in
-//! `aimed`.
+//! A search for the worst curves: random ones, then uphill from the worst of them; and families of curves that meet difficulties
+//! exactly.
 
+use rayon::prelude::*;
+
+use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::cases::{judge_on, shutter};
 use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, Points, ulp_f32};
+use crate::support::promise::Figures;
 
 const SEED: u64 = 20_261_123;
+const AIMED_SEED: u64 = 20_261_124;
 /// How many of the worst are climbed from, for each aim.
 const STARTS: usize = 4;
 /// The share of random curves in all that are tried; the rest are steps uphill.
@@ -21,31 +26,12 @@ const AIMS: [&str; 5] = [
     "cdf(inverse_cdf(u)) - u, over what one ulp of t and three of the cdf explain",
 ];
 
-/// What was found, as a line of `docs/search.csv`: of curves that were bred for an aim, the worst in it alone; of an aimed
-/// family, the worst in all that is promised.
-#[derive(Clone, Debug, Default, serde::Serialize)]
-pub struct Find {
-    /// The aim, or the family.
-    pub what: String,
-    pub is_bred: bool,
-    pub curves: u64,
-    pub worst: Option<f64>,
-    pub backward: Option<f64>,
-    pub evaluations: Option<u32>,
-    /// Of the inverse between fractions, of the cdf between times, and of the ticks of a frame.
-    pub steps_back: Option<u64>,
-    pub cdf_steps_back: Option<u64>,
-    pub tick_steps_back: Option<u64>,
-    /// In ulp, and in ticks of an interval of up to 2²⁴ and of more.
-    pub cdf: Option<f64>,
-    pub density: Option<f64>,
-    pub few_ticks: Option<f64>,
-    pub many_ticks: Option<f64>,
-    /// How often any promise was broken.
-    pub breaches: Option<u64>,
-    /// The worst curve of those that were bred, or the first breach of each promise.
-    pub at: String,
-}
+/// The columns of `docs/search.csv`. Of curves that were bred for an aim there is the worst in it alone, and where. Of an aimed
+/// family there is the worst in all that is promised: steps back of the inverse between fractions, of the cdf between times,
+/// and of the ticks of a frame; errors in ulp, and in ticks of an interval of up to 2²⁴ and of more; how often any promise was
+/// broken, and the first breach of each.
+const COLUMNS: &str = "what is_bred curves worst backward evaluations steps_back cdf_steps_back tick_steps_back cdf density \
+                       few_ticks many_ticks breaches at";
 
 /// How bad a curve is, for each of the aims.
 fn score(curve: &Curve) -> [f64; 5] {
@@ -91,8 +77,17 @@ fn step(curve: &Curve, rng: &mut Rng) -> Curve {
     next
 }
 
-/// Tries about `curves` curves.
-pub fn search(curves: u64) -> Vec<Find> {
+/// The lines of `docs/search.csv`, after trying about `curves` curves of either half.
+pub fn search(curves: u64) -> Vec<Vec<String>> {
+    let columns = COLUMNS.split(' ').map(String::from).collect();
+    let families = (0..FAMILIES.len()).into_par_iter();
+    let aimed: Vec<_> =
+        families.map(|family| aim(family, curves / FAMILIES.len() as u64)).collect();
+    [vec![columns], breed(curves), aimed].concat()
+}
+
+/// Tries about `curves` curves, most of them random, the others uphill from the worst.
+fn breed(curves: u64) -> Vec<Vec<String>> {
     let random = (curves as f64 * RANDOM_SHARE) as u64;
     let mut tried = 0;
     let mut worst: [Vec<(f64, Curve)>; 5] = Default::default();
@@ -127,14 +122,43 @@ pub fn search(curves: u64) -> Vec<Find> {
     let text = |points: Points| points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ");
     let finds = worst.iter().enumerate().map(|(aim, worst)| {
         let (worst, curve) = worst[0];
-        Find {
-            what: AIMS[aim].into(),
-            is_bred: true,
-            curves: tried,
-            worst: Some(worst),
-            at: format!("{}; {}", text(curve.opening), text(curve.closing)),
-            ..Find::default()
-        }
+        let mut find =
+            vec![AIMS[aim].into(), "true".into(), tried.to_string(), format!("{worst:?}")];
+        find.resize(14, String::new());
+        find.push(format!("{}; {}", text(curve.opening), text(curve.closing)));
+        find
     });
     finds.collect()
+}
+
+/// Judges all that is promised on so many curves of a family that meets difficulties exactly. The tests do the same with fewer
+/// curves and another seed.
+fn aim(family: usize, curves: u64) -> Vec<String> {
+    let mut figures = Figures::default();
+    for index in 0..curves {
+        figures.judge(&aimed(family, AIMED_SEED, index), &mut Rng::new(AIMED_SEED, index));
+    }
+    let count = |what| figures.breaches.get(what).map_or(0, |(count, _)| *count).to_string();
+    let first = figures.breaches.iter().map(|(what, (n, at))| format!("{what}, {n} times: {at}"));
+    let breaches: u64 = figures.breaches.values().map(|(count, _)| count).sum();
+    let [cdf, density, few_ticks, many_ticks] =
+        [figures.cdf, figures.density, figures.ticks[0], figures.ticks[1]]
+            .map(|f| format!("{f:?}"));
+    vec![
+        FAMILIES[family].0.into(),
+        "false".into(),
+        curves.to_string(),
+        String::new(),
+        format!("{:?}", figures.backward),
+        figures.evaluations.to_string(),
+        count("step back"),
+        count("cdf's step back"),
+        count("ticks' step back"),
+        cdf,
+        density,
+        few_ticks,
+        many_ticks,
+        breaches.to_string(),
+        first.collect::<Vec<_>>().join("; "),
+    ]
 }

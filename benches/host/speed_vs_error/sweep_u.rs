@@ -1,11 +1,9 @@
 //! The inverse at every `u`.
 
-use shutter_curve::ShutterCurve;
-
+use crate::every_f32::{SAMPLED, Sweep, in_parts};
 use crate::follower::Follower;
 use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, rounding_cell, ulp_f32};
-use crate::sweep::{SAMPLED, Sweep, in_parts};
 
 /// As the report knows it.
 pub const INVERSE: &str = "inverse_cdf";
@@ -13,55 +11,43 @@ pub const INVERSE: &str = "inverse_cdf";
 /// Sweeps the `f32` from `first` to 1.
 pub fn sweep<const CELLS: usize>(curve: &Curve, first: f32) -> Sweep {
     let (shutter, exact) = (shutter::<CELLS>(curve), Exact::new(curve));
+    let (start, end) = (curve.open_start(), curve.close_end());
+    let at = |bits| f32::from_bits(bits as u32);
     let [found] = in_parts(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
-        [part(&shutter, &exact, from as u32, to as u32)]
+        let count = (to - from) as u64 + 1;
+        let mut found = Sweep { function: INVERSE, cells: CELLS, count, ..Sweep::default() };
+        let (mut steps_back, mut greatest, mut evaluations) = (0, 0.0, 0);
+        let mut follower = Follower::new(curve);
+        // The neighbour below, so that no pair is left out between two parts.
+        let mut last = if from == 0 { start } else { shutter.inverse_cdf(at(from - 1)) };
+        let mut worst = [from; 2];
+        for bits in from..=to {
+            let u = at(bits);
+            let t = shutter.inverse_cdf(u);
+            found.out_of_range += u64::from(!(t >= start && t <= end));
+            steps_back += u64::from(t < last);
+            last = t;
+            if bits % 16 == 0 {
+                evaluations = evaluations.max(shutter.evaluations(u));
+            }
+            let (forward, backward) = errors(&mut follower, u, t);
+            if forward > greatest {
+                (greatest, worst[0]) = (forward, bits);
+            }
+            if backward > found.error {
+                (found.error, worst[1]) = (backward, bits);
+            }
+            if bits % SAMPLED == 0 {
+                found.judge(exact.judge(u, t).backward);
+            }
+        }
+        for u in worst.map(at) {
+            found.judge(exact.judge(u, shutter.inverse_cdf(u)).backward);
+        }
+        let (steps_back, forward) = (Some(steps_back), Some(greatest));
+        [Sweep { steps_back, forward, evaluations: Some(evaluations), ..found }]
     });
     found
-}
-
-fn part<const CELLS: usize>(
-    shutter: &ShutterCurve<CELLS>,
-    exact: &Exact,
-    from: u32,
-    to: u32,
-) -> Sweep {
-    let count = u64::from(to - from) + 1;
-    let mut found = Sweep { function: INVERSE, count, ..Sweep::default() };
-    let (mut steps_back, mut greatest, mut evaluations) = (0, 0.0, 0);
-    let mut follower = Follower::new(exact.curve());
-    let (start, end) = (shutter.open_start(), shutter.close_end());
-    // The neighbour below, so that no pair is left out between two parts.
-    let mut last = if from == 0 { start } else { shutter.inverse_cdf(f32::from_bits(from - 1)) };
-    let mut worst = [from; 2];
-    for bits in from..=to {
-        let u = f32::from_bits(bits);
-        let t = shutter.inverse_cdf(u);
-        found.out_of_range += u64::from(!(t >= start && t <= end));
-        steps_back += u64::from(t < last);
-        last = t;
-        if bits % 16 == 0 {
-            evaluations = evaluations.max(shutter.evaluations(u));
-        }
-        let (forward, backward) = errors(&mut follower, u, t);
-        if forward > greatest {
-            (greatest, worst[0]) = (forward, bits);
-        }
-        if backward > found.error {
-            (found.error, worst[1]) = (backward, bits);
-        }
-        if i64::from(bits) % SAMPLED == 0 {
-            found.judge(exact.judge(u, t).backward);
-        }
-    }
-    for u in worst.map(f32::from_bits) {
-        found.judge(exact.judge(u, shutter.inverse_cdf(u)).backward);
-    }
-    Sweep {
-        steps_back: Some(steps_back),
-        forward: Some(greatest),
-        evaluations: Some(evaluations),
-        ..found
-    }
 }
 
 /// The errors of `t`: in ulp(t), and in ulp(u) once half an ulp(t) is forgiven.
