@@ -47,7 +47,7 @@ pub struct PowerRamp<F> {
 }
 
 /// The polynomial with these coefficients, the constant first, and its derivative.
-fn horner<F: Float, const N: usize>(c: &[F; N], x: F) -> (F, F) {
+pub fn horner<F: Float, const N: usize>(c: &[F; N], x: F) -> (F, F) {
     let (mut value, mut slope) = (c[N - 1], F::from(0.0));
     for &c in c[..N - 1].iter().rev() {
         slope = slope * x + value;

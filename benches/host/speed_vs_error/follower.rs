@@ -4,16 +4,17 @@
 
 use crate::support::oracle::lift::Lifted;
 use crate::support::oracle::{Curve, ulp_f32};
+use crate::support::peers::horner;
 
 /// The exact inverse, cdf and openness of a curve.
 pub struct Follower {
     /// The opening and the closing ramp.
     ramps: [Ramp; 2],
-    area: f64,
+    pub area: f64,
     /// When the curve starts, the plateau starts and ends, and the curve ends.
     joins: [f64; 4],
     /// Where the curve runs across time 0: an ulp of the greater end, to which all errors in time are relative.
-    across: Option<f64>,
+    pub across: Option<f64>,
 }
 
 impl Follower {
@@ -25,10 +26,6 @@ impl Follower {
         let area = ramps[0].mass + ramps[1].mass + (close - open);
         let across = (start < 0.0 && end > 0.0).then(|| ulp_f32(end.max(-start)));
         Self { ramps, area, joins, across }
-    }
-
-    pub fn runs_across_0(&self) -> bool {
-        self.across.is_some()
     }
 
     /// What errors at a time are relative to.
@@ -48,11 +45,6 @@ impl Follower {
             let time = self.joins[1] + (before - opening.mass);
             Inverse { time, density: 1.0, noise: 0.0 }
         }
-    }
-
-    /// The cdf's slope where the openness is `density`.
-    pub fn slope(&self, density: f64) -> f64 {
-        density / self.area
     }
 
     /// The cdf and the openness at a time.
@@ -141,11 +133,6 @@ struct End {
     openness: [f64; 4],
     /// Where the last answer was.
     x: f64,
-}
-
-/// The polynomial's value and slope.
-fn horner<const N: usize>(c: &[f64; N], x: f64) -> (f64, f64) {
-    c.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }
 
 impl End {

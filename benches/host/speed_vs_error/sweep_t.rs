@@ -109,7 +109,7 @@ struct Truth {
 impl Truth {
     fn new(curve: &Curve, first: i64) -> Self {
         let mut follower = Follower::new(curve);
-        let sides = follower.runs_across_0().then(|| [Follower::new(curve), Follower::new(curve)]);
+        let sides = follower.across.is_some().then(|| [Follower::new(curve), Follower::new(curve)]);
         // `around` moves on by one.
         let window = [first - 1, first - 1, first].map(|place| follower.values(at(place).into()));
         Self { follower, window, sides, least_ulp: exp2(-47) }

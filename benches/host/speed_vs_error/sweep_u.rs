@@ -62,6 +62,6 @@ fn errors(follower: &mut Follower, u: f32, t: f32) -> (f64, f64) {
     let is_told = exact.noise <= exact.density * ulp * 0.002;
     let [low, high] = rounding_cell(t);
     let excess = (low - exact.time).max(exact.time - high).max(0.0);
-    let backward = excess * follower.slope(exact.density) / ulp_f32(u.into());
+    let backward = excess * (exact.density / follower.area) / ulp_f32(u.into());
     (if is_told { error / ulp } else { 0.0 }, backward)
 }
