@@ -45,7 +45,7 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
 const PLACE: f32 = (1 << 30) as f32;
 
 /// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f`
-/// has degree 11, so it may be taken away first.
+/// has degree 11, so it may be taken away first. The ellipses, and the degrees below, were found by trial: any would do.
 const ELLIPSES: [[f32; 3]; 6] =
     [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 

@@ -16,7 +16,8 @@ const LITTLE: f32 = 0.25;
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
 /// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
 /// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
-/// middle adds 2⁻²⁷·⁵ at most (docs/proofs.md). Together that is less than this (`proofs/cdf.py`).
+/// middle adds 2⁻²⁷·⁵ at most: what a step of an ulp leaves, 2⁻²⁷·⁷, and measuring (docs/proofs.md). Together that is
+/// less than this (`proofs/cdf.py`).
 // docs/proofs.md: `cdf` never steps back
 const NEAR_MIDDLE: f32 = 2.375 / (1 << 28) as f32;
 
@@ -89,10 +90,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The same on a ramp.
     #[inline(never)]
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
-        match self.cdf_by_octave(ramp, t) {
-            Some(cdf) => cdf,
-            None => self.cdf_by_place(ramp, t),
-        }
+        self.cdf_by_octave(ramp, t).unwrap_or_else(|| self.cdf_by_place(ramp, t))
     }
 
     /// The same by the mass that is collected until the place at which `t` is reached.
@@ -135,7 +133,7 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The middle has exactly one time, which the inverse finds. Times before that get the lesser neighbour, all others
     /// the greater one. So the cdf does not step back, not even where next to no light falls and neighbouring times
     /// have the same mass except for its rounding. If the mass is farther from the middle than `noise`, both ways
-    /// agree.
+    /// agree: that this bounds the inverse's error, too, is measured, not proven.
     // docs/proofs.md: `cdf` never steps back
     #[cold]
     #[inline(never)]

@@ -29,7 +29,7 @@ const MOST_OFFSET: f32 = 0.4999;
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
 /// What rounds the value of a weight, as a share of its coefficients without signs: 10 roundings of an `f32`. (Those of
-/// the chord of reciprocals are together at most twice the greater reciprocal, on paper; five times is allowed.)
+/// the chord of reciprocals are together at most twice the greater reciprocal, on paper; six times is allowed.)
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
 /// 1, but for what single precision rounds.
@@ -88,7 +88,7 @@ impl Side<'_> {
                 + SAMPLE_OFF
                 + steep * off / span.width
                 + (ends[1] / step) as f32 * TIME_OFF,
-            // A tick's position is cut, which costs less than 1; 2 are counted.
+            // A tick's position is cut, which costs less than 1; 2 are counted, to spare.
             lost: steep * 2.0 * (per_position as f32),
             per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
@@ -110,7 +110,8 @@ impl Side<'_> {
         while effort < EFFORTS {
             let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
             bounds = limits.share(&errors.most);
-            // If the samples alone are too wrong, no closer bound helps. (Where one might, a search answers instead.)
+            // If the samples alone are too wrong, no closer bound helps. (As
+            // `share` adds what rounding does once more, one might after all, if rarely: then a search answers.)
             effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
                 EFFORTS
             } else {

@@ -4,8 +4,8 @@
 //! side 1, the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near*
 //! ramp, the other one the *far* ramp; of a ramp, the end of the curve is the *outer* end, the one at the plateau the
 //! *inner* end. A fraction `a` of at most 1/2 lies on the near ramp, on the plateau, or on the far ramp, and what is
-//! sought there is never more than `a`. So an error relative to what is sought is as small relative to `a`. A mirrored
-//! curve gives mirrored times.
+//! sought there is never more than `a`. So what measuring loses, relative to what is sought, is as little relative to `a`,
+//! and so is the error that is asked for. A mirrored curve gives mirrored times.
 
 use crate::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
@@ -112,7 +112,7 @@ impl Exposure {
             Section::Ramp(ramp, target) => {
                 // One address instead of the curve's and an index, which the search would keep on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
-                // Wanted; and accepted where no `f32` place is better.
+                // Wanted; and accepted where the step is less than an ulp.
                 ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
             }
         }

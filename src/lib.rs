@@ -29,7 +29,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve.
+// To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve or a schedule.
 //
 // Numbers    `units`: the scales. `exact`: what a sum and a product lose. `pair`: two `f32` as one number. `unknown`:
 //            what keeps loops small. `series`: polynomials of pairs.

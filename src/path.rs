@@ -55,7 +55,7 @@ impl Path {
         let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
         let Cubic { c: [t1, t2, t3], .. } = shape.time();
         let [u1, u2, u3, u4, u5, u6] = shape.mass();
-        // All by one scale.
+        // All by one scale, the first there and back, so that one loop does it.
         let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
         Self { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }

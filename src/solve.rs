@@ -24,10 +24,10 @@ use crate::units::LAST_PLACE;
 /// and each halves the bracket.
 const FREE: u32 = 10;
 /// Bisections that bring any bracket between 0 and [`LAST_PLACE`] down to neighbours, taken by their bits; each takes
-/// two evaluations, of the slopes and in pairs.
+/// two evaluations, of the slopes and in pairs. What was measured before the first may have brought `FREE` up to 2 more.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
-pub const MAX_EVALUATIONS: u32 = FREE + 2 * BISECTION;
+pub const MAX_EVALUATIONS: u32 = FREE + 2 + 2 * BISECTION;
 
 /// If less than this share of what is sought is missing, it is measured in pairs. A step of Halley's leaves about a
 /// tenth of the cube of that: 2⁻⁴².
@@ -43,7 +43,8 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// The distance from the anchor may be rounded by this share of it.
+/// The distance from the anchor may be rounded by this share of it: 5 · 2⁻¹⁶ of a step of [`PAIRS_BELOW`] is still less
+/// than 0.75 · 2⁻²⁶, which a search for an `f32` may leave.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// The distance between neighbours, relative to them, at most.
@@ -58,7 +59,7 @@ pub(crate) struct Anchor<const N: usize> {
     pub(crate) c: [f32; N],
     /// What it has to reach.
     pub(crate) sought: f32,
-    /// What rounding makes of its first two Taylor coefficients, as a share of their terms.
+    /// See [`ROUNDING`].
     pub(crate) rounding: f32,
 }
 
@@ -101,7 +102,7 @@ impl Taylor {
     /// the quotient's series up to `b²`; but not beyond `b = 1/2`, from where the series grows again and a search may
     /// swing.
     #[inline(always)]
-    pub(crate) const fn step(&self, missing: f32) -> f32 {
+    const fn step(&self, missing: f32) -> f32 {
         // If rounding makes the slope negative, the step still leads towards the target.
         let inverse = 1.0 / self.d1.abs();
         let newton = missing * inverse;
@@ -163,8 +164,8 @@ pub(crate) const fn left<const N: usize>(
 }
 
 /// The place where `series` reaches `target`, and the evaluations that took: within the error `wanted`, and what
-/// measuring adds; within `accepted` if the last step is less than an ulp of its place, since there is no
-/// better answer then.
+/// measuring adds; within `accepted` if the last step is less than an ulp of its place, since another round would measure
+/// at the same `f32`, and its bound would be the same.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,

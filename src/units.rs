@@ -39,7 +39,9 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 pub(crate) const FINE_DOUBLE_WORD: u64 = 1 << 55;
 
-/// The bits of 2⁻²⁸, the least top of an octave. There are no octaves below it, so a fraction of 0 falls into none.
+/// The bits of 2⁻²⁸, the least top of an octave. There are no octaves below it, so a fraction of 0 falls into none. (One
+/// more would be of no use: what a fraction may be off by, `OFF` in [`certificate`](crate::certificate), would leave its
+/// polynomial no error.)
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// Tops are multiples of so many bits, eight to a power of two. So each fits a byte.
 pub(crate) const TOP_STEP: u32 = 1 << 20;
