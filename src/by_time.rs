@@ -8,7 +8,7 @@ use crate::series::Series;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
-/// The error of a search for a time, relative to the way from the ramp's end. The way is at most as long as the time
+/// The error of a search for a time, relative to the way from the ramp's nearer end. The way is at most as long as the time
 /// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up
 /// to about the time of the farther end. But there [`on_grid`] leaves multiples of a quarter of that end's ulp, which
 /// are about 2⁻²⁶ of the way apart, or more. The error is a quarter of this distance, so neighbours keep their order.

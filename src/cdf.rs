@@ -16,7 +16,7 @@ const LITTLE: f32 = 0.25;
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
 /// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
 /// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
-/// middle adds 2⁻²⁷·⁵ at most: what a step of an ulp leaves, 2⁻²⁷·⁷, and measuring (docs/proofs.md). Together that is
+/// middle adds 2⁻²⁷·⁵ at most: what a step of an ulp leaves, and measuring (docs/proofs.md, "The end of a search"). Together that is
 /// less than this (`proofs/cdf.py`).
 // docs/proofs.md: `cdf` never steps back
 const NEAR_MIDDLE: f32 = 2.375 / (1 << 28) as f32;
@@ -157,7 +157,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         let middle = Pair::sum(nearest, 0.5 * (next - nearest));
         let (side, a) =
             if lesser < 0.5 * WHOLE { (0, middle) } else { (1, Pair::new(WHOLE).minus(middle)) };
-        // Twice, for the last step of the search, which is not exact either.
+        // Twice: room for the last step of the search. That it is enough is measured.
         let noise = on.map_or(0.0, |on| 2.0 * on.noise(side)) + 2.0 * FOR_TICK * nearest;
         if distance > noise {
             return nearest;

@@ -43,7 +43,7 @@ impl Fractions {
     }
 
     /// The fraction `odd / 2n`, or half a pulse before or after it, in units of 2⁻⁶⁴. In frames that have direct
-    /// triggers it is too low by at most two of these, and half a pulse by at most two. The last pulse's end at 1 becomes
+    /// triggers it is too low by at most two of these; half a pulse is too short by at most two, too. The last pulse's end at 1 becomes
     /// 0, which is in no octave (`proofs/shares.py`).
     #[inline(always)]
     pub(crate) fn in_u64(&self, odd: u32, edge: &Edge) -> u64 {

@@ -3,13 +3,13 @@
 use crate::pair::Pair;
 use crate::units::power_of_two;
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once; for a `way` of at most 2¹⁰⁵ and a `unit` in
-/// [-252, 22].
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. The `way` is at most 2¹⁰⁵, as on the plateau,
+/// and a `unit` from -252 to 22, as for a density; it may be greater where the way is 0.
 ///
 /// If the two cancel, so that the way's second number is more than 3/8 ulp of the sum, it is still rounded once unless
-/// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of what the sum
-/// of the first numbers leaves (`rest`): no promise is as fine as that. (Up to 3/8 ulp every middle is told by its rest,
-/// also below a power of two, where `f32` are half an ulp apart.)
+/// the sum lies next to a middle between two `f32`. There the error may be half an ulp and 2⁻²⁴ of `rest`: no
+/// promise is as fine as that. (Up to 3/8 ulp the rest of the only middle in reach is half an ulp or, below a power of
+/// two, a quarter: a power of two itself.)
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {

@@ -31,7 +31,8 @@ pub(crate) const fn check_ramp(curve: &CubicBezier, part: Part) -> Result<(), Cu
     let t = widened(curve.times());
     // Time may not leave the ramp, but rounding may put the first inner control time a trace before its start. If the
     // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much
-    // is forgiven. (t' is three times the differences.)
+    // is forgiven. (Chosen: with the second one nearer the start the same trace dips more, and is refused. And t' is
+    // three times the differences.)
     let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
     let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
     let leaves = first < -slack || last > t[3] - t[0] + slack;

@@ -110,8 +110,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
     /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
-    /// 2⁻¹²⁶. The openness and the slope of time may pass their bounds by 2⁻²², for the rounding of
-    /// control points.
+    /// 2⁻¹²⁶. For the rounding of control points the openness and the slope of time may
+    /// pass their bounds by 2⁻²²; but time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
     pub const fn with_cells(
         opening: CubicBezier,
         closing: CubicBezier,

@@ -11,9 +11,9 @@
 //! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations.
 //!
 //! After `FREE` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
-//! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted. That it stays between
-//! them is not proven: where next to no light falls, what is missing may be noise alone (docs/proofs.md, "The end of a
-//! search"). No search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place
+//! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted: its bound is at most
+//! 2⁻²⁷·⁷ of what is sought (docs/proofs.md, "The end of a search"). That the step stays between them is not proven:
+//! where next to no light falls, what is missing may be noise alone. No search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place
 //! that was measured, without a proof.
 
 use crate::pair::{Pair, flipped};
@@ -43,8 +43,8 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// The distance from the anchor may be rounded by this share of it: 5 · 2⁻¹⁶ of a step of [`PAIRS_BELOW`] is still less
-/// than 0.75 · 2⁻²⁶, which a search for an `f32` may leave.
+/// The distance from the anchor may be rounded by this share of it. Five times that (see [`left`]) of a step of
+/// [`PAIRS_BELOW`] is still less than 0.75 · 2⁻²⁶, which a search for an `f32` may leave.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// The distance between neighbours, relative to them, at most.

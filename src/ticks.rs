@@ -187,8 +187,9 @@ impl TickScale {
     fn tick_of_delay(&self, delay: i64) -> u32 {
         let (high, low) = ((delay as u64 >> 32) as u32, delay as u32 as u64);
         let low = ((low * self.power as u64) >> 32) as u32;
-        // Not below 0, whatever the last units of a time are. And below 2³¹: beyond the end all that is
-        // left of the fraction would be missing, and a certificate allows half an ulp; `Moment::since` stops searches.
+        // Not below 0, whatever the last units of a time are. And below 2³¹, since no time is beyond the
+        // end: a polynomial's would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of
+        // that; the plateau's line is rounded down; and `Moment::since` stops searches.
         let delay = (high.wrapping_mul(self.power).wrapping_add(low) as i32).max(0) as u64;
         let low = (delay * (self.factor as u32 as u64)) >> 32;
         ((delay * (self.factor >> 32) + low + (1 << 31)) >> 32) as u32

@@ -21,8 +21,8 @@
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
-/// The least `f32` u then still leads to a place that is a normal number, and so is the second number of a pair for the
-/// last coefficient.
+/// The least `f32` u then still leads to a place that is a normal number. And so is the second number of the pair that
+/// is a mass's last coefficient, that of the sixth power: 2⁸⁰ / (2³⁰)⁶ and 24 bits less.
 pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 
 /// The whole exposure; a fraction *in WHOLE* is counted so that all of it is this. The least `f32`, and what rounding
