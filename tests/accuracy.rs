@@ -235,12 +235,9 @@ fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 5]) {
         assert!(cdf >= last, "cdf back to {cdf} from {last} at {t:e} of {:?}", exact.curve());
         last = cdf;
         let (opening, pdf) = (curve.opening(t), curve.pdf(t));
-        let errors = [
-            exact.cdf_ulp(cdf, t, CDF_FLOOR),
-            exact.openness_ulp(opening, t),
-            exact.pdf_ulp(pdf, t),
-        ];
-        worst[4] = worst[4].max(exact.cdf_ulp(cdf, t, 0.0));
+        let near = exact.near(t);
+        let errors = [near.cdf_ulp(cdf, CDF_FLOOR), near.openness_ulp(opening), near.pdf_ulp(pdf)];
+        worst[4] = worst[4].max(near.cdf_ulp(cdf, 0.0));
         for (error, worst) in errors.into_iter().zip(&mut *worst) {
             assert!(
                 error <= VALUE,
@@ -306,7 +303,7 @@ fn openness_in_a_deep_dip() {
     let (exact, shutter) = (Exact::new(&curve), shutter::<8>(&curve));
     for bits in 0..20_000 {
         let t = f32::from_bits(3.6740906e-7f32.to_bits() + bits);
-        assert!(exact.openness_ulp(shutter.opening(t), t) <= VALUE, "{t:e}");
+        assert!(exact.near(t).openness_ulp(shutter.opening(t)) <= VALUE, "{t:e}");
     }
 }
 
@@ -327,8 +324,9 @@ fn single_ramps() {
             last = t;
             backward = backward.max(exact.judge(u, t).backward);
             assert!(backward <= BACKWARD, "{u:e} {t:e} {curve:?}");
-            assert!(exact.cdf_ulp(ours.cdf(t), t, CDF_FLOOR) <= VALUE);
-            let error = exact.pdf_ulp(ours.pdf(t), t);
+            let near = exact.near(t);
+            assert!(near.cdf_ulp(ours.cdf(t), CDF_FLOOR) <= VALUE);
+            let error = near.pdf_ulp(ours.pdf(t));
             assert!(error <= VALUE, "{error} ulp: pdf({t:e}) = {:e} of {curve:?}", ours.pdf(t));
         }
         let error = (ours.exposure() as f64 - exact.area().hi).abs() / ulp_f32(exact.area().hi);
@@ -557,10 +555,11 @@ fn extremes() {
         ts.extend((0..=40).map(|i| curve.opening[3].0 * (i as f32 / 40.0)));
         ts.extend((0..20).map(f32::from_bits));
         for t in ts.into_iter().filter(|t| *t <= curve.close_end()) {
+            let near = exact.near(t);
             let errors = [
-                exact.cdf_ulp(searched.cdf(t), t, CDF_FLOOR),
-                exact.openness_ulp(searched.opening(t), t),
-                exact.pdf_ulp(searched.pdf(t), t),
+                near.cdf_ulp(searched.cdf(t), CDF_FLOOR),
+                near.openness_ulp(searched.opening(t)),
+                near.pdf_ulp(searched.pdf(t)),
             ];
             assert!(errors.iter().all(|e| *e <= VALUE), "{errors:?} ulp at {t:e} of {curve:?}");
         }

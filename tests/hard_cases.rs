@@ -28,8 +28,9 @@ fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
     let most = us.iter().map(|u| shutter.evaluations(*u)).max().unwrap_or(0);
     let (mut cdf, mut openness) = (0.0f64, 0.0f64);
     for t in us.iter().map(|u| shutter.inverse_cdf(*u)) {
-        cdf = cdf.max(exact.cdf_ulp(shutter.cdf(t), t, CDF_FLOOR));
-        openness = openness.max(exact.openness_ulp(shutter.opening(t), t));
+        let near = exact.near(t);
+        cdf = cdf.max(near.cdf_ulp(shutter.cdf(t), CDF_FLOOR));
+        openness = openness.max(near.openness_ulp(shutter.opening(t)));
     }
     println!(
         "    CELLS = {CELLS:2}: {verdict:?}, cdf {cdf:.2} ulp, openness {openness:.2} ulp, evaluations {most}"

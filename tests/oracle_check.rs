@@ -248,23 +248,23 @@ fn errors_are_measured_in_ulp() {
     assert_eq!(across.judge(0.5, exp2(-40) as f32).backward, exp2(-17) * (1.0 - exp2(-25)));
 
     // A value is right if it is within reach of 1 ulp of t.
-    let identity = |got| exact.cdf_ulp(got, 0.5, 0.0);
+    let identity = |got| exact.near(0.5).cdf_ulp(got, 0.0);
     assert_eq!(identity(0.5 + 0.5 * f32::EPSILON), 0.0);
     assert_eq!(identity(0.5 + 1.5 * f32::EPSILON), 2.0);
     assert_eq!(identity(0.5 - 1.5 * f32::EPSILON), 4.0);
-    assert_eq!(exact.cdf_ulp(0.5 - 1.5 * f32::EPSILON, 0.5, 0.5), 2.0);
+    assert_eq!(exact.near(0.5).cdf_ulp(0.5 - 1.5 * f32::EPSILON, 0.5), 2.0);
     assert_eq!(identity(f32::NAN), f64::INFINITY);
     // Across time 0 the reach is an ulp of the greater end.
-    assert_eq!(across.cdf_ulp(0.5 + exp2(-25) as f32, 0.0, 0.0), 0.0);
-    assert_eq!(across.cdf_ulp(0.5 + exp2(-23) as f32, 0.0, 0.0), 1.0);
-    assert_eq!([exact.openness_ulp(1.0, 0.5), exact.openness_ulp(0.0, 2.0)], [0.0; 2]);
-    assert_eq!(exact.openness_ulp(1f32.next_down(), 0.5), 0.5);
+    assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-25) as f32, 0.0), 0.0);
+    assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-23) as f32, 0.0), 1.0);
+    assert_eq!([exact.near(0.5).openness_ulp(1.0), exact.near(2.0).openness_ulp(0.0)], [0.0; 2]);
+    assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down()), 0.5);
     // The density touches 0 between two samples of time.
     let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));
-    assert_eq!(dip.openness_ulp(0.0, 0.375), 0.0);
+    assert_eq!(dip.near(0.375).openness_ulp(0.0), 0.0);
     // In a deep dip an ulp is 2⁻³⁸ of the greatest openness.
     let at_an_ulp = 16.0 / 3.0 * exp2(-50);
-    let off = dip.openness_ulp((at_an_ulp + 1.5 * exp2(-38)) as f32, 0.375);
+    let off = dip.near(0.375).openness_ulp((at_an_ulp + 1.5 * exp2(-38)) as f32);
     assert!((off - 2.0).abs() < 1e-6, "{off}");
 }
 

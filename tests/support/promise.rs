@@ -9,7 +9,7 @@ use shutter_curve::ShutterCurve;
 use super::aimed::{aimed_triggers, aimed_ts, aimed_us};
 use super::cases::shutter;
 use super::curves::{Rng, is_valid};
-use super::oracle::{Curve, Dd, Exact, exp2, ulp_f32};
+use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
 
 /// In ulp of u.
 pub const BACKWARD: f64 = 0.5;
@@ -50,8 +50,9 @@ impl Figures {
         let exact = Exact::new(curve);
         let (direct, searched) = (shutter::<8>(curve), shutter::<0>(curve));
         let us = aimed_us(&exact, rng);
-        self.inverse(&exact, &us, |u| direct.inverse_cdf(u), |u| direct.evaluations(u));
-        self.inverse(&exact, &us, |u| searched.inverse_cdf(u), |u| searched.evaluations(u));
+        let times = timed(&exact, &us);
+        self.inverse(&exact, &times, |u| direct.inverse_cdf(u), |u| direct.evaluations(u));
+        self.inverse(&exact, &times, |u| searched.inverse_cdf(u), |u| searched.evaluations(u));
         let mut ts = vec![0.0; us.len()];
         direct.inverse_cdf_slice(&us, &mut ts);
         self.expect("slice", ts.iter().zip(&us).all(|(t, u)| *t == direct.inverse_cdf(*u)), curve);
@@ -59,8 +60,9 @@ impl Figures {
         let ts = aimed_ts(&exact, rng);
         let values = |t| [direct.cdf(t), direct.pdf(t), direct.opening(t)];
         let others = |t| [searched.cdf(t), searched.pdf(t), searched.opening(t)];
-        self.values(&exact, &ts, values);
-        self.values(&exact, &ts, others);
+        let near = near(&exact, &ts);
+        self.values(&exact, &near, values);
+        self.values(&exact, &near, others);
         self.ticks(&exact, &direct, rng);
         self.ticks(&exact, &searched, rng);
         // The cdf asks an octave first, and may end in another bit where there is none.
@@ -88,19 +90,19 @@ impl Figures {
         }
     }
 
-    /// Error, range, order, length of the search.
+    /// Error, range, order, length of the search; of fractions with their exact times.
     fn inverse(
         &mut self,
         exact: &Exact,
-        us: &[f32],
+        us: &[(f32, Dd)],
         inverse: impl Fn(f32) -> f32,
         evaluations: impl Fn(f32) -> u32,
     ) {
         let curve = exact.curve();
         let mut last = curve.open_start();
-        for &u in us {
+        for &(u, time) in us {
             let (t, evaluations) = (inverse(u), evaluations(u));
-            let errors = exact.judge(u, t);
+            let errors = exact.judge_for(u, t, time);
             let at = || format!("u = {u:e}: {t:e}, {evaluations} evaluations, {errors:?}");
             self.samples += 1;
             self.backward = self.backward.max(errors.backward);
@@ -116,18 +118,23 @@ impl Figures {
     }
 
     /// The cdf, the pdf and, on a shutter, the openness; order of the cdf.
-    fn values<const N: usize>(&mut self, exact: &Exact, ts: &[f32], at: impl Fn(f32) -> [f32; N]) {
+    fn values<const N: usize>(
+        &mut self,
+        exact: &Exact,
+        ts: &[(f32, Near)],
+        at: impl Fn(f32) -> [f32; N],
+    ) {
         let curve = exact.curve();
         let mut last = 0.0;
-        for &t in ts {
+        for &(t, ref near) in ts {
             let values = at(t);
-            let cdf = exact.cdf_ulp(values[0], t, CDF_FLOOR);
-            let pdf = exact.pdf_ulp(values[1], t);
-            let openness = values.get(2).map_or(0.0, |openness| exact.openness_ulp(*openness, t));
+            let cdf = near.cdf_ulp(values[0], CDF_FLOOR);
+            let pdf = near.pdf_ulp(values[1]);
+            let openness = values.get(2).map_or(0.0, |openness| near.openness_ulp(*openness));
             let what = || format!("t = {t:e}: {values:?}, {cdf:.2} {pdf:.2} {openness:.2} ulp");
             self.samples += N as u64;
             self.cdf = self.cdf.max(cdf);
-            self.small_cdf = self.small_cdf.max(exact.cdf_ulp(values[0], t, 0.0));
+            self.small_cdf = self.small_cdf.max(near.cdf_ulp(values[0], 0.0));
             self.density = self.density.max(pdf).max(openness);
             self.expect_at("cdf", cdf <= VALUE, what, curve);
             self.expect_at("pdf", pdf <= VALUE, what, curve);
@@ -135,7 +142,7 @@ impl Figures {
             self.expect_at("cdf's step back", values[0] >= last, what, curve);
             last = values[0];
         }
-        if ts.contains(&0.0) {
+        if ts.iter().any(|(t, _)| *t == 0.0) {
             self.expect_at("t = -0.0", at(-0.0) == at(0.0), || format!("{:?}", at(-0.0)), curve);
         }
     }
@@ -226,8 +233,8 @@ impl Figures {
         let exact = Exact::new(&single);
         let ours = shutter::<0>(&single);
         let us = aimed_us(&exact, rng);
-        self.inverse(&exact, &us, |u| ours.inverse_cdf(u), |_| 0);
-        self.values(&exact, &aimed_ts(&exact, rng), |t| [ours.cdf(t), ours.pdf(t)]);
+        self.inverse(&exact, &timed(&exact, &us), |u| ours.inverse_cdf(u), |_| 0);
+        self.values(&exact, &near(&exact, &aimed_ts(&exact, rng)), |t| [ours.cdf(t), ours.pdf(t)]);
         let [area, exact_area] = [f64::from(ours.exposure()), exact.area().hi];
         self.expect("area", (area - exact_area).abs() <= ulp_f32(exact_area), &single);
     }
@@ -235,11 +242,11 @@ impl Figures {
 
 /// What is asked of a design: plain fractions, all small frames, and what lies next to the joins. The exact answers are
 /// found once; every `CELLS` is held against them.
-pub struct Questions {
+pub struct Questions<'a> {
     /// In order, with the exact times.
     us: Vec<(f32, Dd)>,
     /// In order.
-    ts: Vec<f32>,
+    ts: Vec<(f32, Near<'a>)>,
     frames: Vec<Frame>,
     rates: Vec<u32>,
     /// Is the forward error promised?
@@ -275,6 +282,16 @@ impl Frame {
     }
 }
 
+/// Each fraction with its exact time.
+fn timed(exact: &Exact, us: &[f32]) -> Vec<(f32, Dd)> {
+    us.iter().map(|u| (*u, exact.inverse_cdf(*u))).collect()
+}
+
+/// Each time with what the curve takes on around it.
+fn near<'a>(exact: &'a Exact, ts: &[f32]) -> Vec<(f32, Near<'a>)> {
+    ts.iter().map(|t| (*t, exact.near(*t))).collect()
+}
+
 /// So many neighbours of `x` on either side, and `x`, from 0 to 1.
 fn neighbours(x: f32, count: u32) -> impl Iterator<Item = f32> {
     let bits = x.clamp(0.0, 1.0).to_bits();
@@ -292,8 +309,8 @@ pub struct Reach {
     pub is_typical: bool,
 }
 
-impl Questions {
-    pub fn new(exact: &Exact, reach: Reach) -> Self {
+impl<'a> Questions<'a> {
+    pub fn new(exact: &'a Exact, reach: Reach) -> Self {
         let curve = *exact.curve();
         let joins: Vec<f64> = exact.landmarks()[..2].iter().map(|u| u.hi.clamp(0.0, 1.0)).collect();
         let mut us = vec![-0.0, 0.0, 1.0];
@@ -315,7 +332,7 @@ impl Questions {
         }
         us.sort_by(f32::total_cmp);
         us.dedup_by_key(|u| u.to_bits());
-        let us = us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect();
+        let us = timed(exact, &us);
 
         let [start, end] = [curve.open_start(), curve.close_end()];
         let length = f64::from(end) - f64::from(start);
@@ -331,6 +348,7 @@ impl Questions {
         ts.retain(|t| (start..=end).contains(t));
         ts.sort_by(f32::total_cmp);
         ts.dedup();
+        let ts = near(exact, &ts);
 
         let mut frames: Vec<_> =
             (1..=reach.frame).map(|n| Frame::new(exact, n, None, 0, n)).collect();
@@ -378,10 +396,10 @@ impl Questions {
     }
 }
 
-impl Questions {
+impl<'a> Questions<'a> {
     /// Of the fractions around a place alone, as far as those that an octave's polynomial serves with it: where time runs
     /// so unevenly that a polynomial follows it least, between the places at which it is judged.
-    pub fn closely(exact: &Exact, place: f64, frames: u32) -> Self {
+    pub fn closely(exact: &'a Exact, place: f64, frames: u32) -> Self {
         let length = f64::from(exact.curve().close_end()) - f64::from(exact.curve().open_start());
         let mut list = Vec::new();
         // Triggers, ...
@@ -402,7 +420,7 @@ impl Questions {
         let mut us: Vec<f32> = us.into_iter().flat_map(|u| neighbours(u as f32, 1)).collect();
         us.sort_by(f32::total_cmp);
         us.dedup();
-        let us = us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect();
+        let us = timed(exact, &us);
         Self { us, ts: Vec::new(), frames: list, rates: vec![hz.max(1)], is_typical: false }
     }
 }

@@ -68,13 +68,13 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
             (opening.error, worst[1]) = (error, place);
         }
         if place % SAMPLED == 0 {
-            cdf.judge(exact.cdf_ulp(got[0], t, CDF_FLOOR));
-            opening.judge(exact.openness_ulp(got[1], t));
+            cdf.judge(exact.near(t).cdf_ulp(got[0], CDF_FLOOR));
+            opening.judge(exact.near(t).openness_ulp(got[1]));
         }
     }
     let [of_cdf, of_opening] = worst.map(at);
-    cdf.judge(exact.cdf_ulp(shutter.cdf(of_cdf), of_cdf, CDF_FLOOR));
-    opening.judge(exact.openness_ulp(shutter.opening(of_opening), of_opening));
+    cdf.judge(exact.near(of_cdf).cdf_ulp(shutter.cdf(of_cdf), CDF_FLOOR));
+    opening.judge(exact.near(of_opening).openness_ulp(shutter.opening(of_opening)));
     cdf.steps_back = Some(steps_back);
     cdf.without_floor = Some(without_floor);
     [cdf, opening]

@@ -9,6 +9,8 @@
 pub mod dd;
 pub mod lift;
 
+use std::cell::OnceCell;
+
 pub use dd::{Dd, exp2};
 use lift::Lifted;
 pub use lift::Points;
@@ -98,23 +100,25 @@ impl<const N: usize> Poly<N> {
         if target.hi <= 0.0 {
             return Dd::ZERO;
         }
-        // The octave of x, ...
-        let (mut below, mut above) = (-256, 0);
+        // The octave of x, which is rarely a low one, ...
+        let is_below = |exponent| self.approx(exp2(exponent))[0] < target.hi;
+        let (mut below, mut above) = (-1, 0);
+        while below > -256 && !is_below(below) {
+            (below, above) = (2 * below, below);
+        }
         while above - below > 1 {
             let middle = (below + above) / 2;
-            let side =
-                if self.approx(exp2(middle))[0] < target.hi { &mut below } else { &mut above };
-            *side = middle;
+            *(if is_below(middle) { &mut below } else { &mut above }) = middle;
         }
-        // ... then x to f64's accuracy, ...
+        // ... then x to f64's accuracy by Halley's steps, ...
         let (mut low, mut high) = (exp2(below), exp2(above));
         let mut x = 0.75 * high;
         for _ in 0..64 {
-            let [value, slope, _] = self.approx(x);
-            let side = if value < target.hi { &mut low } else { &mut high };
-            *side = x;
-            let newton = x + (target.hi - value) / slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let [value, slope, bend] = self.approx(x);
+            let rest = target.hi - value;
+            *(if rest > 0.0 { &mut low } else { &mut high }) = x;
+            let halley = x + rest * slope / (slope * slope + rest * bend);
+            let next = if halley > low && halley < high { halley } else { 0.5 * (low + high) };
             let step = (next - x).abs();
             x = next;
             if step <= 2.0 * f64::EPSILON * x {
@@ -254,9 +258,11 @@ impl Ramp {
         Spot { end, x: self.ends[end].way.solve(way[end]) }
     }
 
-    fn mass_from(&self, end: usize, spot: Spot) -> Dd {
+    /// The masses before and after.
+    fn masses(&self, spot: Spot) -> [Dd; 2] {
         let mass = self.ends[spot.end].mass.at(spot.x);
-        if spot.end == end { mass } else { self.mass - mass }
+        let other = self.mass - mass;
+        if spot.end == 0 { [mass, other] } else { [other, mass] }
     }
 
     fn time(&self, spot: Spot) -> Dd {
@@ -303,6 +309,15 @@ fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
     }
     let q = -0.5 * (b + discriminant.sqrt().copysign(b));
     [q / c, a / q].into_iter().filter(|x| x.is_finite()).collect()
+}
+
+/// Where a time lies on a curve.
+#[derive(Clone, Copy)]
+enum Place {
+    Outside,
+    Opening(Spot),
+    Plateau,
+    Closing(Spot),
 }
 
 /// What an answer `t` to a question `u` is off by.
@@ -419,24 +434,26 @@ impl Exact {
 
     /// The mass before and after `t`.
     fn masses(&self, t: Dd) -> [Dd; 2] {
-        let (curve, all) = (&self.curve, self.area);
-        if t <= Dd::from(curve.open_start()) {
-            [Dd::ZERO, all]
-        } else if t >= Dd::from(curve.close_end()) {
-            [all, Dd::ZERO]
-        } else if t < Dd::from(curve.open_end()) {
-            let spot = self.opening.at_time(t);
-            let before = self.opening.mass_from(0, spot);
-            let rest = self.opening.mass_from(1, spot);
-            [before, self.closing.mass + self.plateau + rest]
-        } else if t > Dd::from(curve.close_start()) {
-            let spot = self.closing.at_time(t);
-            let after = self.closing.mass_from(1, spot);
-            let begun = self.closing.mass_from(0, spot);
-            [self.opening.mass + self.plateau + begun, after]
-        } else {
-            let before = self.opening.mass + (t - Dd::from(curve.open_end()));
-            [before, self.closing.mass + (Dd::from(curve.close_start()) - t)]
+        self.masses_at(t, self.place(t))
+    }
+
+    fn masses_at(&self, t: Dd, place: Place) -> [Dd; 2] {
+        let curve = &self.curve;
+        match place {
+            Place::Outside if t <= Dd::from(curve.open_start()) => [Dd::ZERO, self.area],
+            Place::Outside => [self.area, Dd::ZERO],
+            Place::Opening(spot) => {
+                let [before, rest] = self.opening.masses(spot);
+                [before, self.closing.mass + self.plateau + rest]
+            }
+            Place::Plateau => {
+                let before = self.opening.mass + (t - Dd::from(curve.open_end()));
+                [before, self.closing.mass + (Dd::from(curve.close_start()) - t)]
+            }
+            Place::Closing(spot) => {
+                let [begun, after] = self.closing.masses(spot);
+                [self.opening.mass + self.plateau + begun, after]
+            }
         }
     }
 
@@ -446,18 +463,31 @@ impl Exact {
     }
 
     pub fn openness_dd(&self, t: Dd) -> Dd {
+        self.openness_at(self.place(t))
+    }
+
+    fn openness_at(&self, place: Place) -> Dd {
+        match place {
+            Place::Outside => Dd::ZERO,
+            Place::Opening(spot) => self.bounded(self.opening.openness(spot)),
+            Place::Plateau => Dd::ONE,
+            Place::Closing(spot) => self.bounded(self.closing.openness(spot)),
+        }
+    }
+
+    fn place(&self, t: Dd) -> Place {
         let curve = &self.curve;
         let [start, open, close, end] =
             [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
                 .map(Dd::from);
         if t < start || t > end {
-            Dd::ZERO
+            Place::Outside
         } else if self.opens_at(t) {
-            self.bounded(self.opening.openness(self.opening.at_time(t)))
+            Place::Opening(self.opening.at_time(t))
         } else if t <= close && open < close {
-            Dd::ONE
+            Place::Plateau
         } else {
-            self.bounded(self.closing.openness(self.closing.at_time(t)))
+            Place::Closing(self.closing.at_time(t))
         }
     }
 
@@ -525,38 +555,9 @@ impl Exact {
         (miss / self.area).hi / ulp_f32(u as f64)
     }
 
-    /// The error of a cdf of `got` at `t`, see [`value_ulp`]; an ulp is at least that of `floor`.
-    pub fn cdf_ulp(&self, got: f32, t: f32, floor: f64) -> f64 {
-        let values = self.times_near(t).map(|t| self.cdf_dd(t));
-        value_ulp(got, values, |value| ulp_f32(value.max(floor)))
-    }
-
-    /// The error of an openness of `got` at `t`, see [`value_ulp`].
-    pub fn openness_ulp(&self, got: f32, t: f32) -> f64 {
-        self.density_ulp(got, t, Dd::ONE)
-    }
-
-    /// The error of a pdf of `got` at `t`, see [`value_ulp`].
-    pub fn pdf_ulp(&self, got: f32, t: f32) -> f64 {
-        self.density_ulp(got, t, self.normalization())
-    }
-
-    /// An ulp is at least 2⁻³⁸ of the ramp's greatest openness, which is what is promised in a deep dip.
-    fn density_ulp(&self, got: f32, t: f32, scale: Dd) -> f64 {
-        let ramp = if self.opens_at(Dd::from(t)) { &self.opening } else { &self.closing };
-        let least = exp2(-38) * ramp.greatest * scale.hi;
-        let samples = self.times_near(t).map(|t| self.openness_dd(t));
-        // Between two samples the openness may have an extremum, or a ramp its end.
-        let (t, reach) = (Dd::from(t), self.ulp_of_time(Dd::from(t)));
-        let turns = self.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
-        let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
-        value_ulp(got, values, |value| ulp_f32(value).max(least))
-    }
-
-    /// Times within an ulp of `t`, from the middle outwards: most answers are settled after few.
-    fn times_near(&self, t: f32) -> impl Iterator<Item = Dd> + use<> {
-        let (middle, ulp) = (Dd::from(t), self.ulp_of_time(Dd::from(t)));
-        [0.0, -1.0, 1.0, -0.5, 0.5].into_iter().map(move |part| middle + Dd::from(part * ulp))
+    /// What the curve takes on around a time, to judge several answers by.
+    pub fn near(&self, t: f32) -> Near<'_> {
+        Near { exact: self, t, values: Default::default() }
     }
 
     /// The u at which something changes: the sections' boundaries, and where the density or t' has an
@@ -566,7 +567,7 @@ impl Exact {
         let ramps = [(&self.opening, Dd::ZERO), (&self.closing, masses[1])];
         for (ramp, before) in ramps {
             for p in ramp.flat_points() {
-                masses.push(before + ramp.mass_from(0, ramp.spot(p)));
+                masses.push(before + ramp.masses(ramp.spot(p))[0]);
             }
         }
         masses.into_iter().map(|mass| mass / self.area).collect()
@@ -580,7 +581,7 @@ impl Exact {
         };
         let way = &ramp.ends[0].way.c;
         let p = (-way[1].hi / (3.0 * way[2].hi)).clamp(0.0, 1.0);
-        ((before + ramp.mass_from(0, ramp.spot(p))) / self.area).hi
+        ((before + ramp.masses(ramp.spot(p))[0]) / self.area).hi
     }
 
     /// The times of the [`landmarks`](Self::landmarks), and of the ends.
@@ -592,6 +593,58 @@ impl Exact {
             times.extend(ramp.flat_points().into_iter().map(|p| ramp.time(ramp.spot(p))));
         }
         times
+    }
+}
+
+/// The cdf and the openness at five times within an ulp of one, each found when it is first asked for.
+pub struct Near<'a> {
+    exact: &'a Exact,
+    t: f32,
+    values: [OnceCell<[Dd; 2]>; 5],
+}
+
+impl Near<'_> {
+    /// The error of a cdf of `got`, see [`value_ulp`]; an ulp is at least that of `floor`.
+    pub fn cdf_ulp(&self, got: f32, floor: f64) -> f64 {
+        let values = self.values().map(|[cdf, _]| cdf);
+        value_ulp(got, values, |value| ulp_f32(value.max(floor)))
+    }
+
+    /// The error of an openness of `got`, see [`value_ulp`].
+    pub fn openness_ulp(&self, got: f32) -> f64 {
+        self.density_ulp(got, Dd::ONE)
+    }
+
+    /// The error of a pdf of `got`, see [`value_ulp`].
+    pub fn pdf_ulp(&self, got: f32) -> f64 {
+        self.density_ulp(got, self.exact.normalization())
+    }
+
+    /// An ulp is at least 2⁻³⁸ of the ramp's greatest openness, which is what is promised in a deep dip.
+    fn density_ulp(&self, got: f32, scale: Dd) -> f64 {
+        let (exact, t) = (self.exact, Dd::from(self.t));
+        let ramp = if exact.opens_at(t) { &exact.opening } else { &exact.closing };
+        let least = exp2(-38) * ramp.greatest * scale.hi;
+        let samples = self.values().map(|[_, openness]| openness);
+        // Between two samples the openness may have an extremum, or a ramp its end.
+        let reach = exact.ulp_of_time(t);
+        let turns = exact.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
+        let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
+        value_ulp(got, values, |value| ulp_f32(value).max(least))
+    }
+
+    /// From the middle outwards: most answers are settled after few.
+    fn values(&self) -> impl Iterator<Item = [Dd; 2]> {
+        let (exact, middle) = (self.exact, Dd::from(self.t));
+        let ulp = exact.ulp_of_time(middle);
+        let parts = [0.0, -1.0, 1.0, -0.5, 0.5].into_iter();
+        parts.zip(&self.values).map(move |(part, values)| {
+            *values.get_or_init(|| {
+                let t = middle + Dd::from(part * ulp);
+                let place = exact.place(t);
+                [exact.masses_at(t, place)[0] / exact.area, exact.openness_at(place)]
+            })
+        })
     }
 }
 
