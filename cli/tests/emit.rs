@@ -74,7 +74,7 @@ fn the_crate() -> &'static str {
     static BUILT: OnceLock<String> = OnceLock::new();
     BUILT.get_or_init(|| {
         let (folder, source) = (folder("crate"), format!("{CLI}/../src/lib.rs"));
-        rustc(&folder, &["--crate-type", "rlib", "--crate-name", "shutter_curve", "-O", &source]);
+        rustc(&folder, &["--crate-type", "rlib", "--crate-name", "shutter_curve", &source]);
         format!("shutter_curve={}", folder.join("libshutter_curve.rlib").display())
     })
 }
@@ -82,37 +82,47 @@ fn the_crate() -> &'static str {
 #[test]
 fn rust_compiles_with_the_crate_and_holds_its_ticks() {
     let folder = folder("rust");
-    let rustc = |args: &[&str]| rustc(&folder, args);
     let linked = ["-D", "warnings", "--extern", the_crate()];
-    // A library that asks for documentation takes the module as well.
-    fs::write(folder.join("lib.rs"), "//! .\n#![no_std]\n/// .\npub mod scene;\n").unwrap();
+    // A library that asks for documentation takes the modules as well.
+    let mut lib = String::from("//! .\n#![no_std]\n");
+    let (mut main, mut expected) = (String::new(), String::new());
     for (name, plan) in plans() {
         let text = emit(Form::Rust, &name, &plan);
-        fs::write(folder.join("scene.rs"), &text).unwrap();
-        rustc(&[&linked[..], &["--crate-type", "lib", "-D", "missing_docs", "lib.rs"]].concat());
         let pulses = text.contains("PULSES");
         assert_eq!(pulses, plan.triggers[0].pulse.is_some());
+        let module = format!("scene_{}", name.replace('-', "_"));
+        fs::write(folder.join(format!("{module}.rs")), text).unwrap();
+        lib += &format!("/// .\npub mod {module};\n");
         let print = if pulses {
             r#"for (tick, (on, off)) in scene::TICKS.iter().zip(scene::PULSES) { println!("{tick} {on} {off}"); }"#
         } else {
             r#"for tick in scene::TICKS { println!("{tick}"); }"#
         };
-        let main = format!(
-            "pub mod scene;
-            fn main() {{
+        main += &format!(
+            "{{
+                use scenes::{module} as scene;
                 let n = scene::TICKS.len() as u32;
                 let ticks = scene::SHUTTER.trigger_ticks(n, scene::TIMER_HZ).unwrap();
                 assert!(ticks.eq(scene::TICKS));
-                println!(\"{{:08x}}\", scene::SHUTTER.exposure().to_bits());
+                println!(\"{name} {{:08x}}\", scene::SHUTTER.exposure().to_bits());
                 {print}
-            }}"
+            }}\n"
         );
-        fs::write(folder.join("main.rs"), main).unwrap();
-        rustc(&[&linked[..], &["main.rs"]].concat());
-        let lines: String = plan.triggers.iter().map(line).collect();
-        let expected = format!("{:08x}\n{lines}", plan.curve.exposure().to_bits());
-        assert_eq!(output(&mut Command::new(folder.join("main"))), expected, "{name}");
+        expected += &format!("{name} {:08x}\n", plan.curve.exposure().to_bits());
+        expected.extend(plan.triggers.iter().map(line));
     }
+    fs::write(folder.join("scenes.rs"), lib).unwrap();
+    rustc(
+        &folder,
+        &[&linked[..], &["--crate-type", "lib", "-D", "missing_docs", "scenes.rs"]].concat(),
+    );
+    fs::write(folder.join("main.rs"), format!("fn main() {{\n{main}}}\n")).unwrap();
+    rustc(
+        &folder,
+        &[&linked[..], &["--extern", "scenes=libscenes.rlib", "-L", "../crate", "main.rs"]]
+            .concat(),
+    );
+    assert_eq!(output(&mut Command::new(folder.join("main"))), expected);
 }
 
 #[test]
