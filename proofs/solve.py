@@ -218,7 +218,12 @@ for name, rounding, times, pattern in (
     require(abs(said + log2(ends)) <= 0.05, f"docs/proofs.md has 2^-{said} for 2^{log2(ends)}: {name}")
     require(ends < Fraction(3, 4) * Fraction(1, 2**26), "the end")
     proven(f"between neighbours the bound's terms without r are at most 2^{log2(ends):.2f} of the target from {name}")
+# The same for a time, of which the terms are a cubic's: on any part of a ramp t' is a sum of such squares and products.
+ends = 2 * ROUNDING * Fraction(1, 2**23) * 3 * TERMS * Fraction(1001, 1000)
+said = float(documented(r"the same\s+is at most 2⁻(\S+) of the time, as its").translate(DIGITS))
+require(abs(said + log2(ends)) <= 0.05 and ends < Fraction(3, 4) * FOR_TIME, f"the end for a time: 2^{log2(ends)}")
+proven(f"and at most 2^{log2(ends):.2f} of a time")
 open_point("that the last step stays in the bracket where the density nearly vanishes is measured, not proven")
 # Measuring r: within a sixteenth of what is asked for.
-require(Fraction(markov, 2**41) < Fraction(1, 2**30) and Fraction(markov, 2**41) > Fraction(1, 2**31), "2^-30")
-proven("what is missing is measured to 2^-30 of the target")
+require(-31 < log2(Fraction(markov, 2**41)) < -30.9, "measuring what is missing")
+proven("what is missing is measured to 2^-30.9 of the target")

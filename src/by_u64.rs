@@ -97,7 +97,9 @@ impl<const CELLS: usize> Plan<CELLS> {
     // proofs/octaves.py
     #[inline(always)]
     pub(crate) fn octave_reaches(&self, u: u64, octave: &OctaveU64, plateau: &PlateauU64) -> u32 {
-        // The octave's last word: of its top; or, from the later side, of the first `a` above half of that.
+        // The octave's last word. From side 0 it is the later of the two that a significand equal to its top stands for,
+        // since a look-up cuts what is below a significand's unit; from the later side, that of the first `a` above half
+        // of the top.
         let last = if octave.less == 0 { octave.end << 1 | 1 } else { !(octave.end + 1) };
         let words = last.wrapping_sub(octave.word(u));
         // The opening ramp ends before the plateau. On the closing one this is more than there is until 1.

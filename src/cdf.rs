@@ -14,10 +14,10 @@ use crate::units::{WHOLE, WHOLE_EXPONENT, fixed};
 const LITTLE: f32 = 0.25;
 
 /// Nearer than this to the middle of two `f32`, relative to them, pairs may not tell on which side of it a mass is. A
-/// part is measured to 2⁻⁴⁰·² of its terms (`proofs/series.py`), which may be 1083 times as great as the part
-/// (`proofs/markov.py`): so to 2⁻³⁰·¹ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
-/// middle adds 2⁻²⁷·⁵ at most: what a step of an ulp leaves, and measuring (docs/proofs.md, "The end of a search"). Together that is
-/// less than this (`proofs/cdf.py`).
+/// part is measured to 229 · 2⁻⁴⁸ of its terms (`proofs/series.py`), which may be 1083 times as great as the part
+/// (`proofs/markov.py`): so to 2⁻³⁰ of the part, and to four times that of the mass ([`LITTLE`]). The inverse of the
+/// middle adds at most 2⁻²⁷·⁷, which a step of an ulp leaves, and 2⁻³⁰·⁹ for measuring (docs/proofs.md, "The end of a
+/// search"). Together that is less than this (`proofs/cdf.py`, with the exact numbers).
 // docs/proofs.md: `cdf` never steps back
 const NEAR_MIDDLE: f32 = 2.375 / (1 << 28) as f32;
 
@@ -111,7 +111,8 @@ impl<const CELLS: usize> Plan<CELLS> {
     }
 
     /// The `f32` nearest to the fraction that is collected by `t`, here called its `mass`, in WHOLE; settled where
-    /// pairs cannot tell which that is, and always where the mass is `least_told` or less.
+    /// pairs cannot tell which that is, and always where the mass is `least_told` or less. (A subnormal answer is
+    /// rounded once more.)
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, least_told: f32, on: Option<RampPoint>) -> f32 {
         let nearest = mass.rounded();

@@ -161,8 +161,8 @@ impl Exposure {
         ]
     }
 
-    /// The same from side 0 in units of 2⁻⁶⁴, each within 2⁻⁵⁵ plus 2⁻⁴⁵ times its lesser part; 1 is all
-    /// ones.
+    /// The same from side 0 in units of 2⁻⁶⁴; 1 is all ones. What this form alone loses is within 2⁻⁵⁵ plus 2⁻⁴⁵ times
+    /// the lesser part of a join; docs/proofs.md ("An octave's look-up") has how far it is from the other form.
     pub(crate) const fn joins_u64(&self) -> [u64; 2] {
         const fn words(x: Pair, trace: u64) -> u64 {
             if x.hi >= WHOLE {

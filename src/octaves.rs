@@ -47,7 +47,8 @@ pub(crate) const fn build(
         let (top, end) = this.of_ramp(ramp, octaves, first);
         // It fits a byte, since a raised top is below 2³. Let the far ramp have `n` octaves. Its top `f` is below 1,
         // and the top of its last octave, `2 f / 2ⁿ`, is above the near ramp's end and above LEAST_TOP / 2. The near
-        // ramp's top is less than twice that end, or twice LEAST_TOP: so less than `8 f / 2ⁿ`. (If that ramp is hidden
+        // ramp's top is less than twice that end (a step beyond it and moved by six, at most 15/8), or twice LEAST_TOP:
+        // so less than `8 f / 2ⁿ`. (If that ramp is hidden
         // or empty, its top is at most 9/8 of the far ramp's beginning, or LEAST_TOP.) Raised `n` times it is below
         // `8 f`.
         tops[ramp & 1] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;

@@ -91,8 +91,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
     }
 
-    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start); never a step back. Add
-    /// the timer's own base with `wrapping_add`.
+    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start). Add the timer's own base
+    /// with `wrapping_add`. They are in order; for more than 2²² triggers that is measured, not proven.
     ///
     /// `tick_hz` is the number of ticks in one unit of the curve's time: for a curve in seconds the timer's rate in Hz,
     /// for a curve in ms a thousandth of that. No error can tell a rate that was meant for another unit.

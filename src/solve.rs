@@ -12,9 +12,11 @@
 //!
 //! After `FREE` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
 //! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted: its bound is at most
-//! 2⁻²⁷·⁷ of what is sought (docs/proofs.md, "The end of a search"). That the step stays between them is not proven:
-//! where next to no light falls, what is missing may be noise alone. No search for an `f32` is known to reach the cap; a few for ticks do. There the answer is the last place
-//! that was measured, without a proof.
+//! 2⁻²⁷·⁷ of a mass that is sought, and 2⁻³⁶·⁶ of a time (docs/proofs.md, "The end of a search"). That the step stays
+//! between them is not proven: where next to no light falls, what is missing may be noise alone. No search for an
+//! `f32` is known to reach the cap. A few for ticks do: they ask for less than the noise there, so they go on until
+//! the bracket is so narrow that a step of noise leaves it. Then the answer is the last place that was measured,
+//! without a proof.
 
 use crate::pair::{Pair, flipped};
 use crate::series::Series;
@@ -231,9 +233,9 @@ pub(crate) const fn solve<const N: usize>(
         let bits = end.to_bits() as i32;
         let is_inside = bits >= low && bits <= high;
         let error = if step.abs() <= ULP * p { accepted } else { wanted };
-        // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is proven to take 2⁻³⁰
-        // at most (proofs/solve.py, at its end, by the constant of proofs/markov.py): enough for errors of 2⁻²⁸ and
-        // more, while a tick's is finer.
+        // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is proven to take
+        // 2⁻³⁰·⁹ at most (proofs/solve.py, at its end, by the constant of proofs/markov.py): enough for errors of 2⁻²⁸
+        // and more, while a tick's is finer.
         if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             return (Pair::sum(p, way), evaluations);
         }

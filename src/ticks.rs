@@ -16,7 +16,8 @@ const DIRECT_TICKS: i32 = 24;
 /// after.
 const MOST_TICKS: i32 = 31;
 /// In frames of more triggers all are searched for. Up to here triggers are four ulp of an `f32` apart or more, so that
-/// polynomials, whose error in `u` is up to half of one, keep their order.
+/// polynomials, whose error in `u` is up to half of one, keep their order. That searches keep it, too, where triggers
+/// are closer than their proven error, is measured, not proven (docs/proofs.md).
 pub(crate) const DIRECT_TRIGGERS: u32 = 1 << 22;
 
 /// What places the triggers of one frame.

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use generator::{Disturbance, Random, Shutter, Truth, traced, truth};
+use generator::{Disturbance, Random, Shutter, Truth, each, traced, truth};
 use shutter::fit::{Fit, Kind, Options, Tolerance, Zero, fit};
 use shutter::plan::Plan;
 use shutter::trace::{self, Column, Light, Refusal, Trace, Warning};
@@ -472,9 +472,8 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
 /// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has it.
 #[test]
 fn the_exposure_is_known_without_a_plateau_too() {
-    let (mut covered, mut all) = (0.0, 0.0);
-    for seed in 0..48 {
-        let mut random = Random::new(700 + seed);
+    let covered = each(48, |seed| {
+        let mut random = Random::new(700 + u64::from(seed));
         let [start, peak, end] = [0.2, random.within(0.3, 0.6), random.within(0.65, 0.8)];
         let straight: fn(f64) -> f64 = |z| z;
         let ramp = if seed % 2 == 0 { straight } else { leaf };
@@ -486,10 +485,10 @@ fn the_exposure_is_known_without_a_plateau_too() {
         let (exposure, truth) = (fit.exposure, case.truth.exposure() * case.scale);
         assert!(exposure.error < 0.03 * truth, "{seed}: {exposure:?}");
         assert!(fit.efficiency.error < 0.1, "{seed}: {:?}", fit.efficiency);
-        covered += f64::from((exposure.value - truth).abs() <= 1.96 * exposure.error);
-        all += 1.0;
-    }
-    assert!(covered / all > 0.85, "covered: {}", covered / all);
+        (exposure.value - truth).abs() <= 1.96 * exposure.error
+    });
+    let share = covered.iter().filter(|covered| **covered).count() as f64 / covered.len() as f64;
+    assert!(share > 0.85, "covered: {share}");
 }
 
 /// A photodiode with a time constant of 60 µs in front of a 10-bit converter, 50 kHz: solved in steps of a microsecond.
@@ -552,7 +551,7 @@ fn the_scene_gives_the_same_triggers() {
 
 #[test]
 fn every_corner_of_the_control_numbers_is_a_scene() {
-    for corner in 0..16u32 {
+    each(16, |corner| {
         let controls: [f64; 4] = std::array::from_fn(|k| f64::from(corner >> k & 1));
         let ramp = move |z: f64| {
             let cubic =
@@ -572,7 +571,7 @@ fn every_corner_of_the_control_numbers_is_a_scene() {
             let options = Options { model: Some(model), ..Options::default() };
             planned(&fitted(&trace, &options).unwrap(), Zero::Trace);
         }
-    }
+    });
 }
 
 #[test]

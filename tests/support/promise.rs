@@ -248,7 +248,9 @@ pub struct Questions<'a> {
     /// In order.
     ts: Vec<(f32, Near<'a>)>,
     frames: Vec<Frame>,
+    /// Of plain ones those in turn go with a frame; the greatest that are allowed go with each.
     rates: Vec<u32>,
+    greatest: Vec<u32>,
     /// Is the forward error promised?
     is_typical: bool,
 }
@@ -386,13 +388,13 @@ impl<'a> Questions<'a> {
             }
         }
         // What is allowed: up to 2^31 ticks.
-        let all = RATES.into_iter().enumerate();
-        let few =
-            all.filter(|(i, _)| *i < 4 || (*i + reach.turn).is_multiple_of(2)).map(|(_, hz)| hz);
-        let longest = [DIRECT_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
-        let mut rates: Vec<u32> = few.chain(longest).collect();
-        rates.retain(|hz| *hz > 0 && f64::from(*hz) * length <= exp2(31));
-        Self { us, ts, frames, rates, is_typical: reach.is_typical }
+        let allowed = |hz: &u32| *hz > 0 && f64::from(*hz) * length <= exp2(31);
+        let greatest = [DIRECT_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
+        let greatest = greatest.into_iter().filter(allowed).collect();
+        let mut rates = RATES;
+        rates.rotate_left(reach.turn % RATES.len());
+        let rates = rates.into_iter().filter(allowed).collect();
+        Self { us, ts, frames, rates, greatest, is_typical: reach.is_typical }
     }
 }
 
@@ -421,7 +423,8 @@ impl<'a> Questions<'a> {
         us.sort_by(f32::total_cmp);
         us.dedup();
         let us = timed(exact, &us);
-        Self { us, ts: Vec::new(), frames: list, rates: vec![hz.max(1)], is_typical: false }
+        let greatest = vec![hz.max(1)];
+        Self { us, ts: vec![], frames: list, rates: vec![], greatest, is_typical: false }
     }
 }
 
@@ -432,8 +435,9 @@ impl Figures {
         let ours = shutter::<CELLS>(curve);
         self.fractions(exact, &ours, questions);
         self.direct(exact, &ours);
-        for hz in &questions.rates {
-            for frame in &questions.frames {
+        for (i, frame) in questions.frames.iter().enumerate() {
+            let in_turn = questions.rates.iter().skip(i % 2).step_by(2);
+            for hz in in_turn.chain(&questions.greatest) {
                 self.frame(exact, &ours, frame, *hz);
             }
         }

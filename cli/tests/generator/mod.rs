@@ -7,6 +7,17 @@ pub mod fresh;
 #[allow(dead_code)]
 pub mod physics;
 
+/// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
+#[allow(dead_code)]
+pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
+    let half = |from: u32, to: u32| (from..to).map(&of).collect::<Vec<T>>();
+    std::thread::scope(|scope| {
+        let first = scope.spawn(|| half(0, n / 2));
+        let second = half(n / 2, n);
+        first.join().expect("its panic has been printed").into_iter().chain(second).collect()
+    })
+}
+
 /// Random numbers: Marsaglia's xorshift, seeded.
 pub struct Random(u64);
 
