@@ -22,6 +22,8 @@ pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
 /// In ticks: where the interval has at most [`DIRECT_TICKS`], and where it has more.
 pub const TICKS: [f64; 2] = [0.75, 0.501];
 pub const DIRECT_TICKS: f64 = (1 << 24) as f64;
+/// Frames of more triggers are searched for.
+const DIRECT_TRIGGERS: u32 = 1 << 22;
 /// The rates of timers that a design is asked for, in ticks per unit of its time: plain ones, and primes.
 pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_983];
 /// Of the mass, for one u: as many as any search is known to take. What takes more has wandered.
@@ -435,10 +437,16 @@ impl Figures {
         let ours = shutter::<CELLS>(curve);
         self.fractions(exact, &ours, questions);
         self.direct(exact, &ours);
+        let [start, end] = [curve.open_start(), curve.close_end()].map(f64::from);
         for (i, frame) in questions.frames.iter().enumerate() {
             let in_turn = questions.rates.iter().skip(i % 2).step_by(2);
             for hz in in_turn.chain(&questions.greatest) {
-                self.frame(exact, &ours, frame, *hz);
+                // What no octave answers is the same for every `CELLS`: all of it is asked for once, and a part again.
+                let ticks = (end - start) * f64::from(*hz);
+                let is_searched = frame.n > DIRECT_TRIGGERS || ticks > DIRECT_TICKS;
+                if CELLS == 0 || !is_searched || i % 5 == CELLS % 5 {
+                    self.frame(exact, &ours, frame, *hz);
+                }
             }
         }
         if CELLS == 8 {
