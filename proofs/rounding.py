@@ -73,7 +73,7 @@ def wrong(p, halves, careful, most=(3, 8)):
     for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
         # Half an ulp is 2^(unit - 1).
         lo = np.concatenate([los[np.abs(los) <= halves << (unit - 1)], [0]])
-        base, lo = np.meshgrid(bases, lo, indexing="ij")
+        base, lo = bases[:, None], lo[None, :]
         total = rounded(base + hi, p)
         left = base + hi - total
         if careful:
@@ -120,7 +120,7 @@ def wrong_below(p, halves, by_all=True):
         bases = np.concatenate([numbers(p, range(unit - p - 1, unit + p + 2)), [0]])
         bases = bases[(bases % (1 << place) == 0) & (np.abs(bases) <= 4 * least)]
         for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
-            base, low = np.meshgrid(bases, lo, indexing="ij")
+            base, low = bases[:, None], lo[None, :]
             near = rounded(base + hi, p)
             left = base + hi - near
             rough = rounded(near + rounded(left + low, p), p) if by_all else near
