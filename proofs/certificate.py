@@ -264,6 +264,71 @@ require((1 - U) ** most * SLACK >= 1, f"{most} roundings")
 require((1 - U) ** most * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
 proven(f"SLACK, {float(allowed):g} roundings, is more than the {float(count):.1f} that make a tail's bound too small at most, and the {float(spoilt):.1f} of the samples' places")
 
+# --- WEIGHT_OFF: what rounds the value of a weight, as a share of what `Limits::share` multiplies it with.
+code("const fn single(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {", "c0 + x * (c1 + x * (c2 + x * c3)) }")
+code("let error = error * single(&weights[kind], place as f32 / PLACE).abs();", "")
+code("let per_size = [", """single_step / self.size_of_time(ends[0]) / FORWARD_ERROR,
+    single_step / self.size_of_time(ends[1]) / FORWARD_ERROR, ];""")
+code("let [f0, f1, f2, f3, ..] = singles(&along.openness, 0.0, per_exposure);", "")
+code("let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);", """
+    let mean = 0.5 * (per_size[0] + per_size[1]);
+    let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];""")
+code("let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];", "")
+code("let error = time + self.rounding;", "let rounding = self.rounding + error * WEIGHT_OFF;")
+code("relative + rounding * self.per_size,", "exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,")
+weight_off = 1 / Fraction(2 ** int(source(r"const WEIGHT_OFF: f32 = 1\.0 / \(1 << (\d+)\) as f32;"))) / U
+# What roundings are of second order, and those of doubles.
+MORE = Fraction(1001, 1000)
+# What rounds samples grows with the share by which a bound is divided; but so does the error, by the greatest of the shares at least.
+grows = max(
+    Fraction(COSINES[HALF_DEGREE * step], COSINES[half * step])
+    for step in STEPS for half in range(HALF_DEGREE, HALF_DEGREE + DEGREES) if half * step < len(COSINES) - 1)
+# By Horner's rule, for each coefficient: its products, its sums, and the place, rounded to an f32, in each product.
+HORNER = [2 * k + min(k + 1, weight) for k in range(WEIGHT)]
+openness_off = (grows * max(HORNER) + 1) * MORE
+require(openness_off <= weight_off, f"openness: {float(openness_off)} roundings")
+require(HORNER == [1, 4, 7, 9], "roundings of Horner's rule")
+
+
+# The chord's coefficients without signs, where the time t1 s + t2 s^2 + t3 s^3 rises: seen at 17 places, and but for what rounds it.
+t1, t2, t3 = z3.Reals("t1 t2 t3")
+
+
+def size(x):
+    return z3.If(x < 0, -x, x)
+
+
+def in_chord(claim, places=8):
+    """Does it hold of all times that rise from -1 to 1? Half of what they take is their unit."""
+    solver = z3.Solver()
+    solver.add(t1 + t3 == 1, z3.Not(claim))
+    for i in range(-places, places + 1):
+        at = z3.Q(i, places)
+        solver.add(t1 + 2 * t2 * at + 3 * t3 * at * at >= z3.Q(-1, 1024))
+    return solver.check() == z3.unsat
+
+
+def chord_off(lesser):
+    """Roundings of the chord between 1 and a lesser reciprocal, in those of the greater one."""
+    mean, slope = z3.Q(1 + lesser, 2), z3.Q(1 - lesser, 2)
+    c = [mean + slope * size(t2)] + [slope * size(t) for t in (t1, t2, t3)]
+    samples = z3.Sum([n * one for n, one in zip(HORNER, c)])
+    # Its own: of a reciprocal 3, by the time's size and two quotients; of the mean and of c0 one each; of what is a slope times a time
+    # 5, and ENDS for the sum of two times that the slope is divided by.
+    own = 3 + mean + c[0] + (5 + ENDS) * slope * (size(t1) + 2 * size(t2) + size(t3))
+    return (samples * z3.Q(grows.numerator, grows.denominator) + own) * z3.Q(MORE.numerator, MORE.denominator)
+
+
+ENDS = z3.Q(201, 100)
+require(in_chord(size(t1) + size(t3) <= ENDS) and not in_chord(size(t1) + size(t3) <= z3.Q(199, 100)), "t1 and t3, beside their sum")
+# It is convex in the lesser reciprocal, which is from 0 to 1 of the greater.
+most = z3.Q(weight_off.numerator, weight_off.denominator)
+require(all(in_chord(chord_off(lesser) <= most) for lesser in (0, 1)), "what rounds the chord")
+# What would not do: half as much, and a time of which nothing is seen but both ends and the middle.
+require(not in_chord(chord_off(0) <= most / 2) and not in_chord(chord_off(0) <= most, places=1), "the chord, by less")
+chord_most = next(n for n in range(int(weight_off) + 1) if in_chord(chord_off(0) <= n))
+proven(f"what rounds a weight is at most {float(openness_off):.1f} roundings of 2^-24 of the openness's coefficients without signs, and {chord_most} of the greater reciprocal: within WEIGHT_OFF, {float(weight_off):g}")
+
 # --- What a fraction may be off by: `OFF`.
 off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
 terms, roundings = (int(x) for x in source(r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))

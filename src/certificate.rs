@@ -28,9 +28,9 @@ const MOST_OFFSET: f32 = 0.4999;
 // proofs/certificate.py has their product
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// What rounds the value of a weight, as a share of its coefficients without signs: 10 roundings of an `f32` are less
-/// than a sixth of this. (The chord of reciprocals is charged by the greater reciprocal alone. Its coefficients without
-/// signs are together at most twice that, on paper.)
+/// What rounds the value of a weight, as a share of its coefficients without signs; of the chord of reciprocals, as a
+/// share of the greater one.
+// proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
 /// 1, but for what single precision rounds.

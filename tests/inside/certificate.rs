@@ -6,7 +6,7 @@ use crate::certificate::{FORWARD_ERROR, OFF, TICK_ERROR, ULP_ERROR};
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
 use crate::octaves::{build, range};
-use crate::path::{Path, Side};
+use crate::path::{Path, Side, value};
 use crate::shape::Shape;
 use crate::span::Span;
 use crate::support::aimed::{FAMILIES, aimed};
@@ -176,6 +176,50 @@ fn a_certificate_is_never_below_the_truth() {
         judge(name, &mut (0..25 * times).map(|i| aimed(family, 31, i)));
     }
     assert!(all > 10_000, "only {all} octaves");
+}
+
+/// A stretch on which an offset would leave its word is refused, whichever way it leaves: its samples would be those of another polynomial.
+#[test]
+fn an_offset_beyond_its_word_is_refused() {
+    let thirds = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+    let opening = std::array::from_fn(|k| (thirds[k], thirds[k]));
+    let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
+    let ramps = [opening, closing].map(CubicBezier::new);
+    let exposure = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
+    let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
+    let unit = time_unit(exposure.outer(0), exposure.outer(1));
+    let mut judged = 0;
+    for side in 0..2 {
+        let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
+        let mut octaves = [Octave::NONE; 8];
+        let tops = build(&exposure, &shapes, unit, side, &mut octaves);
+        for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
+            let Some(span) = Span::new(range(&exposure, side, side), below(top(tops[side]), index))
+            else {
+                continue;
+            };
+            let path = this.path(side);
+            let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
+            let places = [path.place(ends[0], false), path.place(ends[1], true)];
+            let stretch = span.counted(path.stretch(places));
+            let candidate = this.candidate(&span, &stretch).expect("it was built");
+            let (center, per_position) = span.offsets();
+            let offset =
+                |along: &Path, place| (value(&along.fraction, place) - center) * per_position;
+            for to in [0.4998, 0.49991, 0.51, 0.75, 1.0, 1.5] {
+                for end in [-1.0, 1.0] {
+                    // Moved until its end is there.
+                    let mut moved = stretch;
+                    moved.fraction[0] += (end * to - offset(&stretch, end)) / per_position;
+                    let bounds = this.certificate(&candidate, &span, moved, side, places);
+                    let is_refused = bounds == [f32::INFINITY; 4];
+                    assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
+                    judged += 1;
+                }
+            }
+        }
+    }
+    assert!(judged > 0, "no octave");
 }
 
 /// Without a plateau, what an error may add on the other ramp is bounded by the openness there: by no less than it is anywhere within
