@@ -277,7 +277,7 @@ code("let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];", "")
 code("let error = time + self.rounding;", "let rounding = self.rounding + error * WEIGHT_OFF;")
 code("relative + rounding * self.per_size,", "exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,")
 weight_off = 1 / Fraction(2 ** int(source(r"const WEIGHT_OFF: f32 = 1\.0 / \(1 << (\d+)\) as f32;"))) / U
-# What roundings are of second order, and those of doubles.
+# Makes up for roundings of roundings, and for those of doubles.
 MORE = Fraction(1001, 1000)
 # What rounds samples grows with the share by which a bound is divided; but so does the error, by the greatest of the shares at least.
 grows = max(
@@ -294,7 +294,7 @@ require(HORNER == [1, 4, 7, 9], "roundings of Horner's rule")
 t1, t2, t3 = z3.Reals("t1 t2 t3")
 
 
-def size(x):
+def without_sign(x):
     return z3.If(x < 0, -x, x)
 
 
@@ -311,17 +311,17 @@ def in_chord(claim, places=8):
 def chord_off(lesser):
     """Roundings of the chord between 1 and a lesser reciprocal, in those of the greater one."""
     mean, slope = z3.Q(1 + lesser, 2), z3.Q(1 - lesser, 2)
-    c = [mean + slope * size(t2)] + [slope * size(t) for t in (t1, t2, t3)]
+    c = [mean + slope * without_sign(t2)] + [slope * without_sign(t) for t in (t1, t2, t3)]
     samples = z3.Sum([n * one for n, one in zip(HORNER, c)])
     # Its own: of a reciprocal 3, by the time's size and two quotients; of the mean and of c0 one each; of what is a slope times a time
     # 5, and ENDS for the sum of two times that the slope is divided by.
-    own = 3 + mean + c[0] + (5 + ENDS) * slope * (size(t1) + 2 * size(t2) + size(t3))
+    own = 3 + mean + c[0] + (5 + ENDS) * slope * (without_sign(t1) + 2 * without_sign(t2) + without_sign(t3))
     return (samples * z3.Q(grows.numerator, grows.denominator) + own) * z3.Q(MORE.numerator, MORE.denominator)
 
 
 ENDS = z3.Q(201, 100)
-require(in_chord(size(t1) + size(t3) <= ENDS) and not in_chord(size(t1) + size(t3) <= z3.Q(199, 100)), "t1 and t3, beside their sum")
-# It is convex in the lesser reciprocal, which is from 0 to 1 of the greater.
+require(in_chord(without_sign(t1) + without_sign(t3) <= ENDS) and not in_chord(without_sign(t1) + without_sign(t3) <= z3.Q(199, 100)), "t1 and t3, beside their sum")
+# It is linear in the lesser reciprocal, which is from 0 to 1 of the greater: both ends are enough.
 most = z3.Q(weight_off.numerator, weight_off.denominator)
 require(all(in_chord(chord_off(lesser) <= most) for lesser in (0, 1)), "what rounds the chord")
 # What would not do: half as much, and a time of which nothing is seen but both ends and the middle.

@@ -1,7 +1,7 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
 use crate::bezier::CubicBezier;
-use crate::candidate::NODES;
+use crate::candidate::{Candidate, NODES};
 use crate::certificate::{FORWARD_ERROR, OFF, TICK_ERROR, ULP_ERROR};
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
@@ -64,6 +64,14 @@ impl Truth {
 }
 
 impl Side<'_> {
+    /// What was built of a span: the polynomial, the stretch that it is held against, and the places where that lies.
+    fn built(&self, span: &Span, path: &Path) -> (Candidate, Path, [f64; 2]) {
+        let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
+        let places = [path.place(ends[0], false), path.place(ends[1], true)];
+        let stretch = span.counted(path.stretch(places));
+        (self.candidate(span, &stretch).expect("it was built"), stretch, places)
+    }
+
     #[allow(clippy::too_many_arguments)]
     fn judge(
         &self,
@@ -75,10 +83,7 @@ impl Side<'_> {
         samples: u32,
         greatest: &mut [f64; 3],
     ) {
-        let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
-        let places = [path.place(ends[0], false), path.place(ends[1], true)];
-        let stretch = span.counted(path.stretch(places));
-        let candidate = self.candidate(span, &stretch).expect("it was built");
+        let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = self.certificate(&candidate, span, stretch, ramp, places).map(f64::from);
         let interval = f64::from(self.exposure.outer(1)) - f64::from(self.exposure.outer(0));
@@ -198,11 +203,7 @@ fn an_offset_beyond_its_word_is_refused() {
             else {
                 continue;
             };
-            let path = this.path(side);
-            let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
-            let places = [path.place(ends[0], false), path.place(ends[1], true)];
-            let stretch = span.counted(path.stretch(places));
-            let candidate = this.candidate(&span, &stretch).expect("it was built");
+            let (candidate, stretch, places) = this.built(&span, &this.path(side));
             let (center, per_position) = span.offsets();
             let offset =
                 |along: &Path, place| (value(&along.fraction, place) - center) * per_position;

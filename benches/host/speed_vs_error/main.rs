@@ -13,6 +13,7 @@ mod report;
 mod search;
 #[path = "../../../tests/support/mod.rs"]
 mod support;
+mod sweep;
 mod sweep_t;
 mod sweep_u;
 mod table;

@@ -2,11 +2,11 @@
 
 use shutter_curve::ShutterCurve;
 
-use crate::every_f32::{CHUNK, SAMPLED, Sweep, in_parts};
 use crate::follower::Follower;
 use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, exp2, ulp_f32};
 use crate::support::promise::CDF_FLOOR;
+use crate::sweep::{CHUNK, SAMPLED, Sweep, in_parts};
 
 /// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of so
 /// many is taken, in stretches of neighbours.

@@ -1,9 +1,9 @@
 //! The inverse at every `u`.
 
-use crate::every_f32::{SAMPLED, Sweep, in_parts};
 use crate::follower::Follower;
 use crate::support::cases::shutter;
 use crate::support::oracle::{Curve, Exact, rounding_cell, ulp_f32};
+use crate::sweep::{SAMPLED, Sweep, in_parts};
 
 /// As the report knows it.
 pub const INVERSE: &str = "inverse_cdf";
