@@ -21,12 +21,12 @@ const SLOW: f32 = 0.25 * LENGTH / LAST_PLACE;
 /// A point of a ramp, found by its time: its place from the end that faces a side.
 pub(crate) struct RampPoint<'a> {
     ramp: &'a Ramp,
-    pub(crate) side: usize,
+    side: usize,
     place: Pair,
 }
 
 impl Ramp {
-    /// Where the ramp is at `t`, which lies on it.
+    /// Where the ramp is at `t`, which lies on it and [`on_grid`](Self::on_grid).
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
         let (side, way) = self.since(t);
@@ -41,7 +41,6 @@ impl Ramp {
     #[inline(always)]
     const fn since(&self, t: f32) -> (usize, Pair) {
         let [start, end] = [self.time(0), self.time(1)];
-        let t = if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t };
         let side = (t - start > end - t) as usize;
         let way = if side == 0 { Pair::sum(t, -start) } else { Pair::sum(end, -t) };
         (side, way.shifted(-self.unit()))
@@ -54,10 +53,11 @@ impl Ramp {
         quick_place([c[0], c[1], last], target, FOR_TIME * target.hi)
     }
 
+    /// From which side a time is counted, and whether a few steps lead to its place.
     #[cfg(test)]
-    pub(crate) fn is_quick(&self, t: f32) -> bool {
-        let (side, target) = self.since(t);
-        self.quick_place(side, target).is_some()
+    pub(crate) fn way(&self, t: f32) -> (usize, bool) {
+        let (side, target) = self.since(self.on_grid(t));
+        (side, self.quick_place(side, target).is_some())
     }
 
     /// The same by a search.
@@ -88,7 +88,7 @@ impl Ramp {
     /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
     #[inline(never)]
     pub(crate) fn openness_at(&self, t: f32) -> (Pair, i32) {
-        let RampPoint { side, place, .. } = self.at_time(t);
+        let RampPoint { side, place, .. } = self.at_time(self.on_grid(t));
         let [f0, f1, f2, f3] = self.openness;
         let f = if side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
         // Scaled so that the second halves of all coefficients that count, and their products with the least place,
@@ -105,29 +105,49 @@ impl Ramp {
 }
 
 impl RampPoint<'_> {
-    /// The fraction collected between the end that faces the side and here, in [`WHOLE`](crate::units::WHOLE).
+    /// The place from the ramp's start. (A time nearer to the end is at least an eighteenth of the ramp from there.)
+    #[inline(always)]
+    const fn from_start(&self) -> Pair {
+        let Pair { hi, lo } = self.place;
+        if self.side == 0 {
+            return self.place;
+        }
+        let rest = Pair::sum(LAST_PLACE, -hi);
+        Pair::sum(rest.hi, rest.lo - lo)
+    }
+
+    /// The fraction collected from the ramp's start until here, in [`WHOLE`](crate::units::WHOLE).
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
-        let mass = self.ramp.mass_since(self.side).at_pair_unrolled(self.place);
+        let mass = self.ramp.mass_since(0).at_pair_unrolled(self.from_start());
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
     /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is
-    /// next to it: what [`Series::at_pair`] loses of the terms from either's end.
+    /// next to it: what [`Series::at_pair`] loses of the terms from either end, twice, for the step of the search.
     // proofs/series.py
     pub(crate) fn noise(&self, side: usize) -> f32 {
+        let from_start = self.from_start().hi;
         let terms = |side: usize| {
-            let x = if side == self.side { self.place.hi } else { LAST_PLACE - self.place.hi };
+            let x = if side == 0 { from_start } else { LAST_PLACE - from_start };
             let c = self.ramp.mass_in_single(side);
             c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
         };
-        let terms = terms(self.side) + terms(side);
-        terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 40) as f32
+        let terms = terms(0) + terms(side);
+        terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32
     }
 }
 
-/// A time on a ramp that runs across time 0, moved by at most half an ulp of the farther end, onto a multiple of a
-/// quarter, a half or all of it: next to 0, `f32` are denser than a search is exact.
+impl Ramp {
+    /// A time on a ramp. If that runs across time 0, where `f32` are denser than a search is exact, it is moved by at most
+    /// half an ulp of the farther end, onto a multiple of a quarter, a half or all of that.
+    #[inline(always)]
+    pub(crate) const fn on_grid(&self, t: f32) -> f32 {
+        let [start, end] = [self.time(0), self.time(1)];
+        if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t }
+    }
+}
+
 #[inline(never)]
 const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     let near = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));

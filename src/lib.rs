@@ -48,7 +48,6 @@
 //            and pulses.
 mod bezier;
 mod bound;
-mod by_octave;
 mod by_time;
 mod by_u64;
 mod candidate;

@@ -251,7 +251,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     pub fn cdf(&self, t: f32) -> f32 {
-        self.plan.cdf(t)
+        self.plan.exposure.cdf(t)
     }
 
     /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.

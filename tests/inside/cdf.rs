@@ -1,10 +1,11 @@
-//! Where one way to a `cdf` follows another: octaves, a quick place, a search and the plateau.
+//! The `cdf` where one way to it follows another: places found from either end of a ramp, by a few steps or by a search;
+//! the plateau; the join of two ramps; time 0.
 
 use crate::ShutterCurve;
-use crate::plan::Plan;
+use crate::exposure::Exposure;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::cases::shutter;
-use crate::support::curves::{named, random_hard, random_typical};
+use crate::support::curves::{Rng, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
 use crate::support::promise::{CDF_FLOOR, VALUE};
 
@@ -13,45 +14,31 @@ use crate::support::promise::{CDF_FLOOR, VALUE};
 enum Way {
     Outside,
     Plateau,
-    Octave(usize, usize),
-    Quick(usize),
-    Search(usize),
+    Ramp { ramp: usize, side: usize, is_quick: bool },
 }
 
-const WAYS: [&str; 10] = [
+const CHANGES: [&str; 7] = [
     "an end",
-    "plateau to octave",
     "plateau to place",
     "plateau to search",
-    "octave to octave",
-    "side to side",
-    "octave to place",
-    "octave to search",
+    "ramp to ramp",
+    "end to end",
     "place to search",
     "across time 0",
 ];
 
-impl<const CELLS: usize> Plan<CELLS> {
-    fn way(&self, t: f32) -> Way {
-        let exposure = &self.exposure;
-        let [start, open, close, end] =
-            [exposure.outer(0), exposure.inner(0), exposure.inner(1), exposure.outer(1)];
-        if !(t >= start && t <= end) {
-            return Way::Outside;
-        }
-        if open < close && t >= open && t <= close {
-            return Way::Plateau;
-        }
-        let ramp = (t > open || t == open && start == open) as usize;
-        if let Some(u) = self.cdf_by_octave(ramp, t) {
-            let (side, a) = Self::nearer(u);
-            let (octave, _) =
-                self.look_up(side, ramp, a).expect("an octave's answer is looked up there");
-            let place = self.octaves[side].iter().position(|one| core::ptr::eq(one, octave));
-            return Way::Octave(side, place.expect("one of the side's"));
-        }
-        if exposure.ramp(ramp).is_quick(t) { Way::Quick(ramp) } else { Way::Search(ramp) }
+fn way(exposure: &Exposure, t: f32) -> Way {
+    let [start, open, close, end] =
+        [exposure.outer(0), exposure.inner(0), exposure.inner(1), exposure.outer(1)];
+    if !(t >= start && t <= end) {
+        return Way::Outside;
     }
+    if open < close && t >= open && t <= close {
+        return Way::Plateau;
+    }
+    let ramp = (t > open || t == open && start == open) as usize;
+    let (side, is_quick) = exposure.ramp(ramp).way(t);
+    Way::Ramp { ramp, side, is_quick }
 }
 
 /// Which change it is, by the names above.
@@ -60,19 +47,18 @@ fn change(ways: [Way; 2]) -> usize {
     ways.sort_unstable();
     match ways {
         [Way::Outside, _] => 0,
-        [Way::Plateau, Way::Octave(..)] => 1,
-        [Way::Plateau, Way::Quick(_)] => 2,
-        [Way::Plateau, _] => 3,
-        [Way::Octave(one, _), Way::Octave(other, _)] => 4 + usize::from(one != other),
-        [Way::Octave(..), Way::Quick(_)] => 6,
-        [Way::Octave(..), _] => 7,
-        _ => 8,
+        [Way::Plateau, Way::Ramp { is_quick: true, .. }] => 1,
+        [Way::Plateau, _] => 2,
+        [Way::Ramp { ramp, side, .. }, Way::Ramp { ramp: other, side: from, .. }] => {
+            if ramp != other { 3 } else if side != from { 4 } else { 5 }
+        }
+        _ => unreachable!(),
     }
 }
 
 /// Walks so many neighbours around each change of way that so many samples show, and judges order and error.
-fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, seen: &mut [u32; 10]) {
-    let [start, end] = [plan.exposure.outer(0), plan.exposure.outer(1)];
+fn walk(exact: &Exact, exposure: &Exposure, samples: u32, seen: &mut [u32; 7]) {
+    let [start, end] = [exposure.outer(0), exposure.outer(1)];
     let length = f64::from(end) - f64::from(start);
     let mut ts: Vec<f32> = (0..=samples)
         .map(|i| (f64::from(start) + length * f64::from(i) / f64::from(samples)) as f32)
@@ -83,19 +69,19 @@ fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, see
     let mut starts: Vec<(f32, usize)> = Vec::new();
     for pair in ts.windows(2) {
         let (mut low, mut high) = (pair[0], pair[1]);
-        let first = plan.way(low);
-        if first == plan.way(high) {
+        let first = way(exposure, low);
+        if first == way(exposure, high) {
             continue;
         }
         // The last time that has the way of the first, by halves.
         while low.next_up() < high {
             let middle = (low / 2.0 + high / 2.0).clamp(low.next_up(), high.next_down());
-            *(if plan.way(middle) == first { &mut low } else { &mut high }) = middle;
+            *(if way(exposure, middle) == first { &mut low } else { &mut high }) = middle;
         }
-        starts.push((low, change([first, plan.way(high)])));
+        starts.push((low, change([first, way(exposure, high)])));
     }
     if start < 0.0 && end > 0.0 {
-        starts.push((0.0, 9));
+        starts.push((0.0, 6));
     }
     for (middle, change) in starts {
         seen[change] += 1;
@@ -105,11 +91,11 @@ fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, see
         }
         let mut last = 0.0;
         for i in 0..80 {
-            let cdf = plan.cdf(t);
+            let cdf = exposure.cdf(t);
             assert!(
                 cdf >= last,
                 "{cdf:e} after {last:e} at {t:e}, {}, of {:?}",
-                WAYS[change],
+                CHANGES[change],
                 exact.curve()
             );
             if (30..50).contains(&i) && t >= start && t <= end {
@@ -117,7 +103,7 @@ fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, see
                 assert!(
                     error <= VALUE,
                     "{error} ulp at {t:e}, {}, of {:?}",
-                    WAYS[change],
+                    CHANGES[change],
                     exact.curve()
                 );
             }
@@ -126,16 +112,29 @@ fn walk<const CELLS: usize>(exact: &Exact, plan: &Plan<CELLS>, samples: u32, see
     }
 }
 
-fn walk_on(curve: &Curve, samples: u32, seen: &mut [u32; 10]) {
-    let exact = Exact::new(curve);
-    let (eight, none): (ShutterCurve<8>, ShutterCurve<0>) = (shutter(curve), shutter(curve));
-    walk(&exact, &eight.plan, samples, seen);
-    walk(&exact, &none.plan, samples, seen);
+fn walk_on(curve: &Curve, samples: u32, seen: &mut [u32; 7]) {
+    let ours: ShutterCurve<0> = shutter(curve);
+    walk(&Exact::new(curve), &ours.plan.exposure, samples, seen);
+}
+
+/// No plateau, and a ramp across time 0: at the join the time is exact, and next to it rounded to a multiple. Plain
+/// decimals, and whole ramps of random length.
+fn joined_across_0(rng: &mut Rng) -> Curve {
+    let mut decimal = |most| 0.001 * (1 + rng.below(most)) as f64;
+    let (open, join, end) = (decimal(4000), decimal(4000), decimal(6000));
+    let inner = [0.5, 0.5, 0.25, 0.75][rng.below(4) as usize];
+    let ramp = |from: f64, to: f64, [f, g]: [f32; 2]| {
+        let at = |share: f64| (from + (to - from) * share) as f32;
+        [(from as f32, f), (at(inner), f), (at(1.0 - inner), g), (to as f32, g)]
+    };
+    let (start, join) = (-join - open, -join);
+    let curve = Curve::shutter(ramp(start, join, [0.0, 1.0]), ramp(join, end, [1.0, 0.0]));
+    if rng.below(2) == 0 { curve } else { curve.mirrored() }
 }
 
 #[test]
 fn no_step_back_and_no_error_where_one_way_follows_another() {
-    let mut seen = [0; 10];
+    let mut seen = [0; 7];
     for one in named() {
         walk_on(&one.curve, 2000, &mut seen);
     }
@@ -148,8 +147,16 @@ fn no_step_back_and_no_error_where_one_way_follows_another() {
             walk_on(&aimed(family, 25, i), 300, &mut seen);
         }
     }
-    for (way, seen) in WAYS.iter().zip(seen) {
-        println!("{way}: {seen}");
-        assert!(seen > 0, "{way} not seen");
+    // The first on which a cdf stepped back at the join.
+    let opening = [(-3.42, 0.0), (-1.89, 0.0), (-1.89, 1.0), (-0.36, 1.0)];
+    let closing = [(-0.36, 1.0), (1.395, 1.0), (1.395, 0.0), (3.15, 0.0)];
+    walk_on(&Curve::shutter(opening, closing), 300, &mut seen);
+    let mut rng = Rng::new(25, 0);
+    for _ in 0..1000 {
+        walk_on(&joined_across_0(&mut rng), 20, &mut seen);
+    }
+    for (change, seen) in CHANGES.iter().zip(seen) {
+        println!("{change}: {seen}");
+        assert!(seen > 0, "{change} not seen");
     }
 }
