@@ -86,28 +86,6 @@ impl<const CELLS: usize> Plan<CELLS> {
         let factor = ((1 << (octave.center & FINER)) ^ back).wrapping_sub(back);
         Some(Direct::Octave(OctaveU64 { octave, less, zeros, end, ahead, factor }))
     }
-
-    /// How much greater than a `u` on the plateau's line another may be and still be on it, in 2⁻³², rounded down.
-    #[inline(always)]
-    pub(crate) fn line_reaches(&self, u: u64, plateau: &PlateauU64) -> u32 {
-        (plateau.last.wrapping_sub(u) >> 32) as u32
-    }
-
-    /// The same for an octave that answers `u`.
-    // proofs/octaves.py
-    #[inline(always)]
-    pub(crate) fn octave_reaches(&self, u: u64, octave: &OctaveU64, plateau: &PlateauU64) -> u32 {
-        // The octave's last word. From side 0 it is the later of the two that a significand equal to its top stands for,
-        // since a look-up cuts what is below a significand's unit; from the later side, that of the first `a` above half
-        // of the top.
-        let last = if octave.less == 0 { octave.end << 1 | 1 } else { !(octave.end + 1) };
-        let words = last.wrapping_sub(octave.word(u));
-        // The opening ramp ends before the plateau. On the closing one this is more than there is until 1.
-        let ramp = plateau.last.wrapping_sub(plateau.count).wrapping_sub(u);
-        // Until 1/2, or until 1.
-        let side = !((u >> 32) as u32) & (u32::MAX >> 1);
-        (words >> 1 >> octave.zeros).min((ramp >> 32) as u32).min(side)
-    }
 }
 
 impl OctaveU64<'_> {

@@ -53,33 +53,6 @@ impl Fractions {
         if edge.is_off { middle.wrapping_add(edge.half) } else { middle.wrapping_sub(edge.half) }
     }
 
-    /// The fraction `odd / 2n` as [`in_u64`](Self::in_u64) has it, and the upper words of those from there on.
-    // proofs/shares.py: words
-    #[inline(always)]
-    pub(crate) fn words(&self, odd: u32) -> (u64, Words) {
-        let u = self.in_u64(odd, &Edge::TRIGGER);
-        let below = (u << 32) | self.rest.wrapping_mul(odd) as u64;
-        let share = (self.half_share << 1) | (self.rest >> 31) as u64;
-        let share = ((share >> 32) as u32, (share << 32) | (self.rest << 1) as u64);
-        (u, Words { word: (u >> 32) as u32, below, share })
-    }
-
-    /// How many fractions in a row, the first included, surely lie within `reach` units of 2⁻³² of the first.
-    // proofs/shares.py: within
-    #[inline(always)]
-    pub(crate) fn within(&self, reach: u32) -> u32 {
-        // With one trigger its share, which is all, becomes 0 here, and the count says nothing: there is one place to fill.
-        let more_than_share = ((self.half_share >> 31) as u32).wrapping_add(1);
-        reach.checked_div(more_than_share).unwrap_or(0).saturating_add(1)
-    }
-
-    /// Does an octave whose power of two has so many leading zeros hold more than two fractions, mostly four or more?
-    /// Where there are fewer, asking what they have in common costs more than it saves (docs/tried.md).
-    #[inline(always)]
-    pub(crate) fn are_many(&self, zeros: u32) -> bool {
-        zeros + 3 < self.half_share.leading_zeros()
-    }
-
     /// The fraction `odd / 2n`, or half a pulse before or after it, counted from its nearer side, in
     /// [`WHOLE`](crate::units::WHOLE), to 2⁻⁴⁵; in frames of more than 2²⁵ pulses that nearly touch, the first end to
     /// 2⁻³⁸ (`proofs/shares.py`).
@@ -120,40 +93,5 @@ impl Fractions {
         let half = (half_share * significand as u128).checked_shr(down).unwrap_or(0);
         let edge = |is_off| Edge { half: (half >> 32) as u64, rest: half as u32, is_off };
         [edge(false), edge(true)]
-    }
-}
-
-/// The upper words of fractions that follow each other, by sums of 96 bits.
-pub(crate) struct Words {
-    pub(crate) word: u32,
-    /// The 64 bits below the word.
-    below: u64,
-    /// What is added to both.
-    share: (u32, u64),
-}
-
-impl Words {
-    /// The same words after `less` units of 2⁻⁶⁴ are subtracted from each fraction, the rest is moved up by `bits + 1`
-    /// bits, and `ahead` is added to what is then the upper word.
-    #[inline(always)]
-    pub(crate) fn moved(self, bits: u32, less: u32, ahead: u32) -> Self {
-        let up = |word: u32, below: u64| {
-            let (middle, low) = ((below >> 32) as u32, below as u32);
-            let word = word << 1 << bits | middle >> (31 - bits);
-            let middle = middle << 1 << bits | low >> (31 - bits);
-            (word, (middle as u64) << 32 | (low << 1 << bits) as u64)
-        };
-        let (below, borrow) = self.below.overflowing_sub((less as u64) << 32);
-        let (word, below) = up(self.word.wrapping_sub(borrow as u32), below);
-        let share = up(self.share.0, self.share.1);
-        Self { word: word.wrapping_add(ahead), below, share }
-    }
-
-    /// To the next fraction.
-    #[inline(always)]
-    pub(crate) fn step(&mut self) {
-        let (below, carry) = self.below.overflowing_add(self.share.1);
-        self.below = below;
-        self.word = self.word.wrapping_add(self.share.0).wrapping_add(carry as u32);
     }
 }

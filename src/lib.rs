@@ -58,7 +58,6 @@ mod doubles;
 mod error;
 mod exact;
 mod exposure;
-mod fill;
 mod fraction;
 mod frame;
 mod guess;

@@ -154,10 +154,16 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         let Ok(n) = u32::try_from(ticks.len()) else {
             return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
         };
-        // Used where it was made: moved out of the `Result`, it would be copied twice.
-        let frame = Ticks::new(&self.plan, n, tick_hz);
-        let frame = frame.as_ref().map_err(|error| *error)?;
-        frame.fill(ticks, min_gap).map_err(|i| frame.too_close(i, min_gap))
+        let mut last = None;
+        for (i, (place, tick)) in (0..).zip(ticks.iter_mut().zip(self.trigger_ticks(n, tick_hz)?)) {
+            let gap = last.map_or(u32::MAX, |last| tick - last);
+            if gap < min_gap {
+                return Err(ScheduleError::GapTooSmall { trigger: i, gap, min_gap });
+            }
+            *place = tick;
+            last = Some(tick);
+        }
+        Ok(())
     }
 
     /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers, with feature `heapless-v0_9`.

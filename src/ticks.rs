@@ -81,14 +81,6 @@ impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
         Some(scale.tick(time))
     }
 
-    /// The error of trigger `i`, which comes too soon after the one before.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn too_close(&self, i: u32, min_gap: u32) -> ScheduleError {
-        let gap = self.at(i).saturating_sub(self.at(i.saturating_sub(1)));
-        ScheduleError::GapTooSmall { trigger: i, gap, min_gap }
-    }
-
     /// The tick of one end of the pulse around the trigger at `odd / 2n`, by a search. Out of line, so that the direct way
     /// saves no registers for it.
     #[cold]
