@@ -79,11 +79,7 @@ impl Exposure {
     fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
         let point = self.ramp(ramp).at_time(t);
         let part = point.mass();
-        let mass = if ramp == 0 {
-            part
-        } else {
-            self.ramps[0].share.plus(self.plateau).plus(part)
-        };
+        let mass = if ramp == 0 { part } else { self.ramps[0].share.plus(self.plateau).plus(part) };
         self.nearest(t, mass, |side| point.noise(side))
     }
 

@@ -7,11 +7,9 @@ use crate::span::Span;
 use crate::units::{exponent, floor_bits, power_of_two};
 use crate::unknown::unknown;
 
-/// The error in time that a polynomial may have, relative to the time: below 0.19 ulp.
+/// The error in time that a polynomial may have, relative to the time: below 0.19 ulp. The time
+/// counts as no more than the interval ([`Side::size_of_time`]), so in an interval of 2²⁴ ticks it is below 0.19 tick.
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
-/// The error in time that it may have, relative to the interval, with what a tick's fraction loses in 32 bits: below a
-/// quarter of a tick in an interval of 2²⁴, of which 1/40 is left for the tick's own rounding.
-pub(crate) const TICK_ERROR: f32 = 0.9 / (1u32 << 26) as f32;
 /// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the
 /// lesser one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
 pub(crate) const ULP_ERROR: f32 = 0.49;
@@ -37,8 +35,8 @@ const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
 impl Side<'_> {
-    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be: for
-    /// a tick, relative to the time, in exposure, and in exposure beyond the ramp. What [`certain`] asks for is that
+    /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be:
+    /// relative to the time, in exposure, and in exposure beyond the ramp. What [`certain`] asks for is that
     /// all are below 1.
     #[inline(never)]
     pub(crate) const fn certificate(
@@ -48,7 +46,7 @@ impl Side<'_> {
         mut along: Path,
         ramp: usize,
         [first, last]: [f64; 2],
-    ) -> [f32; 4] {
+    ) -> [f32; 3] {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
         let (exposure, side) = (self.exposure, self.side);
         // Factors that make an error, in the time of a coefficient's 1, a share of what it may be.
@@ -58,7 +56,6 @@ impl Side<'_> {
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
         let single_step = step as f32;
-        let per_tick = single_step / (exposure.outer(1) - exposure.outer(0)) / TICK_ERROR;
         // In `f64`, since a faint curve has an area of as little as 2⁻¹²⁶. What `off` leaves is above 0: no span begins
         // below LEAST_TOP / 2.
         // proofs/certificate.py
@@ -89,14 +86,10 @@ impl Side<'_> {
                 + SAMPLE_OFF
                 + steep * off / span.width
                 + (ends[1] / step) as f32 * TIME_OFF,
-            // A tick's position is cut, which costs less than 1; 2 are counted, to spare.
-            lost: steep * 2.0 * (per_position as f32),
-            per_tick,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                // The greatest error that a tick allows: TICK_ERROR of the interval.
-                let tick_error = single_step / per_tick;
-                (self.greatest_beyond(ramp, tick_error) * per_exposure) as f32
+                let most = FORWARD_ERROR * (exposure.outer(1) - exposure.outer(0));
+                (self.greatest_beyond(ramp, most) * per_exposure) as f32
             } else {
                 0.0
             },
@@ -104,9 +97,9 @@ impl Side<'_> {
             openness,
         };
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
-        // A sample's position is rounded to 1/2 and a trace: a quarter of the 2 that are lost.
-        let noise = limits.rounding + 0.2501 * limits.lost;
-        let (mut effort, mut bounds) = (0, [f32::INFINITY; 4]);
+        // A sample's position is rounded to 1/2 and a trace.
+        let noise = limits.rounding + 0.5002 * steep * per_position as f32;
+        let (mut effort, mut bounds) = (0, [f32::INFINITY; 3]);
         let (Some(sampled), true) = (Sampled::new(&along), fits) else { return bounds };
         while effort < EFFORTS {
             let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
@@ -123,8 +116,7 @@ impl Side<'_> {
     }
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but
-    /// at most the interval. So wherever a curve lies, its error is small beside its length, even a little smaller than
-    /// ticks ask for ([`TICK_ERROR`]).
+    /// at most the interval. So wherever a curve lies, its error is small beside its length, as ticks ask for.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since: f64) -> f32 {
         let [start, end] = [self.exposure.outer(0), self.exposure.outer(1)];
@@ -166,9 +158,6 @@ impl Side<'_> {
 struct Limits {
     /// What rounding adds to the error in time.
     rounding: f32,
-    /// What a tick's fraction loses in 32 bits, in time.
-    lost: f32,
-    per_tick: f32,
     /// The greater one of both ends'.
     per_size: f32,
     /// The exposure in a unit of time beyond the ramp's inner end.
@@ -179,9 +168,9 @@ struct Limits {
 
 impl Limits {
     /// Errors in time, in exposure, and relative to the time, with what rounding adds, as shares of what they may be:
-    /// for a tick, relative to the time, in exposure, and in exposure beyond the ramp.
+    /// relative to the time, in exposure, and in exposure beyond the ramp.
     #[inline(never)]
-    const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 4] {
+    const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 3] {
         let error = time + self.rounding;
         let rounding = self.rounding + error * WEIGHT_OFF;
         // How far along the ramp so much time leads at most: the `way` (docs/proofs.md, "From time to exposure"). A way
@@ -199,7 +188,6 @@ impl Limits {
         let [_, f1, f2, f3] = self.openness;
         let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
         [
-            (error + self.lost) * self.per_tick,
             relative + rounding * self.per_size,
             // The last term: on the way the openness may become greater.
             exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,
@@ -209,6 +197,6 @@ impl Limits {
 }
 
 /// Is none more than it may be? Written so that a NaN fails.
-pub(crate) const fn certain(&[tick, relative, exposed, beyond]: &[f32; 4]) -> bool {
-    tick <= CERTAIN && relative <= CERTAIN && exposed <= CERTAIN && beyond <= CERTAIN
+pub(crate) const fn certain(&[relative, exposed, beyond]: &[f32; 3]) -> bool {
+    relative <= CERTAIN && exposed <= CERTAIN && beyond <= CERTAIN
 }

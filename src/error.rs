@@ -129,6 +129,11 @@ pub enum ScheduleError {
         /// The greatest rate at which it is not; 0 where none is low enough.
         most: u32,
     },
+    /// More triggers or pulses than a frame can have.
+    TooManyTriggers {
+        /// The most that it can have: 2²².
+        most: u32,
+    },
     /// More triggers than the schedule can hold.
     CapacityExceeded {
         /// How many it can hold.
@@ -173,6 +178,9 @@ impl fmt::Display for ScheduleError {
                     out,
                     "the interval is longer than 2^31 ticks; a rate of up to {most} ticks in the curve's unit of time keeps to that"
                 )
+            }
+            Self::TooManyTriggers { most } => {
+                write!(out, "more triggers or pulses than the {most} that a frame can have")
             }
             Self::CapacityExceeded { capacity } => {
                 write!(out, "more triggers than the {capacity} that the schedule can hold")

@@ -13,7 +13,7 @@ use crate::moment::Moment;
 use crate::pair::{Pair, significand};
 use crate::ramp::Ramp;
 use crate::shape::{Shape, check_finite, check_ramp};
-use crate::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT, power_of_two};
+use crate::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
 /// that these keep their order.
@@ -140,7 +140,8 @@ impl Exposure {
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is
     /// computed from the lesser of the two parts, which has more bits. So without a plateau both are one number.
-    pub(crate) const fn exact_joins(&self, side: usize) -> [f64; 2] {
+    #[inline(never)]
+    pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
@@ -148,53 +149,5 @@ impl Exposure {
             if near < 0.5 { near } else { 1.0 - (plateau + far) },
             if near + plateau < 0.5 { near + plateau } else { 1.0 - far },
         ]
-    }
-
-    /// The same, but 1/2 within a [`trace`](Self::trace) of that. Out of line, as it is long in soft doubles.
-    #[inline(never)]
-    pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
-        let [near, far] = self.exact_joins(side);
-        let trace = self.trace() as f64 / DOUBLE_WORD;
-        [
-            if (near - 0.5).abs() < trace { 0.5 } else { near },
-            if (far - 0.5).abs() < trace { 0.5 } else { far },
-        ]
-    }
-
-    /// The same from side 0 in units of 2⁻⁶⁴; 1 is all ones. What this form alone loses is within 2⁻⁵⁵ plus 2⁻⁴⁵ times
-    /// the lesser part of a join; docs/proofs.md ("An octave's look-up") has how far it is from the other form.
-    pub(crate) const fn joins_u64(&self) -> [u64; 2] {
-        const fn words(x: Pair, trace: u64) -> u64 {
-            if x.hi >= WHOLE {
-                return u64::MAX;
-            }
-            // The upper word, and the rest in its unit, which the pair's second half may bring to about 2⁷.
-            let x = x.scaled(power_of_two(32 - WHOLE_EXPONENT));
-            let upper = x.hi as u32;
-            let rest = (x.hi - upper as f32) + x.lo;
-            let rest = ((rest * power_of_two(23)) as i32 as i64) << 9;
-            let words = ((upper as u64) << 32).wrapping_add(rest as u64);
-            if words.abs_diff(1 << 63) < trace { 1 << 63 } else { words }
-        }
-        let [near, far] = [self.ramps[0].share, self.ramps[1].share];
-        let (until, rest) = (near.plus(self.plateau), far.plus(self.plateau));
-        let is_less = [near.hi < 0.5 * WHOLE, until.hi < 0.5 * WHOLE];
-        let joins = [
-            words(if is_less[0] { near } else { rest }, self.trace()),
-            words(if is_less[1] { until } else { far }, self.trace()),
-        ];
-        // 2⁶⁴ less it, where it was counted from the end.
-        [
-            if is_less[0] { joins[0] } else { (!joins[0]).saturating_add(1) },
-            if is_less[1] { joins[1] } else { (!joins[1]).saturating_add(1) },
-        ]
-    }
-
-    /// How near to 1/2 a join counts as 1/2, in units of 2⁻⁶⁴. With a plateau that is 2⁻⁴⁴, the rounding of pairs, for a
-    /// join that is meant to be at 1/2. Without one, where a symmetric curve has its only join at 1/2, it is 2⁻²³, four
-    /// ulp: less than that is too little for octaves of its own. The polynomial of the near ramp then serves what is
-    /// beyond the join, too, and has a second certificate along the far ramp.
-    const fn trace(&self) -> u64 {
-        if self.has_plateau() { 1 << 20 } else { 1 << 41 }
     }
 }

@@ -1,7 +1,7 @@
 //! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
 //! either end.
 
-/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the
+/// The iterator `$name`, whose fields are a `frame`, with `n` items, of which item `i` is `frame.at(i)`, and the
 /// range of those that are `left`.
 macro_rules! iterate {
     ($name:ident, $item:ty) => {
@@ -57,7 +57,7 @@ macro_rules! iterate {
 
         impl<const CELLS: usize> core::fmt::Debug for $name<'_, CELLS> {
             fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                let (n, left) = (self.frame.n(), &self.left);
+                let (n, left) = (self.frame.n, &self.left);
                 out.debug_struct(stringify!($name))
                     .field("n", &n)
                     .field("left", left)
@@ -68,7 +68,7 @@ macro_rules! iterate {
         #[cfg(feature = "defmt")]
         impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
             fn format(&self, out: defmt::Formatter<'_>) {
-                let (n, left) = (self.frame.n(), &self.left);
+                let (n, left) = (self.frame.n, &self.left);
                 defmt::write!(
                     out,
                     "{=str} {{ n: {}, left: {}..{}, .. }}",

@@ -49,7 +49,6 @@
 mod bezier;
 mod bound;
 mod by_time;
-mod by_u64;
 mod candidate;
 mod cdf;
 mod certificate;

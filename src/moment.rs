@@ -1,7 +1,7 @@
 //! A moment: a time as it is found, more exact than an `f32`; and how it is rounded to one, once.
 
 use crate::pair::Pair;
-use crate::units::power_of_two;
+use crate::units::{fixed, power_of_two};
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. The `way` is at most 2¹⁰⁵, as on the plateau,
 /// and a `unit` from -252 to 22, as for a density; it may be greater where the way is 0.
@@ -97,16 +97,19 @@ impl Moment {
         if is_beyond { self.until } else { time }
     }
 
-    /// The time since `start`, in units of `2^unit`.
-    pub(crate) fn since(self, start: f32, unit: i32) -> Pair {
-        let [base, until] =
-            [self.base, self.until].map(|time| Pair::sum(time, -start).shifted(-unit));
-        let way = self.way.shifted(self.unit - unit);
-        let time = if self.back { base.minus(way) } else { base.plus(way) };
+    /// The time in units of `2^unit`, in which it counts at most 2⁶².
+    pub(crate) const fn in_units(self, unit: i32) -> i64 {
+        let Pair { hi, lo } = self.way.shifted(self.unit - unit);
+        // Rounded down as one number, so that a longer way is never less: from 2²⁴ on the first is a whole number.
+        let whole = fixed(hi, 0);
+        let rest = (hi - whole as f32) + lo;
+        let down = fixed(rest, 0);
+        let way = whole + down - ((down as f32) > rest) as i64;
+        let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)];
         // A search may err by a trace of mass, and next to a dark end a trace of mass is a long time: so not beyond the
         // end.
-        let beyond = time.difference(until);
-        let is_beyond = if self.back { beyond < 0.0 } else { beyond > 0.0 };
+        let time = if self.back { base - way } else { base + way };
+        let is_beyond = if self.back { time < until } else { time > until };
         if is_beyond { until } else { time }
     }
 }

@@ -111,17 +111,7 @@ impl Side<'_> {
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
         let Some(candidate) = self.candidate(span, &stretch) else { return Octave::NONE };
-        let mut is_certain = certain(&self.certificate(&candidate, span, stretch, ramp, places));
-        // Without a plateau, and with a join so near to 1/2 that it counts as that, the near ramp's polynomial serves
-        // what is beyond the join, too.
-        let join = self.exposure.exact_joins(self.side)[0];
-        if ramp == self.side && !self.exposure.has_plateau() && span.to >= 0.5 && join < 0.5 {
-            let path = self.path(ramp ^ 1);
-            let places = [0.0, path.place(ends[1], true)];
-            let stretch = span.counted(path.stretch(places));
-            let beyond = self.certificate(&candidate, span, stretch, ramp ^ 1, places);
-            is_certain = is_certain && certain(&beyond);
-        }
+        let is_certain = certain(&self.certificate(&candidate, span, stretch, ramp, places));
         if is_certain { candidate.octave } else { Octave::NONE }
     }
 }

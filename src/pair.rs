@@ -32,11 +32,6 @@ impl Pair {
         Self { hi, lo: (x - hi as f64) as f32 }
     }
 
-    /// `x`, exactly.
-    pub(crate) const fn from_u32(x: u32) -> Self {
-        Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32)
-    }
-
     pub(crate) const fn to_f64(self) -> f64 {
         self.hi as f64 + self.lo as f64
     }

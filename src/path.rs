@@ -50,8 +50,7 @@ impl Path {
     pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: usize, ramp: usize) -> Self {
         let shape = shape.from(side);
         let way = exposure.inner(side ^ 1) as f64 - exposure.outer(side) as f64;
-        let (t0, u0) =
-            if ramp == side { (0.0, 0.0) } else { (way.abs(), exposure.exact_joins(side)[1]) };
+        let (t0, u0) = if ramp == side { (0.0, 0.0) } else { (way.abs(), exposure.joins(side)[1]) };
         let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
         let Cubic { c: [t1, t2, t3], .. } = shape.time();
         let [u1, u2, u3, u4, u5, u6] = shape.mass();

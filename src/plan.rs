@@ -25,6 +25,8 @@
 use crate::bezier::CubicBezier;
 use crate::error::CurveError;
 use crate::exposure::{Exposure, FOR_FRACTION};
+use crate::fraction::Fraction;
+use crate::moment::Moment;
 use crate::octave::{self, NO_TIME, Octave};
 use crate::octaves;
 use crate::pair::Pair;
@@ -37,10 +39,10 @@ pub(crate) struct Plan<const CELLS: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
     pub(crate) scale: f32,
-    /// The last `u` before the closing ramp, by the bits of its `f32` (without a plateau, too: it tells the ramps
-    /// apart), and how many up to it are on the plateau's line.
-    pub(crate) last: u32,
-    pub(crate) count: u32,
+    /// Seen from each side: the last fraction before the far ramp, by the bits of its `f32` (without a plateau, too: it
+    /// tells the ramps apart), and how many up to it are on the plateau's line.
+    pub(crate) last: [u32; 2],
+    pub(crate) count: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     pub(crate) slope: i64,
@@ -67,13 +69,11 @@ impl<const CELLS: usize> Plan<CELLS> {
         let shapes = [Shape::new(opening), Shape::new(closing)];
         let unit = time_unit(exposure.outer(0), exposure.outer(1));
         let [open, close] = [exposure.inner(0), exposure.inner(1)];
-        let [from, to] = exposure.joins(0);
-        let (from, to) = (floor_bits(from), floor_bits(to));
         let mut plan = Self {
             exposure,
             scale: power_of_two(unit + 32),
-            last: to,
-            count: 0,
+            last: [floor_bits(exposure.joins(0)[1]), floor_bits(exposure.joins(1)[1])],
+            count: [0; 2],
             base: 0,
             slope: 0,
             tops: [[0; 2]; 2],
@@ -88,11 +88,17 @@ impl<const CELLS: usize> Plan<CELLS> {
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
             }
-            // 1 itself has the exact end.
-            let before_end = 1.0f32.to_bits() - 1;
-            plan.last = if to < before_end { to } else { before_end };
-            let before = if from < FINE.to_bits() { FINE.to_bits() } else { from };
-            plan.count = plan.last.saturating_sub(before);
+            let mut side = 0;
+            while side < 2 {
+                // 1 itself has the exact end.
+                let before_end = 1.0f32.to_bits() - 1;
+                let last = if plan.last[side] < before_end { plan.last[side] } else { before_end };
+                let near = floor_bits(plan.exposure.joins(side)[0]);
+                let before = if near < FINE.to_bits() { FINE.to_bits() } else { near };
+                plan.last[side] = last;
+                plan.count[side] = last.saturating_sub(before);
+                side += 1;
+            }
         }
         let mut side = 0;
         // `CELLS > 0` lets the compiler leave the building out where there are no octaves.
@@ -127,15 +133,16 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// the ramp's way alone, and only those that a polynomial needs.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let before_last = self.before_last(u);
-        if before_last < self.count {
-            let time = self.by_line(u.to_bits());
+        let before_last = self.last[0].wrapping_sub(u.to_bits());
+        if before_last < self.count[0] {
+            let time = self.on_line(in_words(u.to_bits()));
             return match upper_word(time) {
                 Some(time) => time as f32 * self.scale,
                 None => self.rounded_apart(time),
             };
         }
-        let time = self.by_octave(u, before_last);
+        let (side, bits) = Self::nearer(u);
+        let time = self.by_octave(side, bits, before_last, 0);
         let (time, scale) = match upper_word(time) {
             Some(time) => (time as f32, self.scale),
             None if time == NO_TIME => (f32::from_bits(self.searched(u)), 1.0),
@@ -167,36 +174,55 @@ impl<const CELLS: usize> Plan<CELLS> {
         self.rounded_with_care(time)
     }
 
-    /// The time, in units, by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
-    pub(crate) fn direct(&self, u: f32) -> i64 {
-        let before_last = self.before_last(u);
-        if before_last < self.count {
-            self.by_line(u.to_bits())
-        } else {
-            self.by_octave(u, before_last)
+    /// The time, in units, at a fraction.
+    #[inline(always)]
+    pub(crate) fn time_at(&self, at: Fraction) -> i64 {
+        match self.direct(at) {
+            NO_TIME => self.searched_time(at),
+            time => time,
         }
     }
 
-    /// By how many `f32` `u` is before the last one on the plateau: less than `count` only on the line, since the bits
-    /// of a negative `u` or a NaN are at least 2²⁹ away from `last`, and `count` is below 2²⁷. The top bit is set
-    /// beyond the plateau.
+    /// The same by the plateau's line or a polynomial; [`NO_TIME`] where neither serves.
     #[inline(always)]
-    pub(crate) fn before_last(&self, u: f32) -> u32 {
-        self.last.wrapping_sub(u.to_bits())
+    pub(crate) fn direct(&self, Fraction { side, a }: Fraction) -> i64 {
+        let bits = a.to_bits();
+        let before_last = self.last[side & 1].wrapping_sub(bits);
+        if before_last < self.count[side & 1] {
+            let word = in_words(bits);
+            self.on_line(if side == 0 { word } else { word.wrapping_neg() })
+        } else {
+            self.by_octave(side, bits, before_last, side)
+        }
     }
 
     /// The time, in units, by a polynomial; [`NO_TIME`] where there is none.
-    // proofs/octaves.py: both look-ups find the octave that was built
+    // proofs/octaves.py: the look-up finds the octave that was built
     #[inline(always)]
-    fn by_octave(&self, u: f32, before_last: u32) -> i64 {
-        let (side, bits) = Self::nearer(u);
-        // Beyond the plateau it is the closing one. A `u` on the plateau but not on its line, at or below FINE, counts
-        // as on the opening one, which has no polynomial for it ([`octaves::range`]).
-        let ramp = (before_last >> 31) as usize;
+    fn by_octave(&self, side: usize, bits: u32, before_last: u32, from: usize) -> i64 {
+        // Beyond the plateau it is the far ramp. A fraction on the plateau but not on its line, at or below FINE, counts
+        // as on the near one, which has no polynomial for it ([`octaves::range`]).
+        let ramp = (before_last >> 31) as usize ^ from;
         match self.look_up(side, ramp, bits) {
             // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
             Some((octave, position)) if octave.exists() => octave.time(octave.offset(position)),
             _ => NO_TIME,
+        }
+    }
+
+    /// The time, in units, at a fraction, by a search.
+    #[cold]
+    #[inline(never)]
+    fn searched_time(&self, Fraction { side, a }: Fraction) -> i64 {
+        self.searched_moment(side, a).in_units(self.unit())
+    }
+
+    fn searched_moment(&self, side: usize, a: f32) -> Moment {
+        if a > 0.0 {
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION)
+        } else {
+            // The end itself, though no light may fall there.
+            Moment::at(self.exposure.outer(side))
         }
     }
 
@@ -227,15 +253,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         Some((octave, (borrowed << 8) as i32))
     }
 
-    /// The time on the plateau's line, in units, of a `u` with these bits.
-    // proofs/words.py
-    #[inline(always)]
-    fn by_line(&self, bits: u32) -> i64 {
-        let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-        self.on_line((bits << 8 | 1 << 31) >> (shift & 31))
-    }
-
-    /// The same at a `u` in units of 2⁻³².
+    /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².
     // proofs/words.py
     #[inline(always)]
     pub(crate) fn on_line(&self, u: u32) -> i64 {
@@ -261,24 +279,31 @@ impl<const CELLS: usize> Plan<CELLS> {
         time.to_bits()
     }
 
+    /// Is no search needed for `u`?
+    pub(crate) fn is_direct(&self, u: f32) -> bool {
+        let before_last = self.last[0].wrapping_sub(u.to_bits());
+        let (side, bits) = Self::nearer(u);
+        before_last < self.count[0] || self.by_octave(side, bits, before_last, 0) != NO_TIME
+    }
+
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
-        if a > 0.0 && self.direct(u) == NO_TIME {
+        if a > 0.0 && !self.is_direct(u) {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
         } else {
             0
         }
     }
 
-    /// No fraction from a side that is above this, up to 1/2, needs a search, as an `f32` or in units of 2⁻⁶⁴.
+    /// No fraction from a side that is above this, up to 1/2, needs a search.
     pub(crate) const fn least_direct(&self, side: usize) -> f64 {
         let [near, far] = self.exposure.joins(side);
         let mut least = self.least_served(side, side ^ 1, 0.5);
         if least <= far && near < far && near < least {
             // The plateau, by its line.
-            if self.count == 0 {
+            if self.count[side & 1] == 0 {
                 return least;
             }
             least = if near < FINE as f64 { FINE as f64 } else { near };
@@ -313,8 +338,16 @@ impl<const CELLS: usize> Plan<CELLS> {
     /// The `u` that it serves: above the first, up to the second.
     #[inline(always)]
     pub(crate) fn served_by_line(&self) -> [f32; 2] {
-        [self.last.wrapping_sub(self.count), self.last].map(f32::from_bits)
+        [self.last[0].wrapping_sub(self.count[0]), self.last[0]].map(f32::from_bits)
     }
+}
+
+/// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².
+// proofs/words.py
+#[inline(always)]
+fn in_words(bits: u32) -> u32 {
+    let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+    (bits << 8 | 1 << 31) >> (shift & 31)
 }
 
 /// The upper word of a time, to be converted instead of both.

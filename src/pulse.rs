@@ -3,7 +3,6 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::fraction::Edge;
 use crate::frame::iterate;
 use crate::shutter::ShutterCurve;
 use crate::ticks::Ticks;
@@ -38,9 +37,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         if !(duty > 0.0 && duty <= 1.0) {
             return Err(ScheduleError::DutyOutOfRange);
         }
-        let ticks = Ticks::new(&self.plan, n, tick_hz)?;
-        let edges = ticks.fractions.edges(duty);
-        let frame = Pulses { ticks, edges, is_close: duty > 0.5, is_full: duty == 1.0 };
+        let frame = Pulses { ticks: Ticks::new(&self.plan, n, tick_hz)?, n, duty };
         Ok(PulseTicks { frame, left: 0..n })
     }
 
@@ -103,38 +100,15 @@ pub struct PulseTicks<'a, const CELLS: usize = 8> {
 #[derive(Clone)]
 struct Pulses<'a, const CELLS: usize> {
     ticks: Ticks<'a, CELLS>,
-    edges: [Edge; 2],
-    /// Is a pulse closer to the next than half a share?
-    is_close: bool,
-    /// Do pulses touch?
-    is_full: bool,
+    n: u32,
+    duty: f32,
 }
 
 impl<const CELLS: usize> Pulses<'_, CELLS> {
-    fn n(&self) -> u32 {
-        self.ticks.n()
-    }
-
-    /// The ticks of pulse `i`.
-    ///
-    /// Ends that are half a share apart or more are in order, as triggers are. Those that are closer, or at one
-    /// fraction, may not be: a search is exact to its error, and 1/2 is counted from either side. Then the later end
-    /// takes the tick of the earlier one, which is within the promise for both.
-    // proofs/ticks.py: pulses
+    /// The ticks of pulse `i`. They are in order, and so are those of neighbours, since rounding keeps the order of
+    /// `2i + 1 - duty` and `2i + 1 + duty`, and so does all that follows.
     fn at(&self, i: u32) -> (u32, u32) {
-        let [on, off] = &self.edges;
-        let mut start = self.ticks.edge(i, on);
-        if self.is_close && i > 0 {
-            start = start.max(self.ticks.edge(i - 1, off));
-        }
-        // All of the exposure is collected at the curve's end, though no light may fall for a while before that. In 64
-        // bits the fraction of this one edge may be a trace less.
-        let end = if self.is_full && i + 1 == self.n() {
-            self.ticks.searched(2 * i as u64 + 1, off)
-        } else {
-            self.ticks.edge(i, off)
-        };
-        (start, end.max(start))
+        (self.ticks.tick(i, -self.duty), self.ticks.tick(i, self.duty))
     }
 }
 

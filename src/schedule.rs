@@ -3,14 +3,10 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::fraction::{Edge, Fractions};
 use crate::frame::iterate;
 use crate::shutter::ShutterCurve;
-use crate::ticks::{DIRECT_TRIGGERS, Ticks, moment};
+use crate::ticks::{MOST_TRIGGERS, Ticks};
 use crate::units::DOUBLE_WORD;
-
-/// Up to here `i + 1/2` is an `f32`.
-const EXACT_HALVES: u32 = 1 << 23;
 
 impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
@@ -26,7 +22,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!(curve.trigger_times(4_000_000_000).nth(2_000_000_000), Some(4.0));
     /// ```
     pub fn trigger_times(&self, n: u32) -> TriggerTimes<'_, CELLS> {
-        TriggerTimes { frame: Times { curve: self, fractions: Fractions::new(n) }, left: 0..n }
+        TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
     }
 
     /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the
@@ -88,7 +84,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
         // the compiler sees that the divisor is not 0.
         let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / above;
-        if most < DIRECT_TRIGGERS as u64 { most as u32 } else { DIRECT_TRIGGERS }
+        if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
     }
 
     /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start). Add the timer's own base
@@ -292,7 +288,7 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
     /// Is trigger `i` of the frame placed without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.direct(i, &Edge::TRIGGER).is_some()
+        self.frame.is_direct(i)
     }
 }
 
@@ -300,23 +296,15 @@ impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
 #[derive(Clone)]
 struct Times<'a, const CELLS: usize> {
     curve: &'a ShutterCurve<CELLS>,
-    fractions: Fractions,
+    n: u32,
 }
 
 impl<const CELLS: usize> Times<'_, CELLS> {
-    fn n(&self) -> u32 {
-        self.fractions.n
-    }
-
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {
-        let n = self.n();
-        if n <= EXACT_HALVES {
-            self.curve.inverse_cdf((i as f32 + 0.5) / n as f32)
-        } else {
-            moment(&self.curve.plan, &self.fractions, 2 * i as u64 + 1, &Edge::TRIGGER).time()
-        }
+        let (part, all) = (2 * i as u64 + 1, 2 * self.n as u64);
+        self.curve.inverse_cdf(part as f32 / all as f32)
     }
 }
 

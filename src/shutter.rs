@@ -6,7 +6,6 @@ use crate::bezier::CubicBezier;
 use crate::doubles;
 use crate::error::{CurveError, Part};
 use crate::moment::rounded;
-use crate::octave::NO_TIME;
 use crate::pair::Pair;
 use crate::plan::Plan;
 
@@ -340,7 +339,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search? For measurements.
     #[doc(hidden)]
     pub fn is_direct(&self, u: f32) -> bool {
-        self.plan.direct(u) != NO_TIME
+        self.plan.is_direct(u)
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.

@@ -34,10 +34,8 @@ pub(crate) const WHOLE_EXPONENT: i32 = 104;
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
-/// An `f32` from here on has no bit below 2⁻³², which is the unit of the plateau's line; the same in 2⁻⁶⁴. (A fraction
-/// of 64 bits is cut to that unit. In an interval of 2²⁴ ticks that is less than 2⁻⁷ tick.)
+/// An `f32` from here on has no bit below 2⁻³², which is the unit of the plateau's line.
 pub(crate) const FINE: f32 = 1.0 / 512.0;
-pub(crate) const FINE_DOUBLE_WORD: u64 = 1 << 55;
 
 /// The bits of 2⁻²⁸, the least top of an octave. There are no octaves below it, so a fraction of 0 falls into none. (One
 /// more would be of no use: what a fraction may be off by, `OFF` in [`certificate`](crate::certificate), would leave its

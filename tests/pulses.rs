@@ -7,7 +7,7 @@ use support::aimed::{FAMILIES, aimed};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
 use support::oracle::{Curve, Dd, Exact};
-use support::promise::{DIRECT_TICKS, TICKS, tick_error_at};
+use support::promise::{EDGE_ULP, MOST_TRIGGERS, TICK, TYPICAL_TICKS, tick_error_at};
 
 const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
     [0.0, 0.25, 0.75, 1.0],
@@ -38,10 +38,11 @@ fn judge_with<const CELLS: usize>(
     name: &dyn std::fmt::Debug,
 ) {
     let exact = Exact::new(curve);
-    for (ticks, promised) in [(1000.0, 0), (DIRECT_TICKS, 0), (2147483648.0, 1)] {
+    for (many, ticks) in [1000.0, TYPICAL_TICKS, 2147483648.0].into_iter().enumerate() {
         let Some(hz) = rate(curve, ticks) else { continue };
-        for (k, n) in [1, 2, 3, 12, 1000, (1 << 22) + 1, u32::MAX].into_iter().enumerate() {
-            let duty = DUTIES[(turn + 4 * promised + k) % DUTIES.len()];
+        let frames = [1, 2, 3, 12, 1000, MOST_TRIGGERS - 1, MOST_TRIGGERS];
+        for (k, n) in frames.into_iter().enumerate() {
+            let duty = DUTIES[(turn + 4 * many + k) % DUTIES.len()];
             let pulses = ours.pulse_ticks(n, duty, hz).unwrap();
             for i in [0, 1, n / 4, n / 2, n - 1].into_iter().filter(|i| *i < n) {
                 let (on, off) = pulses.clone().nth(i as usize).unwrap();
@@ -53,8 +54,8 @@ fn judge_with<const CELLS: usize>(
                     let middle = Dd::from(2.0 * f64::from(i) + 1.0);
                     let edge = middle + Dd::from(sign * f64::from(duty));
                     let u = edge / Dd::from(2.0 * f64::from(n));
-                    let error = tick_error_at(&exact, tick, u, hz);
-                    assert!(error <= TICKS[promised], "{error}: {i} of {n}, {duty}, {name:?}");
+                    let error = tick_error_at(&exact, tick, u, hz, EDGE_ULP);
+                    assert!(error <= TICK, "{error}: {i} of {n}, {duty}, {name:?}");
                 }
             }
         }
@@ -138,10 +139,10 @@ fn the_first_end_has_all_its_bits() {
     let opening = CubicBezier::new([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)]);
     let curve = Curve::shutter(opening.points(), [(1.0, 1.0), (1.0, 0.5), (1.0, 0.5), (1.0, 0.0)]);
     let (exact, hz) = (Exact::new(&curve), 2_147_483_448);
-    for (n, duty) in [(805_306_368, 1.0 - f32::EPSILON / 2.0), (100_000_007, 1.0 - f32::EPSILON)] {
+    for (n, duty) in [(4_194_303, 1.0 - f32::EPSILON / 2.0), (1_000_007, 1.0 - f32::EPSILON)] {
         let (on, _) = shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().next().unwrap();
         let u = (Dd::from(1.0) - Dd::from(f64::from(duty))) / Dd::from(2.0 * f64::from(n));
-        assert!(tick_error_at(&exact, on, u, hz) <= TICKS[1], "{on}: the first of {n}");
+        assert!(tick_error_at(&exact, on, u, hz, EDGE_ULP) <= TICK, "{on}: the first of {n}");
     }
 }
 
@@ -185,5 +186,22 @@ fn what_cannot_be_is_refused() {
     ] {
         let text = error.to_string();
         assert!(numbers.iter().all(|number| text.contains(number)), "{text}");
+    }
+}
+
+/// The last pulse's end, next to the end of a curve with hardly any light there.
+#[test]
+fn last_pulses_end() {
+    let openness = 8.231806e-11;
+    let opening = CubicBezier::line((0.0, 1.0), (1.0, 1.0));
+    let closing = CubicBezier::line((1.0, openness), (257.0, openness));
+    let curve = Curve::shutter(opening.points(), closing.points());
+    let (exact, ours, hz) =
+        (Exact::new(&curve), shutter::<32>(&curve), rate(&curve, TYPICAL_TICKS).unwrap());
+    for (n, duty) in [(9986, 0.99987376f32), (99_975, 0.9987359), (4_194_302, 0.946967)] {
+        let (_, off) = ours.pulse_ticks(n, duty, hz).unwrap().next_back().unwrap();
+        let u = Dd::from(2.0 * f64::from(n) - 1.0) + Dd::from(f64::from(duty));
+        let error = tick_error_at(&exact, off, u / Dd::from(2.0 * f64::from(n)), hz, EDGE_ULP);
+        assert!(error <= TICK, "{error:.3} ticks: {n} of duty {duty}");
     }
 }

@@ -50,7 +50,13 @@ fn change(ways: [Way; 2]) -> usize {
         [Way::Plateau, Way::Ramp { is_quick: true, .. }] => 1,
         [Way::Plateau, _] => 2,
         [Way::Ramp { ramp, side, .. }, Way::Ramp { ramp: other, side: from, .. }] => {
-            if ramp != other { 3 } else if side != from { 4 } else { 5 }
+            if ramp != other {
+                3
+            } else if side != from {
+                4
+            } else {
+                5
+            }
         }
         _ => unreachable!(),
     }

@@ -2,7 +2,7 @@
 
 use crate::bezier::CubicBezier;
 use crate::candidate::{Candidate, NODES};
-use crate::certificate::{FORWARD_ERROR, OFF, TICK_ERROR, ULP_ERROR};
+use crate::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
 use crate::octaves::{build, range};
@@ -30,11 +30,11 @@ fn nodes_are_those_of_chebyshev() {
     assert!(NODES.is_sorted_by(|a, b| a < b));
 }
 
-/// The greatest share of a bound that the truth comes to: for a tick, relative to the time, and in light.
+/// The greatest share of a bound that the truth comes to: relative to the time, and in light.
 #[derive(Debug, Default)]
 struct Truth {
     octaves: usize,
-    greatest: [f64; 3],
+    greatest: [f64; 2],
 }
 
 impl Truth {
@@ -81,12 +81,11 @@ impl Side<'_> {
         span: &Span,
         exact: &Exact,
         samples: u32,
-        greatest: &mut [f64; 3],
+        greatest: &mut [f64; 2],
     ) {
         let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = self.certificate(&candidate, span, stretch, ramp, places).map(f64::from);
-        let interval = f64::from(self.exposure.outer(1)) - f64::from(self.exposure.outer(0));
         let start = fixed(self.exposure.outer(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
@@ -95,10 +94,11 @@ impl Side<'_> {
         for i in 0..=samples {
             // Evenly, and so also next to both ends.
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
-            for (a, is_single) in [(a, false), (f64::from(a as f32), true)] {
-                if a < span.from || a > end {
-                    continue;
-                }
+            let a = f64::from(a as f32);
+            if a < span.from || a > end {
+                continue;
+            }
+            {
                 // As a look-up has it: the significand of 32 bits, less 2³² in the lower binade.
                 let doubled = ((a / f64::from(span.power) - 1.0) * f64::from(WORD)).floor() as i64;
                 let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
@@ -109,19 +109,17 @@ impl Side<'_> {
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
                 let off = (early - served).max(served - late).hi.max(0.0);
-                let mut share = [0.0; 3];
-                share[0] = off / (f64::from(TICK_ERROR) * interval) / bounds[0];
-                if is_single {
-                    let size = f64::from(self.size_of_time(time.abs()));
-                    share[1] = off / (f64::from(FORWARD_ERROR) * size) / bounds[1];
-                    // Counted from the side, so that no bits are lost next to the later end.
-                    let light = if self.side == 0 {
-                        exact.cdf_dd(served) - u
-                    } else {
-                        exact.complement_dd(served) - Dd::from(a)
-                    };
-                    share[2] = light.hi.abs() / error_in_u / bounds[2].max(bounds[3]);
-                }
+                let size = f64::from(self.size_of_time(time.abs()));
+                // Counted from the side, so that no bits are lost next to the later end.
+                let light = if self.side == 0 {
+                    exact.cdf_dd(served) - u
+                } else {
+                    exact.complement_dd(served) - Dd::from(a)
+                };
+                let share = [
+                    off / (f64::from(FORWARD_ERROR) * size) / bounds[0],
+                    light.hi.abs() / error_in_u / bounds[1].max(bounds[2]),
+                ];
                 for (greatest, share) in greatest.iter_mut().zip(share) {
                     assert!(share <= 1.0, "{share} of {bounds:?} at {a:e}: {:?}", exact.curve());
                     *greatest = greatest.max(share);
@@ -213,7 +211,7 @@ fn an_offset_beyond_its_word_is_refused() {
                     let mut moved = stretch;
                     moved.fraction[0] += (end * to - offset(&stretch, end)) / per_position;
                     let bounds = this.certificate(&candidate, &span, moved, side, places);
-                    let is_refused = bounds == [f32::INFINITY; 4];
+                    let is_refused = bounds == [f32::INFINITY; 3];
                     assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
                     judged += 1;
                 }

@@ -1,7 +1,6 @@
 //! The scripts in `proofs/` prove what they say of transcriptions. These are the Rust functions' answers, on words that the
 //! scripts chose, held to the transcriptions' (`proofs/vectors`).
 
-use crate::fraction::Fractions;
 use crate::guess::divided;
 use crate::moment::rounded_sum;
 use crate::pair::Pair;
@@ -80,20 +79,6 @@ fn sums() {
         let [base, hi, lo, sum] = [base, hi, lo, sum].map(|word| f32::from_bits(word as u32));
         let found = rounded_sum(base, Pair { hi, lo }, unit as i32, back == 1);
         assert_eq!(found, sum, "{base:e} {hi:e} {lo:e} {unit} {back}");
-    }
-}
-
-/// `proofs/shares.py`
-#[test]
-fn fractions() {
-    for [n, odd, duty, is_off, word, side, hi, lo] in
-        rows(include_str!("../../proofs/vectors/shares.csv"))
-    {
-        let fractions = Fractions::new(n as u32);
-        let edge = fractions.edges(f32::from_bits(duty as u32))[is_off as usize];
-        assert_eq!(fractions.in_u64(odd as u32, &edge), word);
-        let [hi, lo] = [hi, lo].map(|half| f32::from_bits(half as u32));
-        assert_eq!(fractions.exactly(odd, &edge), (side as usize, Pair { hi, lo }));
     }
 }
 

@@ -19,11 +19,17 @@ pub const FORWARD: f64 = 0.69;
 pub const VALUE: f64 = 1.0;
 /// An ulp of the cdf is at least that of this.
 pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
-/// In ticks: where the interval has at most [`DIRECT_TICKS`], and where it has more.
-pub const TICKS: [f64; 2] = [0.75, 0.501];
-pub const DIRECT_TICKS: f64 = (1 << 24) as f64;
-/// Frames of more triggers are searched for.
-const DIRECT_TRIGGERS: u32 = 1 << 22;
+/// In ticks, from the exact time of a fraction within [`TRIGGER_ULP`] or [`EDGE_ULP`] of the one that is asked for.
+pub const TICK: f64 = 0.52;
+/// In ulp of the lesser of the fraction and its rest to 1: half for the `f32`, and half for the inverse.
+pub const TRIGGER_ULP: f64 = 1.0;
+/// The same of a pulse's end, whose `2i + 1 ± duty` is rounded before it is divided.
+pub const EDGE_ULP: f64 = 1.5;
+/// On typical curves, in intervals of up to [`TYPICAL_TICKS`], from the exact time itself.
+pub const TYPICAL_TICK: f64 = 0.75;
+pub const TYPICAL_TICKS: f64 = (1 << 24) as f64;
+/// The most triggers in a frame.
+pub const MOST_TRIGGERS: u32 = 1 << 22;
 /// The rates of timers that a design is asked for, in ticks per unit of its time: plain ones, and primes.
 pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_983];
 /// Of the mass, for one u: as many as any search is known to take. What takes more has wandered.
@@ -42,7 +48,7 @@ pub struct Figures {
     /// As `cdf`, in ulp of however small a value.
     pub small_cdf: f64,
     pub density: f64,
-    pub ticks: [f64; 2],
+    pub ticks: f64,
     /// Of each promise that was broken: how often, and the first time.
     pub breaches: BTreeMap<&'static str, (u64, String)>,
 }
@@ -157,14 +163,14 @@ impl Figures {
     ) {
         let curve = exact.curve();
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        for most in [1000.0, DIRECT_TICKS, exp2(31)] {
+        for most in [1000.0, TYPICAL_TICKS, exp2(31)] {
             // A trace less, since f64 need not hold the length; a very long interval has more ticks at any rate.
             let hz = (most * (1.0 - 1e-9) / length) as u32;
             if hz == 0 {
                 continue;
             }
             let mut frames = vec![[1, 0, 1], [2, 0, 2]];
-            for n in [1 << 28, 1 << 30, u32::MAX] {
+            for n in [1 << 20, MOST_TRIGGERS - 1, MOST_TRIGGERS] {
                 let landmarks = exact.landmarks();
                 let landmark = landmarks[rng.below(landmarks.len() as u64) as usize].hi;
                 let first = (f64::from(n) * landmark) as u32;
@@ -179,11 +185,10 @@ impl Figures {
                 let mut last = 0;
                 for (i, tick) in (first..n).zip(ticks.skip(first as usize).take(count as usize)) {
                     let error = tick_error(exact, tick, [i, n], hz);
-                    let kind = usize::from(length * f64::from(hz) > DIRECT_TICKS);
                     let at = || format!("trigger {i} of {n} at {hz} Hz: {error:.3} ticks off");
                     self.samples += 1;
-                    self.ticks[kind] = self.ticks[kind].max(error);
-                    self.expect_at("ticks", error <= TICKS[kind], at, curve);
+                    self.ticks = self.ticks.max(error);
+                    self.expect_at("ticks", error <= TICK, at, curve);
                     self.expect_at("ticks' step back", tick >= last, at, curve);
                     last = tick;
                 }
@@ -362,8 +367,8 @@ impl<'a> Questions<'a> {
             frames.push(Frame::new(exact, 12, Some(duty), 0, 12));
         }
         for place in exact.landmarks() {
-            // Triggers that follow each other more closely than `f32` do, direct and searched for.
-            for n in [1000, 1 << 20, (1 << 22) - 1, 1 << 22, (1 << 22) + 1, 1 << 30, u32::MAX] {
+            // Triggers that follow each other as closely as they may.
+            for n in [1000, 1 << 20, MOST_TRIGGERS - 1, MOST_TRIGGERS] {
                 let first = (f64::from(n) * place.hi.clamp(0.0, 1.0)) as u32;
                 let first = first.saturating_sub(3);
                 frames.push(Frame::new(exact, n, None, first, 6));
@@ -391,7 +396,8 @@ impl<'a> Questions<'a> {
         }
         // What is allowed: up to 2^31 ticks.
         let allowed = |hz: &u32| *hz > 0 && f64::from(*hz) * length <= exp2(31);
-        let greatest = [DIRECT_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
+        let greatest =
+            [TYPICAL_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
         let greatest = greatest.into_iter().filter(allowed).collect();
         let mut rates = RATES;
         rates.rotate_left(reach.turn % RATES.len());
@@ -420,7 +426,7 @@ impl<'a> Questions<'a> {
         let duties = us.iter().map(|u| (1.0 - 2.0 * u).abs() as f32);
         let duties = duties.filter(|duty| *duty > 0.0 && *duty <= 1.0);
         list.extend(duties.map(|duty| Frame::new(exact, 1, Some(duty), 0, 1)));
-        let hz = (DIRECT_TICKS * (1.0 - 1e-9) / length) as u32;
+        let hz = (TYPICAL_TICKS * (1.0 - 1e-9) / length) as u32;
         let mut us: Vec<f32> = us.into_iter().flat_map(|u| neighbours(u as f32, 1)).collect();
         us.sort_by(f32::total_cmp);
         us.dedup();
@@ -437,16 +443,10 @@ impl Figures {
         let ours = shutter::<CELLS>(curve);
         self.fractions(exact, &ours, questions);
         self.direct(exact, &ours);
-        let [start, end] = [curve.open_start(), curve.close_end()].map(f64::from);
         for (i, frame) in questions.frames.iter().enumerate() {
             let in_turn = questions.rates.iter().skip(i % 2).step_by(2);
             for hz in in_turn.chain(&questions.greatest) {
-                // What no octave answers is the same for every `CELLS`: all of it is asked for once, and a part again.
-                let ticks = (end - start) * f64::from(*hz);
-                let is_searched = frame.n > DIRECT_TRIGGERS || ticks > DIRECT_TICKS;
-                if CELLS == 0 || !is_searched || i % 5 == CELLS % 5 {
-                    self.frame(exact, &ours, frame, *hz);
-                }
+                self.frame(exact, &ours, frame, *hz);
             }
         }
         if CELLS == 8 {
@@ -494,10 +494,6 @@ impl Figures {
         let frames = (1..=most.min(20)).chain((0..22).map(|k| most >> k));
         for n in frames.filter(|n| *n > 0) {
             // At 1 tick per unit of time nearly every design's interval has few enough.
-            let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
-            if length > DIRECT_TICKS {
-                continue;
-            }
             let Ok(frame) = ours.trigger_ticks(n, 1) else { continue };
             for i in (0..n).step_by(n as usize / 50 + 1).chain([n / 2, n - 1]) {
                 let u = (i as f32 + 0.5) / n as f32;
@@ -518,8 +514,6 @@ impl Figures {
         hz: u32,
     ) {
         let curve = exact.curve();
-        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        let kind = usize::from(length * f64::from(hz) > DIRECT_TICKS);
         let (n, first) = (frame.n, frame.first as usize);
         let ticks: Option<Vec<(u32, u32)>> = match frame.duty {
             None => ours.trigger_ticks(n, hz).ok().map(|ticks| {
@@ -538,7 +532,9 @@ impl Figures {
         for ((i, (on, off)), ends) in (frame.first..=u32::MAX).zip(&ticks).zip(&frame.exact) {
             for (tick, (u, delay)) in [on, off].into_iter().zip(ends) {
                 let near = (*delay * f64::from(hz) - Dd::from(f64::from(*tick))).hi.abs();
-                let error = if near <= 0.5 { near } else { tick_error_at(exact, *tick, *u, hz) };
+                let ulp = if frame.duty.is_some() { EDGE_ULP } else { TRIGGER_ULP };
+                let error =
+                    if near <= 0.5 { near } else { tick_error_at(exact, *tick, *u, hz, ulp) };
                 let at = || {
                     let duty = frame.duty;
                     format!(
@@ -546,9 +542,9 @@ impl Figures {
                     )
                 };
                 self.samples += 1;
-                self.ticks[kind] = self.ticks[kind].max(error);
+                self.ticks = self.ticks.max(error);
                 let what = if frame.duty.is_some() { "pulses" } else { "ticks" };
-                self.expect_at(what, error <= TICKS[kind], at, curve);
+                self.expect_at(what, error <= TICK, at, curve);
             }
             let at = || {
                 let duty = frame.duty;
@@ -564,35 +560,27 @@ impl Figures {
 
 impl fmt::Display for Figures {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { curves, samples, backward, evaluations, cdf, small_cdf, density, .. } = self;
-        let [few, many] = self.ticks;
+        let Self { curves, samples, backward, evaluations, cdf, small_cdf, density, ticks, .. } =
+            self;
         if self.forward > 0.0 {
             write!(out, "forward {:.3} ulp, ", self.forward)?;
         }
         write!(
             out,
             "u-error {backward:.3} ulp, {evaluations} evaluations, cdf {cdf:.3} ulp ({small_cdf:.3} without a floor), \
-             density {density:.3} ulp, {few:.3} and {many:.4} ticks; {samples} samples on {curves} curves"
+             density {density:.3} ulp, {ticks:.3} ticks; {samples} samples on {curves} curves"
         )
     }
 }
 
-/// How far a tick is from the exact time of trigger `i` of `n`, once a u-error of 2⁻³⁴ of `min(u, 1 - u)` is forgiven.
-///
-/// Where next to no light falls, the mass is the small sum of great terms: of 570 times its size where the families of `aimed` come
-/// nearest to the 1083 that the text of `solve` bounds it by. Pairs have 2⁻⁴¹ of the terms for their bound, 2⁻³² of such a mass, and
-/// miss a thirtieth of that here.
+/// How far a tick is from the exact time of trigger `i` of `n`, once [`TRIGGER_ULP`] is forgiven.
 pub fn tick_error(exact: &Exact, tick: u32, [i, n]: [u32; 2], hz: u32) -> f64 {
-    tick_error_at(
-        exact,
-        tick,
-        Dd::from(2.0 * f64::from(i) + 1.0) / Dd::from(2.0 * f64::from(n)),
-        hz,
-    )
+    let u = Dd::from(2.0 * f64::from(i) + 1.0) / Dd::from(2.0 * f64::from(n));
+    tick_error_at(exact, tick, u, hz, TRIGGER_ULP)
 }
 
-/// The same of the fraction `u`.
-pub fn tick_error_at(exact: &Exact, tick: u32, u: Dd, hz: u32) -> f64 {
+/// The same of the fraction `u`, once so many ulp of the lesser of it and its rest are forgiven.
+pub fn tick_error_at(exact: &Exact, tick: u32, u: Dd, hz: u32, ulp: f64) -> f64 {
     let delay = |u: Dd| {
         let delay = exact.inverse_cdf_dd(u) - Dd::from(exact.curve().open_start());
         (delay * f64::from(hz)).hi
@@ -602,6 +590,7 @@ pub fn tick_error_at(exact: &Exact, tick: u32, u: Dd, hz: u32) -> f64 {
     if error <= 0.5 {
         return error;
     }
-    let forgiven = u.min(Dd::ONE - u).scale(exp2(-34));
+    let lesser = u.min(Dd::ONE - u);
+    let forgiven = Dd::from(ulp * ulp_f32(lesser.hi.max(0.0)));
     (delay(u - forgiven) - tick).max(tick - delay(u + forgiven)).max(0.0)
 }
