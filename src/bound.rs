@@ -18,10 +18,9 @@
 //!
 //! docs/proofs.md leads from this to what an answer is off by.
 
-use crate::octave::{DEGREE, Octave};
+use crate::octave::Octave;
 use crate::path::{Path, absolute};
 use crate::units::{WORD, fixed_f64};
-use crate::unknown::unknown;
 
 /// The greatest N: there is one point more. And the cosine of π/N.
 const POINTS: usize = 96;
@@ -105,7 +104,7 @@ const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     while k < c.len() && k < counted.len() {
         counted[k] = fixed_f64(c[k], -bits);
         are_counted &= counted[k].unsigned_abs() >> 60 == 0;
-        k = unknown(k + 1);
+        k += 1;
     }
     are_counted
 }
@@ -113,16 +112,14 @@ const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
 /// The value at a place, in 2⁻³⁰. Each step rounds down, and as no place is beyond ±1, nothing that is lost grows.
 #[inline(never)]
 pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
-    let (mut value, mut k) = (0, c.len());
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= c.len() {
-            return value;
-        }
+    let (mut value, mut c) = (0, c);
+    while let [lower @ .., next] = c {
         // By words: the product has 93 bits.
         let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
-        value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + c[k];
+        value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next;
+        c = lower;
     }
+    value
 }
 
 /// The errors of an octave's polynomial along a stretch. Samples are wrong by at most `noise`. For the tails, `x` has
@@ -148,15 +145,12 @@ pub(crate) const fn errors(
             let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;
-            let mut kind = KINDS;
-            loop {
-                kind = unknown(kind).wrapping_sub(1);
-                if kind >= KINDS {
-                    break;
-                }
+            let mut kind = 0;
+            while kind < KINDS {
                 let error = error * single(&weights[kind], place as f32 / PLACE).abs();
                 // A NaN stays, and is refused.
                 seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
+                kind += 1;
             }
             if place <= 0 {
                 break;
@@ -165,25 +159,20 @@ pub(crate) const fn errors(
         }
         i += step;
     }
-    let (mut tails, mut i) = ([0.0; ELLIPSES.len()], ELLIPSES.len());
-    loop {
-        i = unknown(i).wrapping_sub(1);
-        if i >= ELLIPSES.len() {
-            break;
-        }
+    let (mut tails, mut i) = ([0.0; ELLIPSES.len()], 0);
+    while i < ELLIPSES.len() {
         let [axis, _, first] = ELLIPSES[i];
         tails[i] = SLACK * first * bends(octave, x, axis);
+        i += 1;
     }
-    let (mut found, mut kind) = (Errors { least: seen, most: seen }, KINDS);
-    loop {
-        kind = unknown(kind).wrapping_sub(1);
-        if kind >= KINDS {
-            return found;
-        }
+    let (mut found, mut kind) = (Errors { least: seen, most: seen }, 0);
+    while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
         found.least[kind] -= noise;
         found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
+        kind += 1;
     }
+    found
 }
 
 /// The bound that follows from the greatest sample, by the best ellipse and degree.
@@ -199,12 +188,12 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
             // It is convex in the degree: once it is no less than the one before, so are the next ones. (A bound that is
             // too great would only refuse more.)
-            degrees = if bound < last { unknown(degrees - 1) } else { 0 };
+            degrees = if bound < last { degrees - 1 } else { 0 };
             least = if bound < least { bound } else { least };
             (last, tail) = (bound, tail * square);
             k += step;
         }
-        i = unknown(i + 1);
+        i += 1;
     }
     least
 }
@@ -215,16 +204,16 @@ const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> 
     let linear = x0.abs() + x1.abs() * axis;
     let curve = absolute(curved, axis) * axis * axis;
     // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference; from c[6], that of x², down.
-    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= DEGREE {
-            return sum;
-        }
+    let (mut power, mut more, mut sum) = (linear, curve, 0.0);
+    let [above @ .., _] = &octave.c;
+    let mut c: &[i32] = above;
+    while let [higher @ .., next] = c {
         more = (linear + curve) * more + curve * power;
         power *= linear;
-        sum += octave.c[k].unsigned_abs() as f32 * more;
+        sum += next.unsigned_abs() as f32 * more;
+        c = higher;
     }
+    sum
 }
 
 /// The value at `x` of a cubic by its coefficients, from the constant one up.

@@ -4,7 +4,6 @@ use crate::octave::{DEGREE, Octave};
 use crate::path::{Path, Side, root, singles, value};
 use crate::span::Span;
 use crate::units::{exponent, fixed, fixed_f64, power_of_two_f64};
-use crate::unknown::unknown;
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
 pub(crate) const NODES: [f32; DEGREE + 1] = [
@@ -47,12 +46,12 @@ impl Side<'_> {
         // and the slope: the largest value that it meets fills 31 bits, and rounding may not bring it beyond.
         let reach = span.half / span.width + 0.01;
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
-        while k > 0 && k <= DEGREE {
+        while k > 0 {
             steep = steep * reach + bound;
             bound = c[k].abs() as f32 + bound * reach;
             // A NaN stays.
             most = if bound <= most { most } else { bound };
-            k = unknown(k - 1);
+            k = k - 1;
         }
         steep = steep * reach + bound;
         most *= 1.0 + 1.0 / (1 << 16) as f32;
@@ -68,9 +67,9 @@ impl Side<'_> {
         let factor = 1 << (exponent - self.unit);
         let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
         let mut k = DEGREE;
-        while k > 0 && k <= DEGREE {
+        while k > 0 {
             octave.c[DEGREE - k] = rounded(c[k], exponent);
-            k = unknown(k - 1);
+            k = k - 1;
         }
         let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
         // The middle lies between nodes, so this is nearly a time of the ramp, and the sum below fits.
@@ -100,12 +99,8 @@ impl Span {
         // Its values at ±1 are even ± odd, so that `even + odd n` is the node `n` between them.
         let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
         // Divided differences ...
-        let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], DEGREE + 1);
-        loop {
-            i = unknown(i).wrapping_sub(1);
-            if i > DEGREE {
-                break;
-            }
+        let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0);
+        while i <= DEGREE {
             // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
             // other, for its error to be small; so single precision is enough.
             offset[0] = x0 - (even + odd * NODES[i]);
@@ -113,21 +108,20 @@ impl Span {
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.time, place);
+            i += 1;
         }
         let mut order = 1;
         while order <= DEGREE {
             divided_differences(&mut d, &x, order);
-            order = unknown(order + 1);
+            order += 1;
         }
         // ... multiplied out into powers of x, from the highest order on.
-        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
-        loop {
-            i = unknown(i).wrapping_sub(1);
-            if i > DEGREE {
-                return c;
-            }
-            multiply(&mut c, DEGREE - i, x[i], d[i]);
+        let (mut c, mut degree) = ([0.0; DEGREE + 1], 0);
+        while degree <= DEGREE {
+            multiply(&mut c, degree, x[DEGREE - degree], d[DEGREE - degree]);
+            degree += 1;
         }
+        c
     }
 }
 
@@ -135,15 +129,12 @@ impl Span {
 /// loops that the compiler unrolls in each place cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
-    let (mut i, mut last) = (order.wrapping_sub(1), 0.0);
-    while i <= DEGREE {
-        let (this, first) = (d[i], i.wrapping_sub(order));
-        // One place early, only to take up `last`.
-        if first <= DEGREE {
-            d[i] = (this - last) / (x[i] - x[first]);
-        }
+    let (mut last, mut first) = (d[order - 1], 0);
+    while first + order <= DEGREE {
+        let this = d[first + order];
+        d[first + order] = (this - last) / (x[first + order] - x[first]);
         last = this;
-        i = unknown(i + 1);
+        first += 1;
     }
 }
 
@@ -151,9 +142,9 @@ const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], o
 #[inline(never)]
 const fn multiply(c: &mut [f64; DEGREE + 1], degree: usize, root: f64, constant: f64) {
     let mut k = degree;
-    while k > 0 && k <= DEGREE {
+    while k > 0 {
         c[k] = c[k - 1] - c[k] * root;
-        k = unknown(k - 1);
+        k = k - 1;
     }
     c[0] = constant - c[0] * root;
 }

@@ -5,7 +5,6 @@ use crate::candidate::Candidate;
 use crate::path::{Path, Side, absolute, scale, singles, value};
 use crate::span::Span;
 use crate::units::{exponent, floor_bits, power_of_two};
-use crate::unknown::unknown;
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp. The time
 /// counts as no more than the interval ([`Side::size_of_time`]), so in an interval of 2²⁴ ticks it is below 0.19 tick.
@@ -146,7 +145,7 @@ impl Side<'_> {
             && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
         {
             p *= 2.0;
-            doublings = unknown(doublings - 1);
+            doublings = doublings - 1;
         }
         // f' is three times a mean of the differences. Their sum is the same seen from either end.
         let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();

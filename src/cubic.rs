@@ -1,6 +1,5 @@
 //! Cubics in `f64`, for the construction of a curve: extremes, and the power form around a place.
 
-use crate::unknown::unknown;
 
 /// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
 #[derive(Clone, Copy)]
@@ -52,20 +51,19 @@ pub(crate) const fn integral(f: Cubic, t: Cubic) -> [f64; 6] {
     // exponent.
     const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
     let (Cubic { value, c: [f1, f2, f3] }, t) = (f, t.c);
-    let (f, mut integral, mut k) = ([value, f1, f2, f3], [0.0; 6], COUNT.len());
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= COUNT.len() {
-            break;
+    let (f, mut integral, mut j) = ([value, f1, f2, f3], [0.0; 6], 0);
+    while j < t.len() {
+        let mut k = 0;
+        while k < f.len() {
+            integral[j + k] += COUNT[j] * f[k] * t[j];
+            k += 1;
         }
-        let mut j = 0;
-        while j < t.len() {
-            if k.wrapping_sub(j) < f.len() {
-                integral[k] += COUNT[j] * f[k - j] * t[j];
-            }
-            j += 1;
-        }
+        j += 1;
+    }
+    let mut k = 0;
+    while k < COUNT.len() {
         integral[k] /= COUNT[k];
+        k += 1;
     }
     // Three sixths are a half, with a rounding less, and the same bits seen from the other end.
     integral[5] = f3 * t[2] / 2.0;
@@ -131,13 +129,13 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
                     let (mut term, mut j) = (if k == 1 || k == 2 { 3.0 } else { 1.0 }, k);
                     while j < k + 3 {
                         term *= if j < 3 { r } else { p };
-                        j = unknown(j + 1);
+                        j += 1;
                     }
                     term *= f[k & 3];
                     // In pairs, as the mirrored cubic adds them.
                     sums[k >> 1 & 1] += term;
                     noise += term.abs();
-                    k = unknown(k + 1);
+                    k += 1;
                 }
                 // 32 roundings of the terms; each takes 5, and their sum 3.
                 let noise = noise / (1u64 << 48) as f64;
@@ -146,7 +144,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
                 low = if value < low { value } else { low };
                 high = if value > high { value } else { high };
             }
-            i = unknown(i + 1);
+            i += 1;
         }
     }
     (low, high)
@@ -163,7 +161,7 @@ const fn sqrt(x: f64) -> f64 {
     let mut i = 0;
     while i < 5 {
         y = 0.5 * (y + x / y);
-        i = unknown(i + 1);
+        i += 1;
     }
     y
 }

@@ -53,9 +53,7 @@ mod candidate;
 mod cdf;
 mod certificate;
 mod cubic;
-mod doubles;
 mod error;
-mod exact;
 mod exposure;
 mod fraction;
 mod frame;
@@ -78,7 +76,6 @@ mod solve;
 mod span;
 mod ticks;
 mod units;
-mod unknown;
 
 pub use bezier::CubicBezier;
 pub use error::{CurveError, Part, ScheduleError, valid};

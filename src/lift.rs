@@ -2,7 +2,6 @@
 //! time never runs back and the openness is nowhere below 0.
 
 use crate::cubic::{cubic_range, quadratic_min, widened};
-use crate::unknown::unknown;
 
 /// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁴⁸ of its size for
 /// the rounding of that, less and less towards the greater end, which stays. So an opening that dips below 0 still
@@ -26,7 +25,7 @@ pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
         let exact = v[i] as f64 + (stays - v[i] as f64) * share;
         let near = exact as f32;
         v[i] = if (near as f64) < exact { near.next_up() } else { near };
-        i = unknown(i + 1);
+        i += 1;
     }
     v
 }

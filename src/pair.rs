@@ -3,11 +3,10 @@
 //! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
 //! functions. Only `minus_loose` may leave the greater number second, if its operands nearly cancel. What each loses is
 //! said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). Plain sums and products without
-//! fused operations, and what these lose ([`exact`](crate::exact)), so that the bits are the same on every machine.
+//! fused operations, and what these lose (Knuth's sum, 1969, and Dekker's product, 1971), so that the bits are the same on every machine.
 //! They are exact, or as good as each says, as long as nothing overflows or becomes subnormal; who calls them scales by
 //! powers of two to see to that.
 
-use crate::exact::{lost_by_product, lost_by_sum};
 use crate::units::power_of_two;
 
 /// `hi + lo`
@@ -144,4 +143,33 @@ pub(crate) const fn significand(x: f64) -> (Pair, i32) {
     let hi = f32::from_bits(127 << 23 | (bits >> 29) as u32 & 0x7F_FFFF);
     let lo = (bits as u32 >> 5 & 0xFF_FFFF) as f32 * UNIT;
     (Pair { hi, lo }, (bits >> 52) as i32 - 1023)
+}
+
+/// `a + b - sum`, exactly, for the rounded `sum` of both (Knuth).
+#[inline(always)]
+const fn lost_by_sum(sum: f32, a: f32, b: f32) -> f32 {
+    let added = sum - a;
+    (a - (sum - added)) + (b - added)
+}
+
+/// `a b - product`, exactly, for the rounded `product` of both (Dekker).
+#[inline(always)]
+pub(crate) const fn lost_by_product(product: f32, a: f32, b: f32) -> f32 {
+    let (a_high, b_high) = (upper(a), upper(b));
+    let (a_low, b_low) = (a - a_high, b - b_high);
+    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+}
+
+/// The same for an `x` of 12 bits.
+#[inline(always)]
+pub(crate) const fn lost_by_short_product(product: f32, a: f32, x: f32) -> f32 {
+    let high = upper(a);
+    (high * x - product) + (a - high) * x
+}
+
+/// The upper 12 of 24 bits. The product of two such halves is exact.
+// proofs/words.py: upper
+#[inline(always)]
+pub(crate) const fn upper(x: f32) -> f32 {
+    f32::from_bits(x.to_bits() & 0xFFFF_F000)
 }

@@ -8,7 +8,6 @@
 use crate::cubic::Cubic;
 use crate::exposure::Exposure;
 use crate::shape::Shape;
-use crate::unknown::unknown;
 
 /// As close as single precision comes: a step of Newton's below this share of its place is the last one.
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
@@ -102,7 +101,7 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
     while k < c.len() {
         c[k] *= factor;
         factor *= unit;
-        k = unknown(k + 1);
+        k += 1;
     }
 }
 
@@ -110,33 +109,35 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
 /// coefficient.
 #[inline(never)]
 const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
-    let mut k = 0;
-    while k < c.len() {
-        let (mut above, mut j) = (0.0, c.len());
-        loop {
-            j = unknown(j).wrapping_sub(1);
-            if j >= c.len() || j < k {
-                break;
-            }
-            above = c[j] + middle * above;
-            c[j] = above;
-        }
-        k = unknown(k + 1);
+    let mut pass: &mut [f64] = c;
+    while !pass.is_empty() {
+        sum_down(pass, middle);
+        let Some((_, rest)) = pass.split_first_mut() else { break };
+        pass = rest;
     }
     scale(c, 1.0, unit);
+}
+
+/// One pass: each coefficient, from the highest down, plus `x` times the sum above it.
+#[inline(never)]
+const fn sum_down(mut c: &mut [f64], x: f64) {
+    let mut above = 0.0;
+    while let Some((next, lower)) = c.split_last_mut() {
+        above = *next + x * above;
+        *next = above;
+        c = lower;
+    }
 }
 
 /// The value at `x` of a polynomial by its coefficients, from the constant one up.
 #[inline(never)]
 pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
-    let (mut value, mut k) = (0.0, c.len());
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= c.len() {
-            return value;
-        }
-        value = value * x + c[k];
+    let (mut value, mut c) = (0.0, c);
+    while let [lower @ .., next] = c {
+        value = value * x + *next;
+        c = lower;
     }
+    value
 }
 
 /// In single precision, less `shift` and times `factor`. It takes up to seven coefficients, and those that are not there
@@ -147,7 +148,7 @@ pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
     while k < c.len() && k < single.len() {
         let c = if k == 0 { c[k] - shift } else { c[k] };
         single[k] = (c * factor) as f32;
-        k = unknown(k + 1);
+        k += 1;
     }
     single
 }
@@ -158,14 +159,11 @@ pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
     while steps < MOST_STEPS {
-        let (mut value, mut slope, mut k) = (0.0, 0.0, 7);
-        loop {
-            k = unknown(k).wrapping_sub(1);
-            if k >= c.len() {
-                break;
-            }
+        let (mut value, mut slope, mut left): (f32, f32, &[f32]) = (0.0, 0.0, c);
+        while let [lower @ .., next] = left {
             slope = slope * x + value;
-            value = value * x + c[k];
+            value = value * x + *next;
+            left = lower;
         }
         *(if value < 0.0 { &mut low } else { &mut high }) = x;
         let next = x - value / slope;
@@ -180,12 +178,10 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
 /// A bound of all values within `x` of 0, by the coefficients without their signs.
 #[inline(never)]
 pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
-    let (mut value, mut k) = (0.0, c.len());
-    loop {
-        k = unknown(k).wrapping_sub(1);
-        if k >= c.len() {
-            return value;
-        }
-        value = value * x + c[k].abs();
+    let (mut value, mut c) = (0.0, c);
+    while let [lower @ .., next] = c {
+        value = value * x + next.abs();
+        c = lower;
     }
+    value
 }

@@ -15,8 +15,6 @@
 //! 9. Halley's steps, what is then missing in pairs, and one step for that, with a proof ([`solve`](crate::solve)).
 //! 10. One rounding to `f32`.
 //!
-//! On a processor with doubles, [`doubles`](crate::doubles) takes the plateau's line in those, to the same bits.
-//!
 //! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
 //! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
 //! ([`certificate`](crate::certificate)). A search's is below a quarter of that distance if its step was accepted, so
@@ -127,7 +125,7 @@ impl<const CELLS: usize> Plan<CELLS> {
         fixed(self.exposure.outer(side), self.unit())
     }
 
-    /// The time by which the fraction `u` of the exposure has been collected, without doubles.
+    /// The time by which the fraction `u` of the exposure has been collected.
     ///
     /// The plateau's way has a return of its own, and the ramp's way has only one. So the compiler saves registers on
     /// the ramp's way alone, and only those that a polynomial needs.
@@ -326,19 +324,6 @@ impl<const CELLS: usize> Plan<CELLS> {
             index += 1;
         }
         least
-    }
-
-    /// The plateau's line in doubles: its time at `u = 0`, its slope, and the time of a unit.
-    #[inline(always)]
-    pub(crate) fn line(&self) -> [f64; 3] {
-        let unit = power_of_two(self.unit()) as f64;
-        [self.base as f64 * unit, self.slope as f64 * unit, unit]
-    }
-
-    /// The `u` that it serves: above the first, up to the second.
-    #[inline(always)]
-    pub(crate) fn served_by_line(&self) -> [f32; 2] {
-        [self.last[0].wrapping_sub(self.count[0]), self.last[0]].map(f32::from_bits)
     }
 }
 

@@ -4,8 +4,7 @@
 //! thousandth; the step after the measurement leaves the cube of that. A bound of what it leaves
 //! ([`left`](crate::solve::left)) accepts the place or not: where time nearly stands still, a search has to find it.
 
-use crate::exact::{lost_by_short_product, upper};
-use crate::pair::Pair;
+use crate::pair::{Pair, lost_by_short_product, upper};
 use crate::solve::{ROUNDING, Taylor, left};
 use crate::units::LAST_PLACE;
 

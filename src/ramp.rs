@@ -19,7 +19,6 @@ use crate::series::Series;
 use crate::shape::Shape;
 use crate::solve::{Anchor, ROUNDING, solve};
 use crate::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
-use crate::unknown::unknown;
 
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
@@ -125,9 +124,9 @@ impl Ramp {
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };
                 }
-                kind = unknown(kind + 1);
+                kind += 1;
             }
-            side = unknown(side + 1);
+            side += 1;
         }
         ramp
     }
@@ -253,7 +252,7 @@ const fn in_places(c: &[f64], mut scale: f64, pairs: &mut [Pair]) -> Pair {
         if k < pairs.len() {
             pairs[k] = last;
         }
-        k = unknown(k + 1);
+        k += 1;
     }
     last
 }

@@ -4,7 +4,6 @@ use crate::bezier::CubicBezier;
 use crate::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
 use crate::error::{CurveError, Part};
 use crate::lift::{forward, lifted};
-use crate::unknown::unknown;
 
 /// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;
@@ -18,7 +17,7 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
         if !t[i].is_finite() || !f[i].is_finite() {
             return Err(CurveError::NotFinite(part));
         }
-        i = unknown(i + 1);
+        i += 1;
     }
     Ok(())
 }
@@ -101,7 +100,7 @@ impl Shape {
         while k < m.len() {
             first += m[k];
             last += n[k];
-            k = unknown(k + 1);
+            k += 1;
         }
         0.5 * (first + last)
     }

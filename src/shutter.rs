@@ -3,7 +3,6 @@
 use core::fmt;
 
 use crate::bezier::CubicBezier;
-use crate::doubles;
 use crate::error::{CurveError, Part};
 use crate::moment::rounded;
 use crate::pair::Pair;
@@ -275,27 +274,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        doubles::inverse_cdf(&self.plan, u)
-    }
-
-    /// [`inverse_cdf`](Self::inverse_cdf) of each `u` into the `t` beside it: the same bits, and the same unit.
-    ///
-    /// ```
-    /// use shutter_curve::ShutterCurve;
-    /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
-    /// let mut t = [0.0; 4];
-    /// curve.inverse_cdf_slice(&[0.0, 0.25, 0.5, 1.0], &mut t);
-    /// assert_eq!(t, [0.0, 2.0, 3.0, 6.0]);
-    /// # Ok::<(), shutter_curve::CurveError>(())
-    /// ```
-    ///
-    /// # Panics
-    /// If the lengths differ.
-    // Inlined, so that the compiler drops the check if it knows both lengths.
-    #[inline(always)]
-    pub fn inverse_cdf_slice(&self, u: &[f32], t: &mut [f32]) {
-        assert!(u.len() == t.len(), "u and t differ in length");
-        doubles::inverse_cdf_slice(&self.plan, u, t);
+        self.plan.inverse_cdf(u)
     }
 
     /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.

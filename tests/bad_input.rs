@@ -305,13 +305,6 @@ fn any_trigger_of_the_most_that_there_can_be() {
     assert_eq!(curve.trigger_ticks(MOST, 1000).unwrap().nth_back(MOST as usize), None);
 }
 
-#[test]
-#[should_panic(expected = "differ in length")]
-fn slices_of_different_length() {
-    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
-    curve.inverse_cdf_slice(&[0.5, 0.6], &mut [0.0]);
-}
-
 /// Inner times that are fractions of each ramp, as an easing curve has them, and values that are none.
 #[test]
 fn shutteropening_is_told_from_times() {

@@ -11,7 +11,6 @@ mod cubic;
 mod lift;
 mod support;
 #[path = "../src/unknown.rs"]
-mod unknown;
 
 use support::aimed::{aimed_ts, aimed_us};
 use support::cases::shutter;

@@ -3,7 +3,6 @@
 mod bound;
 mod cdf;
 mod certificate;
-mod exact;
 mod left;
 mod octave;
 mod transcribed;

@@ -64,9 +64,6 @@ impl<const CELLS: usize> Inverse for ShutterCurve<CELLS> {
     fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse_cdf(u)
     }
-    fn slice(&self, u: &[f32], t: &mut [f32]) {
-        self.inverse_cdf_slice(u, t);
-    }
 }
 
 /// A peer is the way in which its data are used.

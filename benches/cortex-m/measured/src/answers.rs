@@ -106,7 +106,6 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
             hash.floats([curve.cdf(odd), curve.opening(odd), curve.pdf(odd)]);
             hash.add([(curve.is_direct(odd), curve.evaluations(odd), curve.max_triggers(odd))]);
         }
-        slice(hash, &curve);
         schedules(hash, &curve);
     }
 
@@ -157,16 +156,6 @@ fn answers<const CELLS: usize>(
             hash.floats([curve.cdf(t), curve.opening(t), curve.pdf(t)]);
         }
     }
-}
-
-/// So many that more than one chunk is worked off, of one length that the compiler does not know.
-fn slice<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
-    let (mut us, mut ts, length) = ([0.0; 150], [0.0; 150], black_box(150));
-    us.iter_mut().zip(ODD.into_iter().chain((0..).map(uniform))).for_each(|(u, value)| *u = value);
-    if let (Some(us), Some(ts)) = (us.get(..length), ts.get_mut(..length)) {
-        curve.inverse_cdf_slice(us, ts);
-    }
-    hash.floats(ts);
 }
 
 fn schedules<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
