@@ -9,7 +9,7 @@ fn main() {
     println!("cargo::rerun-if-changed={COST}");
     let cost = fs::read_to_string(COST).expect("docs/cost.md is there");
     let (_, calls) =
-        cost.split_once("The calls with `CELLS = 8`").expect("docs/cost.md: the table of calls");
+        cost.split_once("The calls with `OCTAVES = 8`").expect("docs/cost.md: the table of calls");
     let call = |name: &str| row(calls, name, 5);
     // Of a call: typical, worst, code.
     let rows = [
@@ -23,7 +23,7 @@ fn main() {
             cells[3], cells[4], cells[6]
         )
     });
-    // Of the bytes: CELLS = 0, then 8.
+    // Of the bytes: OCTAVES = 0, then 8.
     let bytes = row(&cost, "bytes of a curve", 2)[1];
     let code = format!(
         "pub const COSTS: [Cost; 3] = [{}];\npub const BYTES: u32 = {bytes};\n",

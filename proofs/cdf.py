@@ -11,7 +11,7 @@ time t, an f32, is at one of these:
 from solver import *
 
 code("pub(crate) fn cdf_by_octave(&self, ramp: usize, t: f32) -> Option<f32> {", """
-    if CELLS == 0 || self.runs_across_0() { return None; }
+    if OCTAVES == 0 || self.runs_across_0() { return None; }
     let time = self.in_units(t)?;
     let (side, index) = self.octave_about(ramp, time)?;
     let octave = self.octaves[side & 1].get(index)?;""")
@@ -55,7 +55,7 @@ code("pub(crate) fn time_between(&self, bits: u32) -> Option<i64> {", """
     let middle = a.wrapping_add(b.wrapping_sub(a) >> 1);
     let is_served = core::ptr::eq(octave, same) && octave.exists();
     is_served.then(|| octave.time(octave.ahead_of_center(middle)))""")
-code("if CELLS > 0 && let Some(time) = self.time_between((lesser / WHOLE).to_bits())", "{ return if fixed(t, self.unit()) >= time { greater } else { lesser }; }")
+code("if OCTAVES > 0 && let Some(time) = self.time_between((lesser / WHOLE).to_bits())", "{ return if fixed(t, self.unit()) >= time { greater } else { lesser }; }")
 code("let is_told = nearest > least_told", "&& distance >= nearest * NEAR_MIDDLE;")
 
 # A time of so many units: `scale` is 2^32 of them, so an f32 with its exponent, less by one, has a significand of 2^31 units.

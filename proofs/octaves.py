@@ -205,7 +205,7 @@ byte = BitVec("byte", 8)
 top = (ZeroExt(24, byte) + LEAST // STEP) * STEP
 by_f32 = look_up(top, bits)
 exponent = LShR(bits, 23)
-CELLS = int(source(r"assert!\(CELLS <= (\d+),"))
+OCTAVES = int(source(r"assert!\(OCTAVES <= (\d+),"))
 a = ZeroExt(32, (bits & 0x7FFFFF) | (1 << 23)) << 40
 a = LShR(a, ZeroExt(32, 126 - exponent))
 
@@ -240,7 +240,7 @@ is_lower = by_f32[1] < 0
 def agree(zeros, compared=True):
     index, power = by_u64(a, zeros, compared)
     here = And(LShR(a, 63 - zeros) == 1, ULE(a, 1 << 63), exponent == 126 - zeros)
-    none = And(UGE(index, CELLS), UGE(by_f32[0], CELLS))
+    none = And(UGE(index, OCTAVES), UGE(by_f32[0], OCTAVES))
     return Implies(here, Or(none, And(index == by_f32[0], power == zeros - If(is_lower, BitVecVal(1, 32), BitVecVal(0, 32)))))
 
 

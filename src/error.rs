@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::shutter::ShutterCurve;
+
 /// The part of a curve that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -10,6 +12,15 @@ pub enum Part {
     Opening,
     /// The ramp from `close_start` to `close_end`.
     Closing,
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(match self {
+            Self::Opening => "opening ramp",
+            Self::Closing => "closing ramp",
+        })
+    }
 }
 
 /// Why a curve was not built.
@@ -110,7 +121,9 @@ impl core::error::Error for CurveError {}
 /// # Panics
 /// If `curve` is an error; meant for constants, where that stops the build.
 #[track_caller]
-pub const fn valid<T: Copy>(curve: Result<T, CurveError>) -> T {
+pub const fn valid<const OCTAVES: usize>(
+    curve: Result<ShutterCurve<OCTAVES>, CurveError>,
+) -> ShutterCurve<OCTAVES> {
     match curve {
         Ok(curve) => curve,
         Err(error) => panic!("{}", error.message()),
@@ -145,6 +158,15 @@ pub enum ScheduleError {
         /// The first trigger that comes too early, by its index.
         trigger: u32,
         /// The ticks since the trigger before it.
+        gap: u32,
+        /// The ticks that are required.
+        min_gap: u32,
+    },
+    /// Two pulses would come closer than the minimum gap.
+    PulsesTooClose {
+        /// The first pulse that comes too early, by its index.
+        pulse: u32,
+        /// The ticks from the end of the pulse before it to its start.
         gap: u32,
         /// The ticks that are required.
         min_gap: u32,
@@ -190,6 +212,13 @@ impl fmt::Display for ScheduleError {
                 write!(
                     out,
                     "trigger {trigger} comes {gap} tick{plural} after the one before, and {min_gap} are required"
+                )
+            }
+            Self::PulsesTooClose { pulse, gap, min_gap } => {
+                let plural = plural(*gap);
+                write!(
+                    out,
+                    "pulse {pulse} goes on {gap} tick{plural} after the one before has gone off, and {min_gap} are required"
                 )
             }
             Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),

@@ -29,60 +29,34 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// To read in this order; each file's code needs only those before it, and `error`: what can be wrong with a curve or a schedule.
+// Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time to its
+// fraction, `trigger/ticks.rs` what makes ticks of times. Each folder needs only those above it:
 //
-// Numbers    `units`: the scales. `exact`: what a sum and a product lose. `pair`: two `f32` as one number. `unknown`:
-//            what keeps loops small. `series`: polynomials of pairs.
-// Search     `solve`: where a series reaches a target, and the proof that it does. `guess`: where to begin.
-// A ramp     `cubic`, `lift`, `bezier`, `shape`: what makes one Bezier a ramp, and its integral. `moment`: a time as it
-//            is found. `ramp`: when a mass has been collected. `quick`: a place for a time without a search. `by_time`:
-//            the same ramp, asked by time, and its openness.
-// A curve    `exposure`: two ramps and a plateau, by fraction.
-// Directly   `octave`: a polynomial that needs no search. How it is built: `path`, a ramp in `f64`; `span`, the part
-//            that it serves; `candidate`, its coefficients; `bound` and `certificate`, its judge; `octaves`, all of
-//            a side.
-// An answer  `plan`: the steps from a `u` to a time. `by_u64`: the direct ones from a fraction of 64 bits. `by_octave`:
-//            from a time to its `u` by a polynomial; `cdf`: by any way, and the ways of openness and density. `doubles`:
-//            a short cut on processors of 64 bits, for one `u` and for many.
-// Outside    `shutter`. `fraction`, `ticks`, `fill`, `frame`, `schedule`, `pulse`: the times and ticks of triggers
-//            and pulses.
-mod bezier;
-mod bound;
-mod by_time;
-mod candidate;
-mod cdf;
-mod certificate;
-mod cubic;
+// number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
+// search    where a polynomial reaches a target, and the proof that it does
+// ramp      one Bezier: what makes it a ramp, its mass and time from either end, when a mass has been collected
+// exposure  two ramps and the plateau, by fraction
+// octave    polynomials that answer without a search: how they are built, and their certificates
+// answer    the time of a fraction, and the fraction of a time
+// trigger   the ticks of triggers and pulses
+mod answer;
 mod error;
 mod exposure;
 mod fraction;
-mod frame;
-mod guess;
-mod lift;
-mod moment;
+mod measure;
+mod number;
 mod octave;
-mod octaves;
-mod pair;
-mod path;
-mod plan;
-mod pulse;
-mod quick;
 mod ramp;
-mod schedule;
-mod series;
-mod shape;
+mod search;
 mod shutter;
-mod solve;
-mod span;
-mod ticks;
-mod units;
+mod trigger;
 
-pub use bezier::CubicBezier;
 pub use error::{CurveError, Part, ScheduleError, valid};
-pub use pulse::PulseTicks;
-pub use schedule::{TriggerTicks, TriggerTimes};
+#[doc(hidden)]
+pub use measure::MAX_EVALUATIONS;
+pub use ramp::bezier::CubicBezier;
 pub use shutter::ShutterCurve;
-pub use solve::MAX_EVALUATIONS;
+pub use trigger::{Pulse, PulseTicks, TriggerTicks, TriggerTimes};
 
 #[cfg(test)]
 #[path = "../tests/inside/mod.rs"]

@@ -2,27 +2,28 @@
 
 use core::fmt;
 
-use crate::bezier::CubicBezier;
+use crate::ramp::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
-use crate::moment::rounded;
-use crate::pair::Pair;
-use crate::plan::Plan;
+use crate::number::moment::rounded;
+use crate::number::pair::Pair;
+use crate::answer::plan::Plan;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.
 ///
 /// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
-/// is per that unit, and the rate of a timer counts ticks in one of it (Hz, if it is the second). Either ramp may have
-/// no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or end at 1 (a jump).
+/// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in Hz.
+/// Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or
+/// end at 1 (a jump).
 ///
-/// `CELLS` is the number of octaves of `u` on either side, from the start and from the end; each has a polynomial that
-/// answers it. A curve takes 480 bytes, and 96 more for each of `CELLS`. With 8 a side at most one `u` in 256 of a
-/// typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64
-/// do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation. The constructors for another
-/// number than 8 end in `with_cells`.
-#[derive(Clone, Copy, PartialEq)]
-pub struct ShutterCurve<const CELLS: usize = 8> {
-    pub(crate) plan: Plan<CELLS>,
+/// `OCTAVES` is the number of octaves of `u` on either side: the upper half of what lies between the curve's end and the
+/// end of a ramp, the upper half of the rest, and so on. Each has a polynomial that answers it. A curve takes 488 bytes,
+/// and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of a typical curve is found by a search; with
+/// 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile, and beyond 16 a constant
+/// may exceed the compiler's limit on evaluation. [`with_octaves`](Self::with_octaves) takes another number than 8.
+#[derive(Clone, PartialEq)]
+pub struct ShutterCurve<const OCTAVES: usize = 8> {
+    pub(crate) plan: Plan<OCTAVES>,
 }
 
 impl ShutterCurve {
@@ -35,15 +36,15 @@ impl ShutterCurve {
     ///     CubicBezier::new([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]),
     ///     CubicBezier::new([(8.0, 1.0), (9.0, 1.0), (9.0, 0.0), (10.0, 0.0)]),
     /// )?;
-    /// assert_eq!(curve.opening(1.0), 0.5);
+    /// assert_eq!(curve.openness(1.0), 0.5);
     /// assert_eq!(curve.exposure(), 8.0);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     ///
     /// # Errors
-    /// As [`with_cells`](Self::with_cells).
+    /// As [`with_octaves`](Self::with_octaves).
     pub const fn new(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
-        Self::with_cells(opening, closing)
+        Self::with_octaves(opening, closing)
     }
 
     /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from `close_start` to
@@ -58,14 +59,17 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_cells`](Self::with_cells).
+    /// As [`with_octaves`](Self::with_octaves).
     pub const fn linear(
         open_start: f32,
         open_end: f32,
         close_start: f32,
         close_end: f32,
     ) -> Result<Self, CurveError> {
-        Self::linear_with_cells(open_start, open_end, close_start, close_end)
+        Self::with_octaves(
+            CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
+            CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
+        )
     }
 
     /// The shutter in the form of RenderMan's `shutteropening`: the `times`, in any unit, at which it starts and ends
@@ -86,19 +90,56 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_cells`](Self::with_cells), but inner times out of order are
+    /// As [`with_octaves`](Self::with_octaves), but inner times out of order are
     /// [`InnerTimesTurnBack`](CurveError::InnerTimesTurnBack).
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
-        Self::shutteropening_with_cells(times, inner)
+        let (opening, closing) = CubicBezier::shutteropening(times, inner);
+        // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
+        // ramp's.
+        if times[0].is_finite() && times[1].is_finite() && !times[3].is_finite() {
+            return Err(CurveError::NotFinite(Part::Closing));
+        }
+        match Self::new(opening, closing) {
+            Err(CurveError::TimeTurnsBack(ramp)) => Err(CurveError::InnerTimesTurnBack(ramp)),
+            curve => curve,
+        }
+    }
+
+    /// One Bezier `(t(p), f(p))` as a density: as a shutter that opens along it and closes at once where it ends.
+    ///
+    /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
+    /// not depend on it. But `f` may not exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a
+    /// power of two, which rounds nothing. Then [`normalization`](Self::normalization) is
+    /// `K = 1 / ∫ f t' dp` of the scaled density.
+    ///
+    /// ```
+    /// use shutter_curve::{CubicBezier, ShutterCurve};
+    /// // f = 80 p and t = p: the density is 2 t, so cdf = t² and its inverse is √u.
+    /// let density = CubicBezier::line((0.0, 0.0), (1.0, 80.0));
+    /// let curve = ShutterCurve::density(density.scaled(1.0 / 128.0))?;
+    /// assert_eq!(curve.pdf(0.5), 1.0);
+    /// assert_eq!(curve.cdf(0.5), 0.25);
+    /// assert_eq!(curve.inverse_cdf(0.25), 0.5);
+    /// // K ∫ f t' dp = 1, where ∫ 80 p dp = 40.
+    /// let k = curve.normalization() / 128.0;
+    /// assert_eq!(k, 1.0 / 40.0);
+    /// # Ok::<(), shutter_curve::CurveError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`with_octaves`](Self::with_octaves).
+    pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
+        let [.., (end, _)] = density.points();
+        Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0)))
     }
 }
 
-impl<const CELLS: usize> ShutterCurve<CELLS> {
-    /// The shutter with these ramps, with `CELLS` octaves a side.
+impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
+    /// The shutter with these ramps, with `OCTAVES` octaves a side.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
-    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::with_cells(
+    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::with_octaves(
     ///     CubicBezier::line((0.0, 0.0), (1.0, 1.0)),
     ///     CubicBezier::line((1.0, 1.0), (2.0, 0.0)),
     /// ));
@@ -110,64 +151,13 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
     /// 2⁻¹²⁶. For the rounding of control points the openness and the slope of time may
     /// pass their bounds by 2⁻²²; but time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
-    pub const fn with_cells(
+    pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
         match Plan::new(&opening, &closing) {
             Ok(plan) => Ok(Self { plan }),
             Err(error) => Err(error),
-        }
-    }
-
-    /// [`linear`](ShutterCurve::linear) with `CELLS` octaves a side.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::linear_with_cells(0.0, 1.0, 1.0, 2.0));
-    /// assert_eq!(SMALL.inverse_cdf(0.125), 0.5);
-    /// ```
-    ///
-    /// # Errors
-    /// As [`with_cells`](Self::with_cells).
-    pub const fn linear_with_cells(
-        open_start: f32,
-        open_end: f32,
-        close_start: f32,
-        close_end: f32,
-    ) -> Result<Self, CurveError> {
-        Self::with_cells(
-            CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
-            CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
-        )
-    }
-
-    /// [`shutteropening`](ShutterCurve::shutteropening) with `CELLS` octaves a side.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// static LARGE: ShutterCurve<16> = valid(ShutterCurve::shutteropening_with_cells(
-    ///     [0.0, 0.25, 0.75, 1.0],
-    ///     [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
-    /// ));
-    /// const _: () = assert!(LARGE.direct_triggers() >= 20_000);
-    /// ```
-    ///
-    /// # Errors
-    /// As [`shutteropening`](ShutterCurve::shutteropening).
-    pub const fn shutteropening_with_cells(
-        times: [f32; 4],
-        inner: [f32; 8],
-    ) -> Result<Self, CurveError> {
-        let (opening, closing) = CubicBezier::shutteropening(times, inner);
-        // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
-        // ramp's.
-        if times[0].is_finite() && times[1].is_finite() && !times[3].is_finite() {
-            return Err(CurveError::NotFinite(Part::Closing));
-        }
-        match Self::with_cells(opening, closing) {
-            Err(CurveError::TimeTurnsBack(ramp)) => Err(CurveError::InnerTimesTurnBack(ramp)),
-            curve => curve,
         }
     }
 
@@ -181,21 +171,25 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!((curve.close_start(), curve.close_end()), (7.0, 10.0));
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub const fn open_start(&self) -> f32 {
         self.plan.exposure.outer(0)
     }
 
     /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
+    #[must_use]
     pub const fn open_end(&self) -> f32 {
         self.plan.exposure.inner(0)
     }
 
     /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
+    #[must_use]
     pub const fn close_start(&self) -> f32 {
         self.plan.exposure.inner(1)
     }
 
     /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
+    #[must_use]
     pub const fn close_end(&self) -> f32 {
         self.plan.exposure.outer(1)
     }
@@ -205,27 +199,28 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ```
     /// use shutter_curve::ShutterCurve;
     /// let curve = ShutterCurve::linear(0.0, 3.0, 6.0, 9.0)?;
-    /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.opening(t)), [0.5, 1.0, 0.25, 0.0]);
+    /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.openness(t)), [0.5, 1.0, 0.25, 0.0]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
     ///
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
-    pub fn opening(&self, t: f32) -> f32 {
+    #[must_use]
+    pub fn openness(&self, t: f32) -> f32 {
         let f = rounded(self.plan.exposure.openness(t));
-        // Where rounding makes the curve graze 1. `openness` would give the same bits, but takes longer.
+        // Where rounding makes the curve graze 1. `openness_pair` would give the same bits, but takes longer.
         if f > 1.0 { 1.0 } else { f }
     }
 
     /// The openness, no more than 1 where rounding makes the curve graze it.
     #[inline]
-    fn openness(&self, t: f32) -> (Pair, i32) {
+    fn openness_pair(&self, t: f32) -> (Pair, i32) {
         let (f, unit) = self.plan.exposure.openness(t);
         let is_above = f.shifted(unit).difference(Pair::new(1.0)) > 0.0;
         if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
     }
 
-    /// The normalised density at `t`, `opening(t)` over the [`exposure`](Self::exposure), in fractions of the exposure
+    /// The normalised density at `t`, `openness(t)` over the [`exposure`](Self::exposure), in fractions of the exposure
     /// per unit of time.
     ///
     /// ```
@@ -235,8 +230,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!([1.0, 3.0].map(|t| curve.pdf(t)), [0.125, 0.25]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
-        self.plan.exposure.density(self.openness(t))
+        self.plan.exposure.density(self.openness_pair(t))
     }
 
     /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1
@@ -248,6 +244,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!([-1.0, 2.0, 3.0, 7.0].map(|t| curve.cdf(t)), [0.0, 0.25, 0.5, 1.0]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub fn cdf(&self, t: f32) -> f32 {
         self.plan.exposure.cdf(t)
     }
@@ -273,6 +270,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// [`open_start`]: Self::open_start
     /// [`close_end`]: Self::close_end
+    #[must_use]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         self.plan.inverse_cdf(u)
     }
@@ -286,6 +284,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!(curve.exposure(), 4.0);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub const fn exposure(&self) -> f32 {
         self.plan.exposure.area as f32
     }
@@ -298,6 +297,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!(curve.normalization(), 0.25);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub const fn normalization(&self) -> f32 {
         (1.0 / self.plan.exposure.area) as f32
     }
@@ -311,24 +311,13 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!(curve.efficiency(), 0.75);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub const fn efficiency(&self) -> f32 {
         (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
-
-    /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search? For measurements.
-    #[doc(hidden)]
-    pub fn is_direct(&self, u: f32) -> bool {
-        self.plan.is_direct(u)
-    }
-
-    /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`; for measurements.
-    #[doc(hidden)]
-    pub fn evaluations(&self, u: f32) -> u32 {
-        self.plan.evaluations(u)
-    }
 }
 
-impl<const CELLS: usize> fmt::Debug for ShutterCurve<CELLS> {
+impl<const OCTAVES: usize> fmt::Debug for ShutterCurve<OCTAVES> {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.debug_struct("ShutterCurve")
             .field("open_start", &self.open_start())
@@ -341,7 +330,7 @@ impl<const CELLS: usize> fmt::Debug for ShutterCurve<CELLS> {
 }
 
 #[cfg(feature = "defmt")]
-impl<const CELLS: usize> defmt::Format for ShutterCurve<CELLS> {
+impl<const OCTAVES: usize> defmt::Format for ShutterCurve<OCTAVES> {
     fn format(&self, out: defmt::Formatter<'_>) {
         defmt::write!(
             out,

@@ -35,8 +35,8 @@ impl Worst {
 }
 
 /// Judges the inverse at each `u`, which are sorted: error, range, order, steps.
-fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
-    let curve = shutter::<CELLS>(exact.curve());
+fn judge<const OCTAVES: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
+    let curve = shutter::<OCTAVES>(exact.curve());
     let mut last = curve.open_start();
     for u in us {
         let t = curve.inverse_cdf(*u);
@@ -46,7 +46,7 @@ fn judge<const CELLS: usize>(exact: &Exact, us: &[f32], worst: &mut Worst) {
         let (errors, evaluations) = (exact.judge(*u, t), curve.evaluations(*u));
         assert!(
             errors.backward <= if evaluations == 0 { DIRECT } else { BACKWARD },
-            "CELLS = {CELLS}: {} ulp(u) at {u:e}, {t:e} for {:e}, of {:?}",
+            "OCTAVES = {OCTAVES}: {} ulp(u) at {u:e}, {t:e} for {:e}, of {:?}",
             errors.backward,
             errors.exact.hi,
             exact.curve()
@@ -79,7 +79,7 @@ fn spread(n: u32) -> Vec<f32> {
     us
 }
 
-fn typical_curves<const CELLS: usize>() {
+fn typical_curves<const OCTAVES: usize>() {
     let us = spread(20_000);
     let mut worst = Worst::default();
     let (mut curves, mut means) = (0, 0.0);
@@ -88,16 +88,16 @@ fn typical_curves<const CELLS: usize>() {
         let (mut us, before) = (us.clone(), (worst.sum, worst.samples));
         us.extend(hard_us(&exact, 1, 1000));
         us.sort_by(f32::total_cmp);
-        judge::<CELLS>(&exact, &us, &mut worst);
+        judge::<OCTAVES>(&exact, &us, &mut worst);
         means += (worst.sum - before.0) / (worst.samples - before.1) as f64;
         curves += 1;
     }
     for i in 0..300 {
         let exact = Exact::new(&random_typical(2, i));
-        judge::<CELLS>(&exact, &spread(300), &mut worst);
+        judge::<OCTAVES>(&exact, &spread(300), &mut worst);
     }
     println!(
-        "CELLS = {CELLS:2}, typical: forward {:.3} ulp, mean {:.3} ({:.3} over the named), backward {:.3} ulp(u), \
+        "OCTAVES = {OCTAVES:2}, typical: forward {:.3} ulp, mean {:.3} ({:.3} over the named), backward {:.3} ulp(u), \
          {} evaluations at most, {} samples",
         worst.forward,
         worst.mean(),
@@ -119,7 +119,7 @@ fn typical() {
     typical_curves::<16>();
 }
 
-fn hard_curves<const CELLS: usize>() {
+fn hard_curves<const OCTAVES: usize>() {
     let mut worst = Worst::default();
     let mut curves = 0;
     for one in named().into_iter().filter(|one| one.kind == Kind::Hard) {
@@ -127,12 +127,12 @@ fn hard_curves<const CELLS: usize>() {
         let mut us = spread(3000);
         us.extend(hard_us(&exact, 3, 2000));
         us.sort_by(f32::total_cmp);
-        judge::<CELLS>(&exact, &us, &mut worst);
+        judge::<OCTAVES>(&exact, &us, &mut worst);
         curves += 1;
     }
     assert_eq!(curves, 21);
     println!(
-        "CELLS = {CELLS:2}, hard: backward {:.3} ulp(u), {} evaluations at most, {} samples",
+        "OCTAVES = {OCTAVES:2}, hard: backward {:.3} ulp(u), {} evaluations at most, {} samples",
         worst.backward, worst.evaluations, worst.samples
     );
 }
@@ -232,7 +232,7 @@ fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 5]) {
         let cdf = curve.cdf(t);
         assert!(cdf >= last, "cdf back to {cdf} from {last} at {t:e} of {:?}", exact.curve());
         last = cdf;
-        let (opening, pdf) = (curve.opening(t), curve.pdf(t));
+        let (opening, pdf) = (curve.openness(t), curve.pdf(t));
         let near = exact.near(t);
         let errors = [near.cdf_ulp(cdf, CDF_FLOOR), near.openness_ulp(opening), near.pdf_ulp(pdf)];
         worst[4] = worst[4].max(near.cdf_ulp(cdf, 0.0));
@@ -250,7 +250,7 @@ fn judge_values(exact: &Exact, curve: &ShutterCurve, worst: &mut [f64; 5]) {
         let is_jump = exact.is_lifted()
             || curve.open_start() == curve.open_end()
             || curve.close_start() == curve.close_end();
-        assert!(is_jump || curve.opening(t) == f.min(1.0), "{f} at {t:e} of {:?}", exact.curve());
+        assert!(is_jump || curve.openness(t) == f.min(1.0), "{f} at {t:e} of {:?}", exact.curve());
     }
     for (got, exact) in [
         (curve.exposure(), exact.area()),
@@ -301,7 +301,7 @@ fn openness_in_a_deep_dip() {
     let (exact, shutter) = (Exact::new(&curve), shutter::<8>(&curve));
     for bits in 0..20_000 {
         let t = f32::from_bits(3.6740906e-7f32.to_bits() + bits);
-        assert!(exact.near(t).openness_ulp(shutter.opening(t)) <= VALUE, "{t:e}");
+        assert!(exact.near(t).openness_ulp(shutter.openness(t)) <= VALUE, "{t:e}");
     }
 }
 
@@ -462,7 +462,7 @@ fn scaled_times_give_scaled_answers() {
             for k in 0..500 {
                 let t = a.open_start() + (a.close_end() - a.open_start()) * k as f32 / 500.0;
                 assert_eq!(a.cdf(t), b.cdf(power * t), "{} {power} {t}", one.name);
-                assert_eq!(a.opening(t), b.opening(power * t));
+                assert_eq!(a.openness(t), b.openness(power * t));
             }
         }
     }
@@ -538,7 +538,7 @@ fn extremes() {
         let exact = Exact::new(&curve);
         let mut us = hard_us(&exact, 11, 8);
         us.sort_by(f32::total_cmp);
-        let direct = match ShutterCurve::<8>::with_cells(opening, closing) {
+        let direct = match ShutterCurve::<8>::with_octaves(opening, closing) {
             Ok(direct) => direct,
             Err(error) => {
                 assert!(refused(error), "{error}: {curve:?}");
@@ -556,7 +556,7 @@ fn extremes() {
             let near = exact.near(t);
             let errors = [
                 near.cdf_ulp(searched.cdf(t), CDF_FLOOR),
-                near.openness_ulp(searched.opening(t)),
+                near.openness_ulp(searched.openness(t)),
                 near.pdf_ulp(searched.pdf(t)),
             ];
             assert!(errors.iter().all(|e| *e <= VALUE), "{errors:?} ulp at {t:e} of {curve:?}");

@@ -99,7 +99,7 @@ fn grazing_by_rounding_is_accepted_and_solved() {
     for f in [-0.33333334, -0.3333333, -0.3333334] {
         let touch = [(0.0, 1.0), (0.1, f), (0.2, f), (0.3, 1.0)];
         let curve = shutter(touch, CLOSING).unwrap();
-        assert!((0..=1000).all(|i| (0.0..=1.0).contains(&curve.opening(i as f32 * 3e-4))));
+        assert!((0..=1000).all(|i| (0.0..=1.0).contains(&curve.openness(i as f32 * 3e-4))));
         let mut last = 0.0;
         for i in 0..=100_000 {
             let t = curve.inverse_cdf(i as f32 / 100_000.0);
@@ -113,7 +113,7 @@ fn grazing_by_rounding_is_accepted_and_solved() {
     // One bit more passes 1 by 2^-23, which `f32` can tell.
     let above = bump.map(|(t, f)| (t, if f > 0.0 { f.next_up() } else { f }));
     let curve = shutter(above, CLOSING).unwrap();
-    assert!((0..=10_000).all(|i| curve.opening(0.1 + i as f32 * 1e-5) <= 1.0));
+    assert!((0..=10_000).all(|i| curve.openness(0.1 + i as f32 * 1e-5) <= 1.0));
     // t' with a double root at 1/2, grazing it by the rounding of the control times.
     for t in [0.3f32, 0.3f32.next_up(), 0.3f32.next_down()] {
         assert!(shutter([(0.0, 0.0), (t, 0.1), (0.0, 0.9), (0.3, 1.0)], CLOSING).is_ok());
@@ -196,14 +196,14 @@ fn a_time_outside_is_before_or_after() {
         (3.0f32.next_up(), 1.0),
         (f32::INFINITY, 1.0),
     ] {
-        assert_eq!((curve.opening(t), curve.pdf(t), curve.cdf(t)), (0.0, 0.0, cdf), "{t}");
-        assert_eq!((jumps.opening(t), jumps.pdf(t), jumps.cdf(t)), (0.0, 0.0, cdf), "{t}");
+        assert_eq!((curve.openness(t), curve.pdf(t), curve.cdf(t)), (0.0, 0.0, cdf), "{t}");
+        assert_eq!((jumps.openness(t), jumps.pdf(t), jumps.cdf(t)), (0.0, 0.0, cdf), "{t}");
     }
     assert_eq!((curve.cdf(2.0), curve.cdf(3.0)), (0.0, 1.0));
     // The ends belong to the curve, where it jumps.
     assert_eq!((jumps.pdf(2.0), jumps.pdf(3.0)), (0.5, 1.5));
     let flash = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
-    assert_eq!((flash.opening(0.0), flash.opening(1.0)), (1.0, 1.0));
+    assert_eq!((flash.openness(0.0), flash.openness(1.0)), (1.0, 1.0));
 }
 
 #[test]

@@ -10,7 +10,6 @@ mod cubic;
 #[path = "../src/lift.rs"]
 mod lift;
 mod support;
-#[path = "../src/unknown.rs"]
 
 use support::aimed::{aimed_ts, aimed_us};
 use support::cases::shutter;
@@ -377,7 +376,7 @@ fn neighbouring_subnormal_times_are_in_order() {
             let first = onwards(-join, 12).last().map_or(join, |t| -t);
             let mut last = 0.0;
             for t in onwards(first, 24) {
-                let [cdf, opening, pdf] = [ours.cdf(t), ours.opening(t), ours.pdf(t)];
+                let [cdf, opening, pdf] = [ours.cdf(t), ours.openness(t), ours.pdf(t)];
                 assert!(cdf >= last, "{cdf:e} after {last:e} at {t:e}: {curve:?}");
                 let floor = if joins[0] == 0.0 { 0.0 } else { CDF_FLOOR };
                 let near = exact.near(t);

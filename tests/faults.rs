@@ -212,13 +212,13 @@ fn values_at_time_0_where_time_stands_still() {
     let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
     let times = [-1e-7, -1e-18, -1e-38, -1e-45, -0.0, 0.0, 1e-45, 1e-38, 1e-18, 1e-7];
     for t in times {
-        let (opening, pdf) = (ours.opening(t), ours.pdf(t));
+        let (opening, pdf) = (ours.openness(t), ours.pdf(t));
         let near = exact.near(t);
         assert!(near.openness_ulp(opening) <= 1.0, "opening({t:e}) = {opening}");
         assert!(near.pdf_ulp(pdf) <= 1.0, "pdf({t:e}) = {pdf}");
     }
-    assert!(times.map(|t| ours.opening(t)).is_sorted());
-    assert_eq!([-0.0, 0.0].map(|t| ours.opening(t)), [0.5; 2]);
+    assert!(times.map(|t| ours.openness(t)).is_sorted());
+    assert_eq!([-0.0, 0.0].map(|t| ours.openness(t)), [0.5; 2]);
 }
 
 #[test]
@@ -500,7 +500,7 @@ fn one_trigger_at_a_join_of_one_half() {
 /// between, up to the join, found the far ramp's last octave instead, which may serve quite other fractions.
 #[test]
 fn pulses_between_a_top_and_a_join() {
-    fn judge<const CELLS: usize>() {
+    fn judge<const OCTAVES: usize>() {
         // The opening ramp has 1/2 to 1/1024 of the light, and some 2⁻²⁵ of that more.
         for k in 1..=10 {
             let closes = 2.0 * exp2(k) as f32 - 2.0;
@@ -508,7 +508,7 @@ fn pulses_between_a_top_and_a_join() {
             opening[0].1 = exp2(-24) as f32;
             let curve = Curve::shutter(opening, quarters([1.0, 0.0], 0.0, closes));
             for (curve, is_back) in [(curve, false), (curve.mirrored(), true)] {
-                let (exact, ours) = (Exact::new(&curve), shutter::<CELLS>(&curve));
+                let (exact, ours) = (Exact::new(&curve), shutter::<OCTAVES>(&curve));
                 let (n, hz) = (1 << (k - 1), 4000);
                 let first = if is_back { n - 1 } else { 0 };
                 for duty in (20..40).map(|k| exp2(-k)) {
@@ -518,7 +518,7 @@ fn pulses_between_a_top_and_a_join() {
                         let u = Dd::from(f64::from(first) + 0.5) + Dd::from(half * duty);
                         let error =
                             tick_error_at(&exact, tick, u / Dd::from(f64::from(n)), hz, EDGE_ULP);
-                        let at = || format!("2^-{k}, {CELLS} octaves, {duty:e}, {is_back}");
+                        let at = || format!("2^-{k}, {OCTAVES} octaves, {duty:e}, {is_back}");
                         assert!(error <= TICK, "{}: {error} ticks off", at());
                     }
                 }
@@ -596,7 +596,7 @@ fn lifted_times_stay_where_they_were() {
                 let [a, b, c, d] = [a, b, c, d].map(f64::from);
                 r * r * r * a + 3.0 * r * r * p * b + 3.0 * r * p * p * c + p * p * p * d
             };
-            let (t, openness) = (blend(times), f64::from(ours.opening(blend(times) as f32)));
+            let (t, openness) = (blend(times), f64::from(ours.openness(blend(times) as f32)));
             let reach = f64::from(times[3]) * exp2(-23) + exp2(-24);
             let near = [t - reach, t + reach]
                 .map(|t| Dd::from(t.clamp(0.0, f64::from(times[3]))))
@@ -624,7 +624,7 @@ fn a_lifted_opening_joins_the_plateau() {
         assert!(lifted.is_lifted, "{f:?}");
         assert_eq!(lifted.openness[3], 1.0, "{f:?}");
         judge_inverse(&curve, around(0.5, 40).chain(around(0.999999, 8)));
-        let at_end = shutter::<8>(&Curve::single(opening)).opening(1.0);
+        let at_end = shutter::<8>(&Curve::single(opening)).openness(1.0);
         assert!((at_end - 1.0).abs() <= 1.5 * f32::EPSILON, "{at_end}: {f:?}");
     }
 }
@@ -788,7 +788,7 @@ fn the_openness_in_a_deep_dip() {
         let curve = Curve::shutter(points, instant(2.0, 1.0));
         let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
         for t in around(t, 200) {
-            let error = exact.near(t).openness_ulp(ours.opening(t));
+            let error = exact.near(t).openness_ulp(ours.openness(t));
             assert!(error <= VALUE, "{error} at {t:e}");
         }
     }

@@ -16,8 +16,8 @@ use support::peers::{
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 
 /// What of the promise an inverse breaks on a curve, any curve whatsoever.
-fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
-    let (shutter, exact) = (shutter::<CELLS>(curve), Exact::new(curve));
+fn broken<const OCTAVES: usize>(curve: &Curve) -> Vec<String> {
+    let (shutter, exact) = (shutter::<OCTAVES>(curve), Exact::new(curve));
     let verdict = judge(&exact, |u| shutter.inverse_cdf(u));
     let (start, end) = (curve.open_start(), curve.close_end());
     let below = [0.0, -1.0, -0.0, f32::NEG_INFINITY, f32::NAN];
@@ -30,10 +30,10 @@ fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
     for t in us.iter().map(|u| shutter.inverse_cdf(*u)) {
         let near = exact.near(t);
         cdf = cdf.max(near.cdf_ulp(shutter.cdf(t), CDF_FLOOR));
-        openness = openness.max(near.openness_ulp(shutter.opening(t)));
+        openness = openness.max(near.openness_ulp(shutter.openness(t)));
     }
     println!(
-        "    CELLS = {CELLS:2}: {verdict:?}, cdf {cdf:.2} ulp, openness {openness:.2} ulp, evaluations {most}"
+        "    OCTAVES = {OCTAVES:2}: {verdict:?}, cdf {cdf:.2} ulp, openness {openness:.2} ulp, evaluations {most}"
     );
     let checks = [
         ("backward error above 1 ulp(u)", verdict.backward > BACKWARD),
@@ -46,7 +46,7 @@ fn broken<const CELLS: usize>(curve: &Curve) -> Vec<String> {
         ("openness off by more than 1 ulp", openness > VALUE),
     ];
     let broken = checks.into_iter().filter(|check| check.1);
-    broken.map(|(what, _)| format!("CELLS = {CELLS}: {what}")).collect()
+    broken.map(|(what, _)| format!("OCTAVES = {OCTAVES}: {what}")).collect()
 }
 
 /// Ten steps of Newton's kind, two evaluations that may have begun by then, and two for each halving of all places: so
@@ -111,7 +111,7 @@ fn others_a_table_is_off_at_the_ends() {
     let case = case("ends of order p^3");
     let ours = shutter::<8>(&case.curve());
     // Entries made at the middles of cells, read at their edges.
-    let cells = CellTable::<256>::new(|t| ours.opening(t));
+    let cells = CellTable::<256>::new(|t| ours.openness(t));
     let (error, _) = worst(10_000, |u| cells.inverse_cdf(u), exact(case));
     assert!(error > 0.02, "{error}");
     // Even a table of exact entries, read right.
@@ -174,7 +174,7 @@ fn others_animation_solvers_give_the_wrong_openness() {
     let (error, back) = worst(1024, fixed, truth);
     assert!(error > 0.1 && back > 0, "1024ths: {error}, {back}");
     let ours = shutter::<8>(&case.curve());
-    let (error, back) = worst(10_000, |t| ours.opening(t), truth);
+    let (error, back) = worst(10_000, |t| ours.openness(t), truth);
     assert!(error < 1e-6 && back == 0, "{error}, {back}");
 }
 

@@ -45,7 +45,7 @@ fn enough_curves_are_accepted() {
     for _ in 0..10_000 {
         let (opening, closing) = ramps().new_tree(&mut runner).expect("a value").current();
         let [opening, closing] = [opening, closing].map(CubicBezier::new);
-        accepted += u32::from(ShutterCurve::<0>::with_cells(opening, closing).is_ok());
+        accepted += u32::from(ShutterCurve::<0>::with_octaves(opening, closing).is_ok());
     }
     assert!(accepted > 1000, "{accepted} of 10 000");
 }
@@ -64,7 +64,7 @@ proptest! {
         mut us in prop::collection::vec(number(), 8),
         ts in prop::collection::vec(number(), 4),
     ) {
-        let made = ShutterCurve::<4>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing));
+        let made = ShutterCurve::<4>::with_octaves(CubicBezier::new(opening), CubicBezier::new(closing));
         let Ok(curve) = made else { return Ok(()) };
         let exact = Exact::new(&Curve::shutter(opening, closing));
         us.sort_by(f32::total_cmp);
@@ -85,7 +85,7 @@ proptest! {
         let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
         for part in ts {
             for t in [part, (start + (end - start) * part as f64) as f32] {
-                let (cdf, f, pdf) = (curve.cdf(t), curve.opening(t), curve.pdf(t));
+                let (cdf, f, pdf) = (curve.cdf(t), curve.openness(t), curve.pdf(t));
                 prop_assert!((0.0..=1.0).contains(&cdf) && (0.0..=1.0).contains(&f) && pdf >= 0.0);
                 if t >= curve.open_start() && t <= curve.close_end() {
                     prop_assert!(exact.near(t).cdf_ulp(cdf, CDF_FLOOR) <= VALUE, "cdf({:e}) = {:e}", t, cdf);
@@ -105,7 +105,7 @@ proptest! {
         t in number(),
     ) {
         let build = |opening, closing| {
-            ShutterCurve::<4>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing))
+            ShutterCurve::<4>::with_octaves(CubicBezier::new(opening), CubicBezier::new(closing))
         };
         let signed = |points: Points, signs: u16| {
             let sign = |x: f32, bit: usize| match signs >> bit & 1 {
@@ -121,7 +121,7 @@ proptest! {
         let (Ok(curve), Ok(other)) = (made, other) else { return Ok(()) };
         prop_assert_eq!(curve.inverse_cdf(u), other.inverse_cdf(u));
         prop_assert_eq!(curve.inverse_cdf(-0.0), curve.inverse_cdf(0.0));
-        let values = |curve: &ShutterCurve<4>, t| [curve.cdf(t), curve.opening(t), curve.pdf(t)];
+        let values = |curve: &ShutterCurve<4>, t| [curve.cdf(t), curve.openness(t), curve.pdf(t)];
         let length = curve.close_end() - curve.open_start();
         for t in [t, curve.open_start() + t * length, 0.0, 1e-45, curve.open_end()] {
             prop_assert_eq!(values(&curve, t), values(&other, t), "at {:e}", t);
@@ -138,7 +138,7 @@ proptest! {
         hz in any::<u32>(),
         gap in number(),
     ) {
-        let made = ShutterCurve::<0>::with_cells(CubicBezier::new(opening), CubicBezier::new(closing));
+        let made = ShutterCurve::<0>::with_octaves(CubicBezier::new(opening), CubicBezier::new(closing));
         let Ok(curve) = made else { return Ok(()) };
         prop_assert!(curve.trigger_times(n).is_sorted());
         prop_assert!(curve.max_triggers(gap) >= 1);

@@ -31,9 +31,9 @@ fn judge(turn: usize, curve: &Curve, name: &dyn std::fmt::Debug) {
     judge_with(turn + 4, &shutter::<0>(curve), curve, name);
 }
 
-fn judge_with<const CELLS: usize>(
+fn judge_with<const OCTAVES: usize>(
     turn: usize,
-    ours: &ShutterCurve<CELLS>,
+    ours: &ShutterCurve<OCTAVES>,
     curve: &Curve,
     name: &dyn std::fmt::Debug,
 ) {
@@ -121,7 +121,7 @@ fn pulses_of_the_whole_share_touch() {
 fn ends_at_one_half_are_in_order() {
     let opening = CubicBezier::new([(0.0, 0.0), (0.3, 0.1), (0.6, 0.8), (0.93, 1.0)]);
     let closing = CubicBezier::line((0.93, 1.0), (1.0, 0.0));
-    let curve = ShutterCurve::<8>::with_cells(opening, closing).unwrap();
+    let curve = ShutterCurve::<8>::with_octaves(opening, closing).unwrap();
     let hz = 1_930_098_667;
     let touching: Vec<(u32, u32)> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
     assert_eq!(touching[0].1, touching[1].0);

@@ -243,8 +243,8 @@ fn frames_of_any_size_are_in_order() {
 }
 
 /// Every trigger of every frame of up to so many, and the first `u` beyond.
-fn judge_direct<const CELLS: usize>(
-    curve: &ShutterCurve<CELLS>,
+fn judge_direct<const OCTAVES: usize>(
+    curve: &ShutterCurve<OCTAVES>,
     name: &dyn std::fmt::Debug,
 ) -> u32 {
     let most = curve.direct_triggers();
@@ -320,15 +320,15 @@ fn direct_frames_of_random_curves() {
 }
 
 /// A schedule has the ticks of its triggers, and says which is the first that comes too soon.
-fn judge_filled<const CELLS: usize>(curve: &Curve, n: u32, hz: u32) {
-    let shutter = shutter::<CELLS>(curve);
+fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
+    let shutter = shutter::<OCTAVES>(curve);
     let mut filled = vec![0; n as usize];
     let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
         Ok(ticks) => ticks.collect(),
         Err(error) => return assert_eq!(shutter.schedule_into(&mut filled, hz, 0), Err(error)),
     };
     shutter.schedule_into(&mut filled, hz, 0).unwrap();
-    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, CELLS = {CELLS}: {curve:?}");
+    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, OCTAVES = {OCTAVES}: {curve:?}");
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
     sorted.sort_unstable();
@@ -442,7 +442,7 @@ fn the_most_on_a_shutter_that_never_fully_opens() {
 /// Sixteen octaves a side are within what the compiler evaluates in a constant.
 #[test]
 fn a_large_curve_is_a_constant_too() {
-    static LARGE: ShutterCurve<16> = valid(ShutterCurve::with_cells(
+    static LARGE: ShutterCurve<16> = valid(ShutterCurve::with_octaves(
         CubicBezier::new([(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)]),
         CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
     ));
@@ -485,9 +485,9 @@ fn rate(curve: &Curve) -> u32 {
 /// Counted from the end, a fraction has all the bits of its rest.
 #[test]
 fn last_triggers_of_large_frames() {
-    fn worst<const CELLS: usize>(openness: f32) -> (f64, [u32; 2]) {
+    fn worst<const OCTAVES: usize>(openness: f32) -> (f64, [u32; 2]) {
         let curve = dark_after_bright(openness);
-        let (exact, ours, hz) = (Exact::new(&curve), shutter::<CELLS>(&curve), rate(&curve));
+        let (exact, ours, hz) = (Exact::new(&curve), shutter::<OCTAVES>(&curve), rate(&curve));
         let last = |n: u32| [1, 2, 3, 10, 30, 100].map(|k| [n - k, n]);
         let triggers = (4_194_204..=MOST_TRIGGERS).flat_map(last).map(|[i, n]| {
             let tick = ours.trigger_ticks(n, hz).unwrap().nth(i as usize).unwrap();

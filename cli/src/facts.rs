@@ -67,7 +67,7 @@ fn half_open(curve: &ShutterCurve) -> f64 {
 /// The first time on the way from `dark` to `open` at which the shutter is half open.
 fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
     const STEPS: u16 = 1024;
-    let is_half = |t: f32| curve.opening(t) >= 0.5;
+    let is_half = |t: f32| curve.openness(t) >= 0.5;
     let step = |i: u16| dark + (open - dark) * (f32::from(i) / f32::from(STEPS));
     let Some(i) = (0..STEPS).find(|&i| is_half(step(i))) else { return open };
     if i == 0 {

@@ -111,7 +111,7 @@ enum Key {
 
 fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
     let (curve, unit) = (&plan.curve, plan.unit());
-    let at = |t: f32| (unit.of(t), f64::from(curve.opening(t)));
+    let at = |t: f32| (unit.of(t), f64::from(curve.openness(t)));
     let ramps = plan.shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
     let heights = ramps.iter().flatten().flatten().map(|(_, y)| f64::from(*y));
     let (low, high) =
@@ -132,7 +132,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
             Polygon::new(vec![(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], lit())
         }
     }))?;
-    draw_curve(&mut graph, plan, unit, |t| curve.opening(t))?;
+    draw_curve(&mut graph, plan, unit, |t| curve.openness(t))?;
     draw_sync(&mut graph, plan, unit)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
     draw_marks(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;

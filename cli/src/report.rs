@@ -38,7 +38,7 @@ fn write_text(out: &mut String, name: &str, planned: &Planned) -> fmt::Result {
 fn write_curve(out: &mut String, plan: &Plan) -> fmt::Result {
     let (unit, curve) = (plan.unit(), &plan.curve);
     writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
-    out.push_str(&drawing(plan, unit, |t| curve.opening(t)));
+    out.push_str(&drawing(plan, unit, |t| curve.openness(t)));
     writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
     out.push_str(&drawing(plan, unit, |t| curve.cdf(t)));
     Ok(())
@@ -46,18 +46,18 @@ fn write_curve(out: &mut String, plan: &Plan) -> fmt::Result {
 
 /// The triggers on a line of time.
 fn write_times(out: &mut String, times: &Times) -> fmt::Result {
-    const CELLS: usize = DOTS.0 as usize / 2;
+    const OCTAVES: usize = DOTS.0 as usize / 2;
     let unit = times.unit();
-    let mut line = ['─'; CELLS];
+    let mut line = ['─'; OCTAVES];
     for trigger in &times.triggers {
         let part = (trigger.time - times.open_start) / times.length();
-        line[(part * (CELLS - 1) as f64).round() as usize] = '┼';
+        line[(part * (OCTAVES - 1) as f64).round() as usize] = '┼';
     }
     let ends = [times.open_start, times.open_start + times.length()];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
     writeln!(out, "\ntriggers over time ({})", unit.name())?;
     writeln!(out, "{}", String::from_iter(line))?;
-    writeln!(out, "{first}{last:>width$}", width = CELLS.saturating_sub(first.len()))
+    writeln!(out, "{first}{last:>width$}", width = OCTAVES.saturating_sub(first.len()))
 }
 
 /// The function `f` of time with a line up to it at each trigger.

@@ -166,7 +166,7 @@ impl View {
             ramps: numbers.put(points.into_iter().flatten().flat_map(|(t, y)| [t, y])),
             cdf: numbers.put(times.flat_map(|t| [t, curve.cdf(t)])),
             edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
-            marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.opening(t), u(i as f32 + 0.5)])),
+            marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.openness(t), u(i as f32 + 0.5)])),
             plan: planned
                 .map(|plan| Planned::new(&plan, question.bar(), numbers))
                 .map_err(Wrong::from),

@@ -1,6 +1,6 @@
 //! The samples of a certificate, as integers compute them.
 
-use crate::bound::at;
+use crate::octave::bound::at;
 use crate::support::curves::Rng;
 
 /// As in 128 bits, for coefficients of up to 60 bits and places up to either end.

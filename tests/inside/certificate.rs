@@ -1,18 +1,18 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
-use crate::bezier::CubicBezier;
-use crate::candidate::{Candidate, NODES};
-use crate::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
+use crate::ramp::bezier::CubicBezier;
+use crate::octave::candidate::{Candidate, NODES};
+use crate::octave::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
 use crate::exposure::Exposure;
 use crate::octave::{DEGREE, Octave, below, top};
-use crate::octaves::{build, range};
-use crate::path::{Path, Side, value};
-use crate::shape::Shape;
-use crate::span::Span;
+use crate::octave::build::{build, range};
+use crate::octave::path::{Path, Side, value};
+use crate::ramp::shape::Shape;
+use crate::octave::span::Span;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, hard_openness, hard_times, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::units::{WORD, fixed, power_of_two_f64, time_unit};
+use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
 fn chebyshev(x: f64) -> f64 {
@@ -39,7 +39,7 @@ struct Truth {
 
 impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
-    fn judge<const CELLS: usize>(&mut self, curve: &Curve, samples: u32) {
+    fn judge<const OCTAVES: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
         let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
@@ -48,7 +48,7 @@ impl Truth {
         let (exact, unit) = (Exact::new(curve), time_unit(exposure.outer(0), exposure.outer(1)));
         for side in 0..2 {
             let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
-            let mut octaves = [Octave::NONE; CELLS];
+            let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in tops.into_iter().enumerate() {
                 let (range, path) = (range(&exposure, side, ramp), this.path(ramp));

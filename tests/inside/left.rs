@@ -1,6 +1,6 @@
 //! The bound by which a search accepts its last step.
 
-use crate::solve::{ROUNDING, Taylor, left};
+use crate::search::{ROUNDING, Taylor, left};
 use crate::support::curves::Rng;
 
 /// `c[0] x + c[1] x² + ...` in doubles.

@@ -1,12 +1,12 @@
 //! The scripts in `proofs/` prove what they say of transcriptions. These are the Rust functions' answers, on words that the
 //! scripts chose, held to the transcriptions' (`proofs/vectors`).
 
-use crate::guess::divided;
-use crate::moment::rounded_sum;
-use crate::pair::Pair;
-use crate::series::Series;
-use crate::solve::{ROUNDING, Taylor, left};
-use crate::ticks::TickScale;
+use crate::search::guess::divided;
+use crate::number::moment::rounded_sum;
+use crate::number::pair::Pair;
+use crate::number::series::Series;
+use crate::search::{ROUNDING, Taylor, left};
+use crate::trigger::ticks::TickScale;
 
 /// The rows of a file: hexadecimal words.
 fn rows<const N: usize>(csv: &str) -> impl Iterator<Item = [u64; N]> {

@@ -63,8 +63,8 @@ impl Figures {
         self.inverse(&exact, &times, |u| searched.inverse_cdf(u), |u| searched.evaluations(u));
 
         let ts = aimed_ts(&exact, rng);
-        let values = |t| [direct.cdf(t), direct.pdf(t), direct.opening(t)];
-        let others = |t| [searched.cdf(t), searched.pdf(t), searched.opening(t)];
+        let values = |t| [direct.cdf(t), direct.pdf(t), direct.openness(t)];
+        let others = |t| [searched.cdf(t), searched.pdf(t), searched.openness(t)];
         let near = near(&exact, &ts);
         self.values(&exact, &near, values);
         self.values(&exact, &near, others);
@@ -72,7 +72,7 @@ impl Figures {
         self.ticks(&exact, &searched, rng);
         // The cdf asks an octave first, and may end in another bit where there is none.
         let same = |t: &f32| values(*t)[1..] == others(*t)[1..];
-        self.expect("pdf and opening by CELLS", ts.iter().all(same), curve);
+        self.expect("pdf and opening by OCTAVES", ts.iter().all(same), curve);
         self.twins(curve, &us, &ts);
         self.single(curve, rng);
         self.curves += 1;
@@ -152,10 +152,10 @@ impl Figures {
         }
     }
 
-    fn ticks<const CELLS: usize>(
+    fn ticks<const OCTAVES: usize>(
         &mut self,
         exact: &Exact,
-        ours: &ShutterCurve<CELLS>,
+        ours: &ShutterCurve<OCTAVES>,
         rng: &mut Rng,
     ) {
         let curve = exact.curve();
@@ -216,7 +216,7 @@ impl Figures {
                 self.expect_at("-0.0", ours.inverse_cdf(u) == other.inverse_cdf(u), at, curve);
             }
             for &t in ts.iter().step_by(5) {
-                let values = |c: &ShutterCurve| [c.cdf(t), c.pdf(t), c.opening(t)];
+                let values = |c: &ShutterCurve| [c.cdf(t), c.pdf(t), c.openness(t)];
                 self.expect_at(
                     "-0.0",
                     values(&ours) == values(&other),
@@ -245,7 +245,7 @@ impl Figures {
 }
 
 /// What is asked of a design: plain fractions, all small frames, and what lies next to the joins. The exact answers are
-/// found once; every `CELLS` is held against them.
+/// found once; every `OCTAVES` is held against them.
 pub struct Questions<'a> {
     /// In order, with the exact times.
     us: Vec<(f32, Dd)>,
@@ -435,9 +435,9 @@ impl<'a> Questions<'a> {
 
 impl Figures {
     /// Everything that is asked, with so many octaves.
-    pub fn asked<const CELLS: usize>(&mut self, exact: &Exact, questions: &Questions) {
+    pub fn asked<const OCTAVES: usize>(&mut self, exact: &Exact, questions: &Questions) {
         let curve = exact.curve();
-        let ours = shutter::<CELLS>(curve);
+        let ours = shutter::<OCTAVES>(curve);
         self.fractions(exact, &ours, questions);
         self.direct(exact, &ours);
         for (i, frame) in questions.frames.iter().enumerate() {
@@ -446,16 +446,16 @@ impl Figures {
                 self.frame(exact, &ours, frame, *hz);
             }
         }
-        if CELLS == 8 {
-            let values = |t| [ours.cdf(t), ours.pdf(t), ours.opening(t)];
+        if OCTAVES == 8 {
+            let values = |t| [ours.cdf(t), ours.pdf(t), ours.openness(t)];
             self.values(exact, &questions.ts, values);
         }
     }
 
-    fn fractions<const CELLS: usize>(
+    fn fractions<const OCTAVES: usize>(
         &mut self,
         exact: &Exact,
-        ours: &ShutterCurve<CELLS>,
+        ours: &ShutterCurve<OCTAVES>,
         questions: &Questions,
     ) {
         let curve = exact.curve();
@@ -463,7 +463,7 @@ impl Figures {
         for &(u, time) in &questions.us {
             let (t, evaluations) = (ours.inverse_cdf(u), ours.evaluations(u));
             let errors = exact.judge_for(u, t, time);
-            let at = || format!("u = {u:e}: {t:e}, {CELLS} cells, {errors:?}");
+            let at = || format!("u = {u:e}: {t:e}, {OCTAVES} cells, {errors:?}");
             self.samples += 1;
             self.backward = self.backward.max(errors.backward);
             self.evaluations = self.evaluations.max(evaluations);
@@ -479,7 +479,7 @@ impl Figures {
     }
 
     /// No trigger is searched for in a frame that `direct_triggers` promises.
-    fn direct<const CELLS: usize>(&mut self, exact: &Exact, ours: &ShutterCurve<CELLS>) {
+    fn direct<const OCTAVES: usize>(&mut self, exact: &Exact, ours: &ShutterCurve<OCTAVES>) {
         let curve = exact.curve();
         let most = ours.direct_triggers();
         let frames = (1..=most.min(20)).chain((0..22).map(|k| most >> k));
@@ -488,7 +488,7 @@ impl Figures {
             let Ok(frame) = ours.trigger_ticks(n, 1) else { continue };
             for i in (0..n).step_by(n as usize / 50 + 1).chain([n / 2, n - 1]) {
                 let u = (i as f32 + 0.5) / n as f32;
-                let at = || format!("{i} of {n}, {most} with {CELLS} cells");
+                let at = || format!("{i} of {n}, {most} with {OCTAVES} cells");
                 self.expect_at("a direct tick", frame.is_direct(i), at, curve);
                 let is_direct = ours.is_direct(u) && ours.evaluations(u) == 0;
                 self.expect_at("a direct time", is_direct, at, curve);
@@ -497,10 +497,10 @@ impl Figures {
     }
 
     /// The ticks of a frame's part.
-    fn frame<const CELLS: usize>(
+    fn frame<const OCTAVES: usize>(
         &mut self,
         exact: &Exact,
-        ours: &ShutterCurve<CELLS>,
+        ours: &ShutterCurve<OCTAVES>,
         frame: &Frame,
         hz: u32,
     ) {
@@ -529,7 +529,7 @@ impl Figures {
                 let at = || {
                     let duty = frame.duty;
                     format!(
-                        "{i} of {n}, duty {duty:?}, {hz} Hz, {CELLS} cells: {error:.3} ticks off"
+                        "{i} of {n}, duty {duty:?}, {hz} Hz, {OCTAVES} cells: {error:.3} ticks off"
                     )
                 };
                 self.samples += 1;
@@ -540,7 +540,7 @@ impl Figures {
             let at = || {
                 let duty = frame.duty;
                 format!(
-                    "{i} of {n}, duty {duty:?}, {hz} Hz, {CELLS} cells: {on}, {off} after {last}"
+                    "{i} of {n}, duty {duty:?}, {hz} Hz, {OCTAVES} cells: {on}, {off} after {last}"
                 )
             };
             self.expect_at("order of ticks", last <= *on && on <= off, at, curve);

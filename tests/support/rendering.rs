@@ -67,7 +67,7 @@ impl Picture {
             }
             Pulses::Weighted => (0..n)
                 .map(|i| start + (end - start) * ((i as f32 + 0.5) / n as f32))
-                .map(|t| (t, self.ours.opening(t)))
+                .map(|t| (t, self.ours.openness(t)))
                 .collect(),
         };
         flashes.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -17,7 +17,7 @@ pub fn run() -> Result {
         println!("{place:14} {hash}{verdict}");
         differing += u32::from(hash != expected);
     };
-    println!("CELLS 0, 4, 8, 16:");
+    println!("OCTAVES 0, 4, 8, 16:");
     compare("host, debug", &expected);
     compare("host, release", &host(&["--release"])?);
     thread::scope(|scope| {

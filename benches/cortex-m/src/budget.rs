@@ -57,7 +57,7 @@ pub fn run() -> Result {
 
     let mut budgets = Vec::new();
     let mut check = |what: String, value, target: f64| budgets.push((what, value, target));
-    let cells = |cells| if cells == DEFAULT { String::new() } else { format!(", CELLS = {cells}") };
+    let cells = |cells| if cells == DEFAULT { String::new() } else { format!(", OCTAVES = {cells}") };
     for (function, row, count, target) in CYCLES {
         let what = format!("mean cycles of {function:?} on {}{}", ROWS[row], cells(count));
         check(what, m4f.on(function, row, count).map(|ran| ran.cycles().mean), target);
@@ -92,7 +92,7 @@ pub fn run() -> Result {
 
     let bytes = [
         ("bytes of a curve", Some(CURVE_BYTES[2] as u32), 1376.0),
-        ("bytes of a curve, CELLS = 0", Some(CURVE_BYTES[0] as u32), 480.0),
+        ("bytes of a curve, OCTAVES = 0", Some(CURVE_BYTES[0] as u32), 480.0),
         ("bytes of InverseCdf's code", m4f.code_bytes(InverseCdf, DEFAULT), 3720.0),
         ("bytes of InverseCdf's stack, painted", m4f.stack_painted(InverseCdf, DEFAULT), 184.0),
         ("bytes of the same, by the compiler", m4f.stack_said(InverseCdf, DEFAULT), 184.0),

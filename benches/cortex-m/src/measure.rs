@@ -217,9 +217,9 @@ fn asked(series: Series) -> Vec<(f64, bool)> {
     }
 }
 
-fn with<const CELLS: usize>(series: Series) -> Vec<(f64, bool)> {
+fn with<const OCTAVES: usize>(series: Series) -> Vec<(f64, bool)> {
     let (opening, closing) = CURVES[series.curve].ramps(SCALES[series.scale()]);
-    let curve = ShutterCurve::<CELLS>::with_cells(opening, closing).expect("a good curve");
+    let curve = ShutterCurve::<OCTAVES>::with_octaves(opening, closing).expect("a good curve");
     match series.function {
         InverseCdf | Static => series.us().map(|u| (u.into(), curve.is_direct(u))).collect(),
         TickStep => {

@@ -2,7 +2,7 @@
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{CELLS, CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, ROWS, TRIGGERS, TYPICAL};
+use measured::{OCTAVES, CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, ROWS, TRIGGERS, TYPICAL};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
@@ -45,16 +45,16 @@ const CALLS: [(&str, Function); 8] = [
 
 pub fn run() -> Result {
     let plan = [
-        series(&[InverseCdf, TickStep, Schedule], &CELLS, On::All),
+        series(&[InverseCdf, TickStep, Schedule], &OCTAVES, On::All),
         series(&[Static, Cdf, Opening, Newton, Table], &[DEFAULT], On::All),
-        series(&[Construct], &CELLS, On::All),
+        series(&[Construct], &OCTAVES, On::All),
         series(&[Root], &[DEFAULT], On::All),
     ];
     let m4f = Measured::new(M4F, OPT_LEVEL, &plan.concat())?;
     let plan = [
         series(&[InverseCdf, Static], &[DEFAULT], On::Typical),
         series(&[InverseCdf], &[0, 4, 16], On::Rows),
-        series(&[TickStep, Schedule, Construct], &CELLS, On::Rows),
+        series(&[TickStep, Schedule, Construct], &OCTAVES, On::Rows),
         series(&[Cdf, Opening, Newton, Table], &[DEFAULT], On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
@@ -108,7 +108,7 @@ fn names(cores: &[&Measured]) -> String {
 fn overview(cores: &[&Measured]) -> String {
     let m4f = cores[0];
     let calls = CALLS.map(|(name, function)| (name, function, DEFAULT));
-    let without = ("`inverse_cdf`, `CELLS = 0`", InverseCdf, 0);
+    let without = ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0);
     let rows = calls.into_iter().chain([without]).map(|(name, function, cells)| {
         let on_rows = [0, 1, 2].map(|row| Some(m4f.on(function, row, cells)?.cycles().mean));
         let means = on_rows.into_iter().chain([m4f.typical(function, cells, Ran::cycles)]);
@@ -148,10 +148,10 @@ fn overview(cores: &[&Measured]) -> String {
         format!("largest error on {} | | | | | {}", ROWS[row], figures(errors))
     });
     let bytes = format!("bytes of a curve | {}", figures(bytes));
-    let header = "| `CELLS = 0` | 8 | 4 | 16 | textbook Newton in `f32` | linear table of 256";
+    let header = "| `OCTAVES = 0` | 8 | 4 | 16 | textbook Newton in `f32` | linear table of 256";
     let curves = table(header, 1, [bytes].into_iter().chain(errors));
     format!(
-        "The calls with `CELLS = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
+        "The calls with `OCTAVES = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
 over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *typical* is the mean over {TYPICAL} curves.
 *Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that is answered by a polynomial or the
 plateau's line, as all of a frame of `direct_triggers()` are. Calls are by a reference that the compiler cannot see through, but
@@ -174,7 +174,7 @@ What a curve takes, and the largest error over 65 537 equally spaced `u`, as a s
 fn error(row: usize, function: Function) -> f64 {
     let curve = &CURVES[row];
     let (opening, closing) = curve.ramps(None);
-    let exact = ShutterCurve::<8>::with_cells(opening, closing).expect("a good curve");
+    let exact = ShutterCurve::<8>::with_octaves(opening, closing).expect("a good curve");
     let newton = TextbookNewton::new(curve.opening, curve.closing);
     let table = InverseTable::<256>::new(|u| exact.inverse_cdf(u));
     let length = f64::from(exact.close_end()) - f64::from(exact.open_start());
@@ -188,7 +188,7 @@ fn error(row: usize, function: Function) -> f64 {
 /// Every call on each core, and the worst on one.
 fn calls(cores: &[&Measured]) -> String {
     let mut rows = Vec::new();
-    for ((name, function), cells) in CALLS.iter().flat_map(|call| CELLS.map(|cells| (call, cells)))
+    for ((name, function), cells) in CALLS.iter().flat_map(|call| OCTAVES.map(|cells| (call, cells)))
     {
         for (row, curve) in ROWS.iter().enumerate() {
             let on = |core: &Measured| core.on(*function, row, cells).map(Ran::instructions);
@@ -207,7 +207,7 @@ fn calls(cores: &[&Measured]) -> String {
         }
     }
     let header = format!(
-        "call | curve | CELLS | cycles: min | median | mean | 99 % | max | {}",
+        "call | curve | OCTAVES | cycles: min | median | mean | 99 % | max | {}",
         names(cores)
     );
     let table = table(&header, 3, rows);
@@ -226,7 +226,7 @@ polynomial serves. A frame that is refused for its gap costs no more than one th
 /// What every call takes beside time, on each core, and what building a curve does.
 fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
     let calls = CALLS[..6].iter().map(|(name, function)| (name.to_string(), *function, DEFAULT));
-    let building = CELLS.map(|cells| (format!("building, `CELLS = {cells}`"), Construct, cells));
+    let building = OCTAVES.map(|cells| (format!("building, `OCTAVES = {cells}`"), Construct, cells));
     let mut rows = Vec::new();
     for (name, function, cells) in building.iter().cloned().chain(calls) {
         let mut row = |what: &str, of: &dyn Fn(&Measured) -> Option<f64>| {
@@ -245,8 +245,8 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
         "## Building a curve at run time, flash and stack
 
 A `const` curve costs nothing: the compiler builds it. Built on the microcontroller, *soft* takes so many instructions, most of
-them in doubles, which all of these compute in software; on a Cortex-M4F {} cycles with `CELLS = 8`. Where that is too much, make the
-curve a `const`; if it is not known beforehand, build it with `CELLS = 0`, which fits no polynomials, and each answer is a
+them in doubles, which all of these compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. Where that is too much, make the
+curve a `const`; if it is not known beforehand, build it with `OCTAVES = 0`, which fits no polynomials, and each answer is a
 search. Optimised for size (`opt-level = \"z\"`), building takes {} bytes of code on a Cortex-M4F.
 
 Code, in bytes, is a call's own and all that it reaches, so calls share some. Stack is the deepest path by the compiler's
@@ -272,7 +272,7 @@ fn typical(m4f: &Measured) -> String {
     format!(
         "## On every typical curve
 
-With `CELLS = 8`: mean cycles of `inverse_cdf` over uniform `u`, of a `static` and by a reference, and the share of the `u` that are
+With `OCTAVES = 8`: mean cycles of `inverse_cdf` over uniform `u`, of a `static` and by a reference, and the share of the `u` that are
 searched for; the same of the ticks of a frame of 512.
 
 {table}"

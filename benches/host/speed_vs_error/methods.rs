@@ -57,7 +57,7 @@ pub trait Inverse {
     }
 }
 
-impl<const CELLS: usize> Inverse for ShutterCurve<CELLS> {
+impl<const OCTAVES: usize> Inverse for ShutterCurve<OCTAVES> {
     fn solve(&self, u: f32) -> (f32, u32) {
         (self.inverse_cdf(u), self.evaluations(u))
     }
@@ -90,10 +90,10 @@ const fn peer<T>(
     Method { name, cost: [cost, "8"], is_ours: false, bytes: size_of::<T>(), build }
 }
 
-const fn ours<const CELLS: usize>(name: &'static str, cells: &'static str) -> Method {
-    let bytes = size_of::<ShutterCurve<CELLS>>();
+const fn ours<const OCTAVES: usize>(name: &'static str, cells: &'static str) -> Method {
+    let bytes = size_of::<ShutterCurve<OCTAVES>>();
     let cost = ["`inverse_cdf`", cells];
-    Method { name, cost, is_ours: true, bytes, build: |c| Box::new(shutter::<CELLS>(c)) }
+    Method { name, cost, is_ours: true, bytes, build: |c| Box::new(shutter::<OCTAVES>(c)) }
 }
 
 /// The place of the textbook Newton, against which times are taken.
@@ -101,10 +101,10 @@ pub const TEXTBOOK: usize = 4;
 
 /// Tables are made from exact entries, so that only their own error is seen.
 pub const METHODS: [Method; 10] = [
-    ours::<0>("`CELLS = 0`", "0"),
-    ours::<4>("`CELLS = 4`", "4"),
-    ours::<8>("`CELLS = 8`", "8"),
-    ours::<16>("`CELLS = 16`", "16"),
+    ours::<0>("`OCTAVES = 0`", "0"),
+    ours::<4>("`OCTAVES = 4`", "4"),
+    ours::<8>("`OCTAVES = 8`", "8"),
+    ours::<16>("`OCTAVES = 16`", "16"),
     peer::<TextbookNewton>("textbook Newton", "textbook Newton in `f32`", |c| {
         let newton = TextbookNewton::new(c.opening, c.closing);
         Box::new(move |u| newton.solve(u))
@@ -138,7 +138,7 @@ type Prepared = fn(&Curve) -> Forward;
 
 /// The openness and the cdf in turn, by this crate and by the usual solver of animation curves.
 pub const FORWARDS: [(&str, Prepared); 4] = [
-    ("`opening`", |c| forward(shutter::<8>(c), |ours, t| ours.opening(t))),
+    ("`opening`", |c| forward(shutter::<8>(c), |ours, t| ours.openness(t))),
     ("`cdf`", |c| forward(shutter::<8>(c), |ours, t| ours.cdf(t))),
     ("opening, 8 Newton steps", |c| {
         forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {

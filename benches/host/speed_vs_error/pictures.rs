@@ -144,8 +144,8 @@ pub fn frontier(path: &str, measured: &Measured) {
                 draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
                 let (dx, dy, h) = match method.name {
-                    "`CELLS = 16`" => (-18, 0, HPos::Right),
-                    "`CELLS = 8`" => (0, -26, HPos::Center),
+                    "`OCTAVES = 16`" => (-18, 0, HPos::Right),
+                    "`OCTAVES = 8`" => (0, -26, HPos::Center),
                     "table of 256" => (-18, -10, HPos::Right),
                     "table of 1024" => (-18, 14, HPos::Right),
                     _ => (18, 0, HPos::Left),

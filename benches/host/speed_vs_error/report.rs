@@ -239,7 +239,7 @@ in ulp(t), the evaluations and the round trip are those of every seventh of thes
 {bred}
 
 Then it judges all that is promised on curves and inputs that meet difficulties exactly, {} of each family
-(`tests/support/aimed.rs`), with `CELLS` = 0 and 8.
+(`tests/support/aimed.rs`), with `OCTAVES` = 0 and 8.
 
 {aimed}",
         tried[0], tried[1]

@@ -47,7 +47,7 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
     let mut worst = [from; 2];
     for place in from..=to {
         let t = at(place);
-        let got = [shutter.cdf(t), shutter.opening(t)];
+        let got = [shutter.cdf(t), shutter.openness(t)];
         steps_back += u64::from(got[0] < last);
         last = got[0];
         for (sweep, got) in [&mut cdf, &mut opening].into_iter().zip(got) {
@@ -74,7 +74,7 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
     }
     let [of_cdf, of_opening] = worst.map(at);
     cdf.judge(exact.near(of_cdf).cdf_ulp(shutter.cdf(of_cdf), CDF_FLOOR));
-    opening.judge(exact.near(of_opening).openness_ulp(shutter.opening(of_opening)));
+    opening.judge(exact.near(of_opening).openness_ulp(shutter.openness(of_opening)));
     cdf.steps_back = Some(steps_back);
     cdf.without_floor = Some(without_floor);
     [cdf, opening]

@@ -60,7 +60,7 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
     let time = format!("time ({})", unit.name());
     let mut graph = graph(area, plan, unit, "openness", Some(&time), 0.0..1.08)?;
     let at = |t: f32| {
-        let openness = if row.is_shuttered { curve.opening(t) } else { 1.0 };
+        let openness = if row.is_shuttered { curve.openness(t) } else { 1.0 };
         (unit.of(t), f64::from(openness))
     };
     graph.draw_series(
@@ -71,12 +71,12 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
         PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
     }))?;
     if row.is_shuttered {
-        draw_curve(&mut graph, plan, unit, |t| curve.opening(t))
+        draw_curve(&mut graph, plan, unit, |t| curve.openness(t))
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();
         let curve =
-            steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.opening(t))));
+            steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.openness(t))));
         let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
         graph.draw_series(dashes)?;
         Ok(())

@@ -35,9 +35,9 @@ impl Case {
 }
 
 /// This crate's curve.
-pub fn shutter<const CELLS: usize>(curve: &Curve) -> ShutterCurve<CELLS> {
+pub fn shutter<const OCTAVES: usize>(curve: &Curve) -> ShutterCurve<OCTAVES> {
     let [opening, closing] = [curve.opening, curve.closing].map(CubicBezier::new);
-    ShutterCurve::with_cells(opening, closing).expect("a good curve")
+    ShutterCurve::with_octaves(opening, closing).expect("a good curve")
 }
 
 /// What an inverse does on a curve.

@@ -42,9 +42,9 @@ fn main() {
 
 /// The `u` for which the mass is evaluated most often: the first few of 20 000, and of those around them, ever
 /// nearer.
-fn hardest<const CELLS: usize>(curve: &Curve) -> Vec<f32> {
-    let (exact, ours, mut rng) = (Exact::new(curve), shutter::<CELLS>(curve), Rng::new(0, 0));
-    let mut us = hard_us(&exact, CELLS as u64, 20_000);
+fn hardest<const OCTAVES: usize>(curve: &Curve) -> Vec<f32> {
+    let (exact, ours, mut rng) = (Exact::new(curve), shutter::<OCTAVES>(curve), Rng::new(0, 0));
+    let mut us = hard_us(&exact, OCTAVES as u64, 20_000);
     for reach in [65536.0, 8192.0, 1024.0, 128.0, 16.0, 0.0] {
         us.sort_by_cached_key(|u| (Reverse(ours.evaluations(*u)), u.to_bits()));
         us.dedup();

@@ -96,14 +96,14 @@ pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
     OF.map(|of| of(ramps, us))
 }
 
-fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
+fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let hash = &mut Fnv(0xCBF2_9CE4_8422_2325);
     let [opening, closing] = ramps.map(CubicBezier::new);
     hash.add([opening == closing]);
-    if let Some(curve) = hash.curve(ShutterCurve::<CELLS>::with_cells(opening, closing)) {
+    if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
         for odd in ODD {
-            hash.floats([curve.cdf(odd), curve.opening(odd), curve.pdf(odd)]);
+            hash.floats([curve.cdf(odd), curve.openness(odd), curve.pdf(odd)]);
             hash.add([(curve.is_direct(odd), curve.evaluations(odd), curve.max_triggers(odd))]);
         }
         schedules(hash, &curve);
@@ -118,7 +118,7 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let times = [a, b, c, d];
     let (opening, closing) = CubicBezier::shutteropening(times, inner);
     let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
-    if CELLS == DEFAULT {
+    if OCTAVES == DEFAULT {
         for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)]
         {
             let curve = hash.curve(curve);
@@ -128,9 +128,9 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
         hash.floats(mixed.map(|curve| curve.exposure()));
     }
     let other = [
-        ShutterCurve::<CELLS>::shutteropening_with_cells(times, inner),
+        ShutterCurve::<OCTAVES>::shutteropening_with_cells(times, inner),
         ShutterCurve::linear_with_cells(a, b, c, d),
-        ShutterCurve::with_cells(lines.0, closing),
+        ShutterCurve::with_octaves(lines.0, closing),
     ];
     for curve in other {
         if let Some(curve) = hash.curve(curve) {
@@ -141,9 +141,9 @@ fn of<const CELLS: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     hash.finish()
 }
 
-fn answers<const CELLS: usize>(
+fn answers<const OCTAVES: usize>(
     hash: &mut Fnv,
-    curve: &ShutterCurve<CELLS>,
+    curve: &ShutterCurve<OCTAVES>,
     us: impl Iterator<Item = f32>,
 ) {
     let (start, end) = (curve.open_start(), curve.close_end());
@@ -153,12 +153,12 @@ fn answers<const CELLS: usize>(
         let t = curve.inverse_cdf(u);
         hash.floats([t]);
         for t in [t, start + (end - start) * u] {
-            hash.floats([curve.cdf(t), curve.opening(t), curve.pdf(t)]);
+            hash.floats([curve.cdf(t), curve.openness(t), curve.pdf(t)]);
         }
     }
 }
 
-fn schedules<const CELLS: usize>(hash: &mut Fnv, curve: &ShutterCurve<CELLS>) {
+fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>) {
     hash.all(curve.trigger_times(9), f32::to_bits);
     hash.floats(curve.trigger_times(u32::MAX).nth(1 << 30));
     hash.add([curve.direct_triggers()]);

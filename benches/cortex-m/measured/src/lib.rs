@@ -151,7 +151,7 @@ pub const TRIGGERS: u32 = 64;
 pub const TICK_HZ: u32 = 1_000_000;
 
 /// The numbers of cells measured, and the crate's default.
-pub const CELLS: [usize; 4] = [0, 4, 8, 16];
+pub const OCTAVES: [usize; 4] = [0, 4, 8, 16];
 pub const DEFAULT: usize = 8;
 
 /// The bytes of a curve with each of them.

@@ -97,7 +97,7 @@ fn curves<'a, const C: usize>(
     if input.read(bytes()) == 0 {
         let ramps = SCALES.iter().flat_map(|scale| CURVES.iter().map(|curve| curve.ramps(*scale)));
         for (i, (opening, closing)) in ramps.enumerate() {
-            let curve = ShutterCurve::with_cells(opening, closing).expect("a good curve");
+            let curve = ShutterCurve::with_octaves(opening, closing).expect("a good curve");
             // SAFETY: there are so many.
             unsafe { first.cast::<ShutterCurve<C>>().add(i).write(curve) };
         }
@@ -140,7 +140,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
         Function::Construct => {
             let mut built = None;
             let build =
-                |opening: &_, closing: &_| ShutterCurve::<C>::with_cells(*opening, *closing);
+                |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
             let depth = depth([data.ramps(None)].into_iter(), |(opening, closing)| {
                 built = the_call(build, &opening, &closing).ok();
             });

@@ -2,11 +2,11 @@
 //!
 //! Time along a ramp is a cubic. Halley's step from the ramp's end and one more in single precision come to about a
 //! thousandth; the step after the measurement leaves the cube of that. A bound of what it leaves
-//! ([`left`](crate::solve::left)) accepts the place or not: where time nearly stands still, a search has to find it.
+//! ([`left`](crate::search::left)) accepts the place or not: where time nearly stands still, a search has to find it.
 
-use crate::pair::{Pair, lost_by_short_product, upper};
-use crate::solve::{ROUNDING, Taylor, left};
-use crate::units::LAST_PLACE;
+use crate::number::pair::{Pair, lost_by_short_product, upper};
+use crate::search::{ROUNDING, Taylor, left};
+use crate::number::units::LAST_PLACE;
 
 /// The place at which a cubic in pairs, without a constant term, reaches `target`, within `error`.
 #[inline(always)]
@@ -33,7 +33,7 @@ pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Optio
     if is_inside & (left <= 0.75 * error) { Some(place) } else { None }
 }
 
-/// The cubic's value where `x` has 12 bits: as [`Series::at`](crate::series::Series::at) computes it.
+/// The cubic's value where `x` has 12 bits: as [`Series::at`](crate::number::series::Series::at) computes it.
 #[inline(always)]
 const fn value([c1, c2, c3]: [Pair; 3], x: f32) -> Pair {
     let product = c3.hi * x;

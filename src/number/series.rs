@@ -1,6 +1,6 @@
 //! A polynomial by its coefficients in pairs, and its value at an `f32`: how mass, time and openness are measured.
 
-use crate::pair::{Pair, lost_by_product};
+use crate::number::pair::{Pair, lost_by_product};
 
 /// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients.
 ///

@@ -18,9 +18,11 @@
 //! the bracket is so narrow that a step of noise leaves it. Then the answer is the last place that was measured,
 //! without a proof.
 
-use crate::pair::{Pair, flipped};
-use crate::series::Series;
-use crate::units::LAST_PLACE;
+pub(crate) mod guess;
+
+use crate::number::pair::{Pair, flipped};
+use crate::number::series::Series;
+use crate::number::units::LAST_PLACE;
 
 /// After so many evaluations, twice what any search for an `f32` in the tests takes, every place is measured in pairs,
 /// and each halves the bracket.

@@ -85,7 +85,7 @@ pub(crate) const fn differences(v: [f64; 4]) -> [f64; 3] {
 /// The vertex is inside just where the middle coefficient `b` is below both ends; there the quadratic is `(ac - b²) /
 /// (a - 2b + c)`, and both parts of the divisor are positive. Of `(|ac| + b²) / (a - 2b + c)`, the size of the terms
 /// there, this loses 6 · 2⁻⁵³ at most, and 8 · 2⁻⁵³ are lost where the coefficients are raised and scaled
-/// ([`forward`](crate::lift::forward)). The trace is 16 · 2⁻⁵³.
+/// ([`forward`](crate::ramp::lift::forward)). The trace is 16 · 2⁻⁵³.
 #[inline(never)]
 pub(crate) const fn quadratic_min([a, b, c]: [f64; 3]) -> (f64, f64) {
     let ends = if a < c { a } else { c };

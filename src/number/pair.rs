@@ -7,7 +7,7 @@
 //! They are exact, or as good as each says, as long as nothing overflows or becomes subnormal; who calls them scales by
 //! powers of two to see to that.
 
-use crate::units::power_of_two;
+use crate::number::units::power_of_two;
 
 /// `hi + lo`
 #[derive(Clone, Copy, Debug, PartialEq)]

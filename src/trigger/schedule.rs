@@ -3,12 +3,12 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::frame::iterate;
+use crate::trigger::iterator::iterate;
 use crate::shutter::ShutterCurve;
-use crate::ticks::{MOST_TRIGGERS, Ticks};
-use crate::units::DOUBLE_WORD;
+use crate::trigger::ticks::{MOST_TRIGGERS, Ticks};
+use crate::number::units::DOUBLE_WORD;
 
-impl<const CELLS: usize> ShutterCurve<CELLS> {
+impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
     /// `inverse_cdf((i + 1/2) / n)`; never a step back.
     ///
@@ -21,32 +21,9 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// assert_eq!(curve.trigger_times(4).next_back(), Some(7.0));
     /// assert_eq!(curve.trigger_times(4_000_000_000).nth(2_000_000_000), Some(4.0));
     /// ```
-    pub fn trigger_times(&self, n: u32) -> TriggerTimes<'_, CELLS> {
+    #[must_use]
+    pub fn trigger_times(&self, n: u32) -> TriggerTimes<'_, OCTAVES> {
         TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
-    }
-
-    /// A number of triggers that keeps `min_gap` between their exact times: `max(1, floor(A / min_gap))`, since the
-    /// openness is at most 1. A quotient within 2⁻⁵⁰ of the next integer counts as that, since the area is rounded, so
-    /// the gap may be missed by as little; and by 2⁻²² of it on a curve whose control points pass 1 by their rounding.
-    /// A curve that never fully opens may take more. The gap is in the curve's unit;
-    /// [`most_triggers`](Self::most_triggers) takes one in ticks. `u32::MAX` where nothing is required: for a gap of 0,
-    /// a negative one, or NaN.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// // In ms: an exposure of 7.5 ms has room for a pulse every 0.5 ms, 15 times.
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 2.5, 7.5, 10.0));
-    /// const N: u32 = SHUTTER.max_triggers(0.5);
-    /// assert_eq!(N, 15);
-    /// ```
-    pub const fn max_triggers(&self, min_gap: f32) -> u32 {
-        if min_gap <= 0.0 || min_gap.is_nan() {
-            return u32::MAX;
-        }
-        // The areas of plain numbers are rounded by no more than this. The cast rounds down, and saturates.
-        let trace = 1.0 + 1.0 / (1u64 << 50) as f64;
-        let most = (self.plan.exposure.area * trace / min_gap as f64) as u32;
-        if most > 1 { most } else { 1 }
     }
 
     /// A number of triggers such that, if a frame (the triggers of one exposure) has no more, each is placed by a
@@ -54,8 +31,8 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// for [`trigger_times`](Self::trigger_times), and for [`trigger_ticks`](Self::trigger_ticks) on intervals of up to
     /// 2²⁴ ticks. The README has both costs in cycles.
     ///
-    /// It is 255 or more for most shutters with `CELLS = 8`, and doubles with each octave more, up to 2²². It is 0
-    /// where there is no such frame: on curves too difficult for polynomials, and with `CELLS = 0`, where only the
+    /// It is 255 or more for most shutters with `OCTAVES = 8`, and doubles with each octave more, up to 2²². It is 0
+    /// where there is no such frame: on curves too difficult for polynomials, and with `OCTAVES = 0`, where only the
     /// plateau is answered directly, unless that is open at half of the exposure.
     ///
     /// Being constant, it makes a deadline that the compiler checks:
@@ -76,6 +53,7 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// ));
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
+    #[must_use]
     pub const fn direct_triggers(&self) -> u32 {
         let above = [self.plan.least_direct(0), self.plan.least_direct(1)];
         let above = if above[0] > above[1] { above[0] } else { above[1] };
@@ -113,12 +91,15 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks.
-    pub fn trigger_ticks(
+    pub const fn trigger_ticks(
         &self,
         n: u32,
-        tick_hz: u32,
-    ) -> Result<TriggerTicks<'_, CELLS>, ScheduleError> {
-        Ok(TriggerTicks { frame: Ticks::new(&self.plan, n, tick_hz)?, left: 0..n })
+        ticks_per_unit: u32,
+    ) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
+        match Ticks::new(&self.plan, n, ticks_per_unit) {
+            Ok(frame) => Ok(TriggerTicks { frame, left: 0..n }),
+            Err(error) => Err(error),
+        }
     }
 
     /// A checked schedule: as many triggers as `ticks` has places, at the ticks of
@@ -141,25 +122,59 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     /// # Errors
     /// A gap that is not kept, more places than `u32::MAX`, and those of [`trigger_ticks`](Self::trigger_ticks). The
     /// slice then holds a part of the schedule, and else what it held.
-    pub fn schedule_into(
+    pub const fn schedule_into(
         &self,
         ticks: &mut [u32],
-        tick_hz: u32,
-        min_gap: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
     ) -> Result<(), ScheduleError> {
-        let Ok(n) = u32::try_from(ticks.len()) else {
-            return Err(ScheduleError::CapacityExceeded { capacity: u32::MAX });
+        if ticks.len() > MOST_TRIGGERS as usize {
+            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+        }
+        let frame = match Ticks::new(&self.plan, ticks.len() as u32, ticks_per_unit) {
+            Ok(frame) => frame,
+            Err(error) => return Err(error),
         };
-        let mut last = None;
-        for (i, (place, tick)) in (0..).zip(ticks.iter_mut().zip(self.trigger_ticks(n, tick_hz)?)) {
-            let gap = last.map_or(u32::MAX, |last| tick - last);
-            if gap < min_gap {
-                return Err(ScheduleError::GapTooSmall { trigger: i, gap, min_gap });
+        let (mut i, mut last) = (0, 0);
+        while i < ticks.len() {
+            let tick = frame.at(i as u32);
+            let gap = tick.saturating_sub(last);
+            if i > 0 && gap < min_gap_ticks {
+                let trigger = i as u32;
+                return Err(ScheduleError::GapTooSmall { trigger, gap, min_gap: min_gap_ticks });
             }
-            *place = tick;
-            last = Some(tick);
+            ticks[i] = tick;
+            last = tick;
+            i += 1;
         }
         Ok(())
+    }
+
+    /// [`schedule_into`](Self::schedule_into) an array of its own: in a constant, the ticks of a frame that never changes,
+    /// checked by the compiler.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const TICKS: [u32; 5] = match SHUTTER.ticks(1_000_000, 1_000) {
+    ///     Ok(ticks) => ticks,
+    ///     Err(_) => panic!("the gap is not kept"),
+    /// };
+    /// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`schedule_into`](Self::schedule_into).
+    pub const fn ticks<const N: usize>(
+        &self,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<[u32; N], ScheduleError> {
+        let mut ticks = [0; N];
+        match self.schedule_into(&mut ticks, ticks_per_unit, min_gap_ticks) {
+            Ok(()) => Ok(ticks),
+            Err(error) => Err(error),
+        }
     }
 
     /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers, with feature `heapless-v0_9`.
@@ -178,15 +193,15 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     pub fn schedule<const N: usize>(
         &self,
         n: u32,
-        tick_hz: u32,
-        min_gap: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
         let mut schedule = heapless::Vec::new();
         let fits = usize::try_from(n).is_ok_and(|n| schedule.resize(n, 0).is_ok());
         if !fits {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        self.schedule_into(&mut schedule, tick_hz, min_gap)?;
+        self.schedule_into(&mut schedule, ticks_per_unit, min_gap_ticks)?;
         Ok(schedule)
     }
 
@@ -206,49 +221,69 @@ impl<const CELLS: usize> ShutterCurve<CELLS> {
     ///
     /// # Errors
     /// Those of [`trigger_ticks`](Self::trigger_ticks).
-    pub fn most_triggers(
+    pub const fn most_triggers(
         &self,
         wanted: u32,
-        tick_hz: u32,
-        min_gap: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
     ) -> Result<u32, ScheduleError> {
-        if self.keeps(wanted, tick_hz, min_gap)? {
+        if let Err(error) = Ticks::new(&self.plan, wanted, ticks_per_unit) {
+            return Err(error);
+        }
+        if wanted <= 1 || min_gap_ticks == 0 {
             return Ok(wanted);
         }
-        // One trigger keeps any gap, so at least two are wanted, and a gap of at least 1.
-        let (mut keep, mut fail) = (1, wanted);
-        let guess = tick_hz as f32 / (self.normalization() * min_gap as f32);
-        let mut n = (guess as u32).min(wanted - 1).max(2);
-        let mut step = 1u32;
+        let guess = ticks_per_unit as f32 / (self.normalization() * min_gap_ticks as f32);
+        // One trigger keeps any gap.
+        let (mut keep, mut fail, mut n, mut step) = (1, wanted + 1, wanted, 0u32);
         while fail - keep > 1 {
-            let keeps = self.keeps(n, tick_hz, min_gap)?;
-            *(if keeps { &mut keep } else { &mut fail }) = n;
-            let middle = keep + (fail - keep) / 2;
-            n = if keeps {
-                middle.min(keep.saturating_add(step))
-            } else {
-                middle.max(fail.saturating_sub(step))
+            let keeps = match self.keeps(n, ticks_per_unit, min_gap_ticks) {
+                Ok(keeps) => keeps,
+                Err(error) => return Err(error),
             };
-            step = step.saturating_mul(2);
+            *(if keeps { &mut keep } else { &mut fail }) = n;
+            n = if step == 0 {
+                guess as u32
+            } else if keeps {
+                keep.saturating_add(step)
+            } else {
+                fail.saturating_sub(step)
+            };
+            if n <= keep || n >= fail {
+                n = keep + (fail - keep) / 2;
+            }
+            step = step.saturating_mul(2) | 1;
         }
         Ok(keep)
     }
 
     /// Do the ticks of `n` triggers keep the gap?
-    fn keeps(&self, n: u32, tick_hz: u32, min_gap: u32) -> Result<bool, ScheduleError> {
-        let mut last = None;
-        Ok(self.trigger_ticks(n, tick_hz)?.all(|tick| {
-            let gap = last.map_or(u32::MAX, |last| tick.saturating_sub(last));
-            last = Some(tick);
-            gap >= min_gap
-        }))
+    const fn keeps(
+        &self,
+        n: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<bool, ScheduleError> {
+        let frame = match Ticks::new(&self.plan, n, ticks_per_unit) {
+            Ok(frame) => frame,
+            Err(error) => return Err(error),
+        };
+        let (mut i, mut last) = (1, frame.at(0));
+        while i < n {
+            let tick = frame.at(i);
+            if tick.saturating_sub(last) < min_gap_ticks {
+                return Ok(false);
+            }
+            (i, last) = (i + 1, tick);
+        }
+        Ok(true)
     }
 }
 
 /// The times of a frame's triggers, of [`ShutterCurve::trigger_times`]: any of them in constant time, from either end.
 #[derive(Clone)]
-pub struct TriggerTimes<'a, const CELLS: usize = 8> {
-    frame: Times<'a, CELLS>,
+pub struct TriggerTimes<'a, const OCTAVES: usize = 8> {
+    frame: Times<'a, OCTAVES>,
     left: Range<u32>,
 }
 
@@ -279,27 +314,23 @@ pub struct TriggerTimes<'a, const CELLS: usize = 8> {
 /// # Ok::<(), ScheduleError>(())
 /// ```
 #[derive(Clone)]
-pub struct TriggerTicks<'a, const CELLS: usize = 8> {
-    frame: Ticks<'a, CELLS>,
+pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
+    pub(crate) frame: Ticks<'a, OCTAVES>,
     left: Range<u32>,
-}
-
-impl<const CELLS: usize> TriggerTicks<'_, CELLS> {
-    /// Is trigger `i` of the frame placed without a search? For measurements.
-    #[doc(hidden)]
-    pub fn is_direct(&self, i: u32) -> bool {
-        self.frame.is_direct(i)
-    }
 }
 
 /// What times the triggers of one frame.
 #[derive(Clone)]
-struct Times<'a, const CELLS: usize> {
-    curve: &'a ShutterCurve<CELLS>,
+struct Times<'a, const OCTAVES: usize> {
+    curve: &'a ShutterCurve<OCTAVES>,
     n: u32,
 }
 
-impl<const CELLS: usize> Times<'_, CELLS> {
+impl<const OCTAVES: usize> Times<'_, OCTAVES> {
+    const fn n(&self) -> u32 {
+        self.n
+    }
+
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {

@@ -1,23 +1,23 @@
 //! The scales on which the inside counts, and the steps from one to another. All are powers of two, so that no step
 //! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
 //! collected on one ramp, a fraction too; only `Shape::mass` is not yet divided by the whole. Other
-//! scales stand elsewhere: an openness has its own in [`by_time`](crate::by_time), a tiny sum in
-//! [`moment`](crate::moment), and, while a curve is built, places in [`path`](crate::path), samples in
-//! [`bound`](crate::bound), and a polynomial's coefficients in [`candidate`](crate::candidate).
+//! scales stand elsewhere: an openness has its own in [`by_time`](crate::ramp::by_time), a tiny sum in
+//! [`moment`](crate::number::moment), and, while a curve is built, places in [`path`](crate::octave::path), samples in
+//! [`bound`](crate::octave::bound), and a polynomial's coefficients in [`candidate`](crate::octave::candidate).
 //!
 //! | what is counted | from | to | in |
 //! |---|---|---|---|
-//! | a place along a ramp | 0 at one of its ends | [`LAST_PLACE`] at the other | `f32`, [`Pair`](crate::pair::Pair) |
+//! | a place along a ramp | 0 at one of its ends | [`LAST_PLACE`] at the other | `f32`, [`Pair`](crate::number::pair::Pair) |
 //! | a fraction of the exposure that is searched for | 0 | [`WHOLE`] | pairs |
 //! | a mass on a ramp | 0 | 2⁸⁰ to 2⁸¹, all of the ramp: [`mass_per_fraction`] | pairs |
 //! | a time on a ramp | 0 at its end | 2⁶⁴ to 2⁶⁵, all of the ramp: [`ramp_unit`] | pairs |
 //! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
-//! | a fraction of the exposure on the plateau's line ([`plan`](crate::plan)) | 0 | 2³² | `u32` |
+//! | a fraction of the exposure on the plateau's line ([`plan`](crate::answer::plan)) | 0 | 2³² | `u32` |
 //! | a fraction `(2i + 1) / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
 //! | a position in an [`octave`](crate::octave), in 2⁻³² of its power or, above, 2⁻³¹ | that power of two | ±2³¹ | `i32` |
 //! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
 //! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
-//! | `TickScale::factor` in [`ticks`](crate::ticks), in 2⁻⁶⁴ of a tick | 0 | 2⁵⁸ | `u64` |
+//! | `TickScale::factor` in [`ticks`](crate::trigger::ticks), in 2⁻⁶⁴ of a tick | 0 | 2⁵⁸ | `u64` |
 
 /// How far a ramp goes: places along it count from 0 at one end to this at the other.
 ///
@@ -38,7 +38,7 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
 /// The bits of 2⁻²⁸, the least top of an octave. There are no octaves below it, so a fraction of 0 falls into none. (One
-/// more would be of no use: what a fraction may be off by, `OFF` in [`certificate`](crate::certificate), would leave its
+/// more would be of no use: what a fraction may be off by, `OFF` in [`certificate`](crate::octave::certificate), would leave its
 /// polynomial no error.)
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// Tops are multiples of so many bits, eight to a power of two. So each fits a byte.

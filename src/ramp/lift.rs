@@ -1,7 +1,7 @@
 //! Rounded control points may take a curve a trace beyond a bound. It is accepted, and *lifted* onto the bound, so that
 //! time never runs back and the openness is nowhere below 0.
 
-use crate::cubic::{cubic_range, quadratic_min, widened};
+use super::cubic::{cubic_range, quadratic_min, widened};
 
 /// The control values of a cubic that grazes 0 from below, raised until it does not: by -min f and 2⁻⁴⁸ of its size for
 /// the rounding of that, less and less towards the greater end, which stays. So an opening that dips below 0 still

@@ -20,6 +20,7 @@ impl CubicBezier {
     /// assert_eq!(ShutterCurve::new(opening, closing)?.exposure(), 5.0);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
+    #[must_use]
     pub const fn new(points: [(f32, f32); 4]) -> Self {
         Self { points }
     }
@@ -31,6 +32,7 @@ impl CubicBezier {
     /// let line = CubicBezier::line((0.0, 0.0), (3.0, 1.5));
     /// assert_eq!(line.points(), [(0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (3.0, 1.5)]);
     /// ```
+    #[must_use]
     pub const fn line(from: (f32, f32), to: (f32, f32)) -> Self {
         const fn third(a: f32, b: f32, n: f64) -> f32 {
             (a as f64 + (b as f64 - a as f64) * (n / 3.0)) as f32
@@ -41,6 +43,20 @@ impl CubicBezier {
             (third(from.0, to.0, 2.0), third(from.1, to.1, 2.0)),
             to,
         ])
+    }
+
+    /// The same curve with its openness, or density, times `factor`: exactly, if that is a power of two and no number
+    /// becomes subnormal.
+    ///
+    /// ```
+    /// use shutter_curve::CubicBezier;
+    /// let density = CubicBezier::line((0.0, 0.0), (3.0, 96.0));
+    /// assert_eq!(density.scaled(1.0 / 128.0), CubicBezier::line((0.0, 0.0), (3.0, 0.75)));
+    /// ```
+    #[must_use]
+    pub const fn scaled(&self, factor: f32) -> Self {
+        let [(t0, f0), (t1, f1), (t2, f2), (t3, f3)] = self.points;
+        Self::new([(t0, f0 * factor), (t1, f1 * factor), (t2, f2 * factor), (t3, f3 * factor)])
     }
 
     /// The opening and the closing ramp of RenderMan's `shutteropening`; see
@@ -54,6 +70,7 @@ impl CubicBezier {
     /// assert_eq!(opening.points(), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (2.0, 1.0)]);
     /// assert_eq!(closing.points(), [(6.0, 1.0), (7.0, 1.0), (7.0, 0.0), (8.0, 0.0)]);
     /// ```
+    #[must_use]
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
@@ -74,6 +91,7 @@ impl CubicBezier {
     }
 
     /// The control points `P0..P3`, each as (t, f); see [`line`](Self::line).
+    #[must_use]
     pub const fn points(&self) -> [(f32, f32); 4] {
         self.points
     }
@@ -88,6 +106,12 @@ impl CubicBezier {
     pub(crate) const fn opennesses(&self) -> [f32; 4] {
         let p = &self.points;
         [p[0].1 + 0.0, p[1].1 + 0.0, p[2].1 + 0.0, p[3].1 + 0.0]
+    }
+}
+
+impl From<[(f32, f32); 4]> for CubicBezier {
+    fn from(points: [(f32, f32); 4]) -> Self {
+        Self::new(points)
     }
 }
 

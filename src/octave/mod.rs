@@ -13,7 +13,14 @@
 //! between them. Above, it counts 2⁻³¹ of that power, from 0 to 2³¹, and has to be doubled; below, it counts 2⁻³² of
 //! it, from -2³¹ up to 0. The offset from the middle of what the polynomial serves is exact.
 
-use crate::units::{LEAST_TOP, TOP_STEP};
+pub(crate) mod bound;
+pub(crate) mod build;
+pub(crate) mod candidate;
+pub(crate) mod certificate;
+pub(crate) mod path;
+pub(crate) mod span;
+
+use crate::number::units::{LEAST_TOP, TOP_STEP};
 
 /// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
 /// the part of the octave that it serves, or a narrower interval.
@@ -28,10 +35,6 @@ pub(crate) struct Octave {
     /// `P(x) = c[7] x + c[6] x² + ...`: in the order in which Horner's rule needs them.
     pub(crate) c: [i32; DEGREE],
 }
-
-/// The time, in units, that stands for none. (Where a polynomial gives this very time, the search that follows keeps
-/// the promise, too.)
-pub(crate) const NO_TIME: i64 = 1;
 
 pub(crate) const DEGREE: usize = 8;
 
@@ -73,7 +76,7 @@ impl Octave {
     /// The `x` of a position that is [`doubled`] where it has to be.
     ///
     /// The difference and its multiple fit the word, even if one of the numbers does not: a span leaves room for that
-    /// (`FILLED` in [`span`](crate::span)).
+    /// (`FILLED` in [`span`](crate::octave::span)).
     #[inline(always)]
     pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
         doubled.wrapping_sub(self.center as i32) << (self.center & FINER)

@@ -10,15 +10,22 @@
 //! and with the series expanded there, the guess is again a root of its leading term. So a search for a mass starts
 //! from one of four *anchors*, the one whose mass is nearest: the two ends and the two minima.
 
-use crate::bezier::CubicBezier;
-use crate::cubic::integral;
-use crate::guess::guess;
-use crate::moment::Moment;
-use crate::pair::{Pair, flipped};
-use crate::series::Series;
-use crate::shape::Shape;
-use crate::solve::{Anchor, ROUNDING, solve};
-use crate::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
+pub(crate) mod bezier;
+pub(crate) mod by_time;
+pub(crate) mod cubic;
+pub(crate) mod lift;
+mod quick;
+pub(crate) mod shape;
+
+use crate::ramp::bezier::CubicBezier;
+use crate::ramp::cubic::integral;
+use crate::search::guess::guess;
+use crate::number::moment::Moment;
+use crate::number::pair::{Pair, flipped};
+use crate::number::series::Series;
+use crate::ramp::shape::Shape;
+use crate::search::{Anchor, ROUNDING, solve};
+use crate::number::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
 
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;

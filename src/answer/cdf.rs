@@ -2,9 +2,9 @@
 //! until then.
 
 use crate::exposure::{Exposure, FOR_TICK};
-use crate::moment::rounded;
-use crate::pair::{Pair, significand};
-use crate::units::{WHOLE, WHOLE_EXPONENT};
+use crate::number::moment::rounded;
+use crate::number::pair::{Pair, significand};
+use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 
 /// Where a time lies on the curve.
 enum At {

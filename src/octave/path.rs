@@ -3,11 +3,11 @@
 //!
 //! Seen so, an error is judged without inverting anything: each place on the path has its time and its fraction, and
 //! what a polynomial of the fraction is off by is itself a polynomial of the place
-//! ([`certificate`](crate::certificate)). Only ends and nodes are inverted, and those need not be exact.
+//! ([`certificate`](crate::octave::certificate)). Only ends and nodes are inverted, and those need not be exact.
 
-use crate::cubic::Cubic;
+use crate::ramp::cubic::Cubic;
 use crate::exposure::Exposure;
-use crate::shape::Shape;
+use crate::ramp::shape::Shape;
 
 /// As close as single precision comes: a step of Newton's below this share of its place is the last one.
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
@@ -33,7 +33,7 @@ impl Side<'_> {
 }
 
 /// A ramp, or a stretch of one, by powers of a place on it. A ramp has fractions of the exposure and times of the curve;
-/// the stretch of an octave has positions ([`Span::counted`](crate::span::Span::counted)), and for its certificate the
+/// the stretch of an octave has positions ([`Span::counted`](crate::octave::span::Span::counted)), and for its certificate the
 /// unit of time in which the polynomial has its coefficients.
 #[derive(Clone, Copy)]
 pub(crate) struct Path {

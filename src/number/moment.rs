@@ -1,7 +1,7 @@
 //! A moment: a time as it is found, more exact than an `f32`; and how it is rounded to one, once.
 
-use crate::pair::Pair;
-use crate::units::{fixed, power_of_two};
+use crate::number::pair::Pair;
+use crate::number::units::{fixed, power_of_two};
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. The `way` is at most 2¹⁰⁵, as on the plateau,
 /// and a `unit` from -252 to 22, as for a density; it may be greater where the way is 0.

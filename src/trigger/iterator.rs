@@ -1,11 +1,11 @@
 //! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
 //! either end.
 
-/// The iterator `$name`, whose fields are a `frame`, with `n` items, of which item `i` is `frame.at(i)`, and the
+/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the
 /// range of those that are `left`.
 macro_rules! iterate {
     ($name:ident, $item:ty) => {
-        impl<const CELLS: usize> Iterator for $name<'_, CELLS> {
+        impl<const OCTAVES: usize> Iterator for $name<'_, OCTAVES> {
             type Item = $item;
 
             // Into the caller's loop; there is mostly one.
@@ -37,7 +37,7 @@ macro_rules! iterate {
             }
         }
 
-        impl<const CELLS: usize> DoubleEndedIterator for $name<'_, CELLS> {
+        impl<const OCTAVES: usize> DoubleEndedIterator for $name<'_, OCTAVES> {
             #[inline]
             fn next_back(&mut self) -> Option<$item> {
                 let i = self.left.next_back()?;
@@ -51,13 +51,19 @@ macro_rules! iterate {
             }
         }
 
-        impl<const CELLS: usize> ExactSizeIterator for $name<'_, CELLS> {}
+        impl<const OCTAVES: usize> ExactSizeIterator for $name<'_, OCTAVES> {
+            // `usize::MAX` where there are more: a `usize` may have 16 bits.
+            #[inline]
+            fn len(&self) -> usize {
+                self.left.size_hint().0
+            }
+        }
 
-        impl<const CELLS: usize> core::iter::FusedIterator for $name<'_, CELLS> {}
+        impl<const OCTAVES: usize> core::iter::FusedIterator for $name<'_, OCTAVES> {}
 
-        impl<const CELLS: usize> core::fmt::Debug for $name<'_, CELLS> {
+        impl<const OCTAVES: usize> core::fmt::Debug for $name<'_, OCTAVES> {
             fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                let (n, left) = (self.frame.n, &self.left);
+                let (n, left) = (self.frame.n(), &self.left);
                 out.debug_struct(stringify!($name))
                     .field("n", &n)
                     .field("left", left)
@@ -66,9 +72,9 @@ macro_rules! iterate {
         }
 
         #[cfg(feature = "defmt")]
-        impl<const CELLS: usize> defmt::Format for $name<'_, CELLS> {
+        impl<const OCTAVES: usize> defmt::Format for $name<'_, OCTAVES> {
             fn format(&self, out: defmt::Formatter<'_>) {
-                let (n, left) = (self.frame.n, &self.left);
+                let (n, left) = (self.frame.n(), &self.left);
                 defmt::write!(
                     out,
                     "{=str} {{ n: {}, left: {}..{}, .. }}",

@@ -1,75 +1,82 @@
 //! From fractions of the exposure to the ticks of a timer.
 
+use crate::answer::plan::Plan;
 use crate::error::ScheduleError;
 use crate::fraction::Fraction;
-use crate::octave::NO_TIME;
-use crate::plan::Plan;
 
 /// An interval has at most 2^`MOST_TICKS` ticks: half of what a timer of 32 bits counts, so that it tells before from
 /// after.
 const MOST_TICKS: i32 = 31;
-/// The most triggers in a frame: twice as many is a whole number of 24 bits, and so is each `2i + 1`.
+/// The most triggers in a frame: so `2i + 1` and `2n` are whole numbers of 24 bits, exact as `f32`.
 pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 
-/// What places the triggers of one frame.
+/// The ticks of one frame: of the triggers, or the pulses, of one exposure.
 #[derive(Clone)]
-pub(crate) struct Ticks<'a, const CELLS: usize> {
-    pub(crate) plan: &'a Plan<CELLS>,
-    pub(crate) n: u32,
+pub(crate) struct Ticks<'a, const OCTAVES: usize> {
+    plan: &'a Plan<OCTAVES>,
+    n: u32,
     scale: TickScale,
 }
 
-impl<'a, const CELLS: usize> Ticks<'a, CELLS> {
-    pub(crate) fn new(plan: &'a Plan<CELLS>, n: u32, tick_hz: u32) -> Result<Self, ScheduleError> {
-        if tick_hz == 0 {
+impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
+    pub(crate) const fn new(
+        plan: &'a Plan<OCTAVES>,
+        n: u32,
+        ticks_per_unit: u32,
+    ) -> Result<Self, ScheduleError> {
+        if ticks_per_unit == 0 {
             return Err(ScheduleError::TickRateZero);
         }
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let start = plan.outer_in_units(0);
+        let (start, unit) = (plan.outer_in_units(0), plan.unit());
         let length = (plan.outer_in_units(1) - start) as u64;
-        if exponent_of_ticks(length, tick_hz, plan.unit()) > MOST_TICKS {
-            return Err(too_high(length, tick_hz, plan.unit()));
+        if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {
+            return Err(too_high(length, ticks_per_unit, unit));
         }
-        Ok(Self { plan, n, scale: TickScale::new(start, length, tick_hz, plan.unit()) })
+        Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
+    }
+
+    pub(crate) const fn n(&self) -> u32 {
+        self.n
     }
 
     /// The tick of trigger `i`.
     #[inline(always)]
-    pub(crate) fn at(&self, i: u32) -> u32 {
-        self.tick(i, 0.0)
-    }
-
-    /// Does trigger `i` need no search?
-    pub(crate) fn is_direct(&self, i: u32) -> bool {
-        self.plan.direct(self.fraction(i, 0.0)) != NO_TIME
+    pub(crate) const fn at(&self, i: u32) -> u32 {
+        self.around(i, 0.0)
     }
 
     /// The tick of the fraction `(2i + 1 + more) / 2n`.
     #[inline(always)]
-    pub(crate) fn tick(&self, i: u32, more: f32) -> u32 {
+    pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
         self.scale.tick(self.plan.time_at(self.fraction(i, more)))
     }
 
+    /// Does trigger `i` need no search?
+    pub(crate) const fn is_direct(&self, i: u32) -> bool {
+        self.plan.direct(self.fraction(i, 0.0)).is_some()
+    }
+
     #[inline(always)]
-    fn fraction(&self, i: u32, more: f32) -> Fraction {
+    const fn fraction(&self, i: u32, more: f32) -> Fraction {
         Fraction::new(2 * i + 1, more, 2 * self.n)
     }
 }
 
 /// The least `e` for which a `length`, in units of `2^unit` of the curve's time, is at most 2^e ticks.
-fn exponent_of_ticks(length: u64, tick_hz: u32, unit: i32) -> i32 {
+const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, unit: i32) -> i32 {
     // Below 2⁹⁶.
-    let ticks = length as u128 * tick_hz as u128;
+    let ticks = length as u128 * ticks_per_unit as u128;
     u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
 }
 
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
 #[cold]
 #[inline(never)]
-fn too_high(length: u64, tick_hz: u32, unit: i32) -> ScheduleError {
-    let (mut most, mut fail) = (0, tick_hz);
+const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError {
+    let (mut most, mut fail) = (0, ticks_per_unit);
     while fail - most > 1 {
         let middle = most + (fail - most) / 2;
         let fits = exponent_of_ticks(length, middle, unit) <= MOST_TICKS;
@@ -92,27 +99,28 @@ pub(crate) struct TickScale {
 
 impl TickScale {
     /// For an interval that starts at `start` and is `length` long, in units of `2^unit`, and has at most 2³¹ ticks.
-    pub(crate) fn new(start: i64, length: u64, tick_hz: u32, unit: i32) -> Self {
+    pub(crate) const fn new(start: i64, length: u64, ticks_per_unit: u32, unit: i32) -> Self {
         // The length or one of the ends is at least 2⁶¹ units (`time_unit`). If an end is, the next `f32` is at least
         // 2³⁷ units away. So an interval has from 2³⁷ to 2⁶² units.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
-        let zeros = tick_hz.leading_zeros();
+        let zeros = ticks_per_unit.leading_zeros() & 31;
         let down = (up + zeros) as i32 - unit - 33;
         // An interval that is much shorter than a tick has none.
-        Self { start, up, rate: tick_hz << zeros, down: if down < 63 { down as u32 } else { 63 } }
+        let down = if down < 63 { down as u32 } else { 63 };
+        Self { start, up, rate: ticks_per_unit << zeros, down }
     }
 
     /// The nearest tick to a time.
     // proofs/ticks.py: tick
     #[inline(always)]
-    pub(crate) fn tick(&self, time: i64) -> u32 {
-        // Not below 0, whatever the last units of a time are. And not beyond the end, since no time is: a polynomial's
-        // would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line
-        // is rounded down; and `Moment::in_units` stops searches.
-        let delay = time.wrapping_sub(self.start).max(0) as u64;
-        let delay = delay << self.up;
+    pub(crate) const fn tick(&self, time: i64) -> u32 {
+        let delay = time.wrapping_sub(self.start);
+        // Not below 0, whatever the last units of a time are. No time is beyond the end: a polynomial's would be off by
+        // all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line is rounded
+        // down; and `Moment::in_units` stops searches.
+        let delay = (if delay > 0 { delay } else { 0 } as u64) << (self.up & 63);
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
-        (((product >> self.down) + 1) >> 1) as u32
+        (((product >> (self.down & 63)) + 1) >> 1) as u32
     }
 }

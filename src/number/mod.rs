@@ -1,0 +1,6 @@
+//! Numbers: the units that things are counted in, pairs of `f32`, polynomials of pairs, and times before they are rounded.
+
+pub(crate) mod moment;
+pub(crate) mod pair;
+pub(crate) mod series;
+pub(crate) mod units;
