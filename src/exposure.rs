@@ -7,13 +7,13 @@
 //! sought there is never more than `a`. So what measuring loses, relative to what is sought, is as little relative to `a`,
 //! and so is the error that is asked for. A mirrored curve gives mirrored times.
 
-use crate::ramp::bezier::CubicBezier;
 use crate::error::{CurveError, Part};
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
-use crate::ramp::Ramp;
-use crate::ramp::shape::{Shape, check_finite, check_ramp};
 use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT};
+use crate::ramp::Ramp;
+use crate::ramp::bezier::CubicBezier;
+use crate::ramp::shape::{Shape, check_finite, check_ramp};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
 /// that these keep their order.

@@ -1,7 +1,7 @@
 //! What only measurements ask: hidden from the documentation, and no part of what a version promises.
 
-use crate::trigger::TriggerTicks;
 use crate::shutter::ShutterCurve;
+use crate::trigger::TriggerTicks;
 
 #[doc(hidden)]
 pub use crate::search::MAX_EVALUATIONS;

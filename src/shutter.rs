@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-use crate::ramp::bezier::CubicBezier;
+use crate::answer::plan::Plan;
 use crate::error::{CurveError, Part};
 use crate::number::moment::rounded;
 use crate::number::pair::Pair;
-use crate::answer::plan::Plan;
+use crate::ramp::bezier::CubicBezier;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
 /// closing cubic Bezier, taken as a probability density.

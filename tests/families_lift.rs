@@ -4,10 +4,10 @@
 //! `cargo test --test families_lift -- --nocapture` prints the worst of each family.
 
 /// The library's own rule, to be held against the oracle's.
-#[path = "../src/cubic.rs"]
+#[path = "../src/ramp/cubic.rs"]
 #[allow(dead_code)]
 mod cubic;
-#[path = "../src/lift.rs"]
+#[path = "../src/ramp/lift.rs"]
 mod lift;
 mod support;
 

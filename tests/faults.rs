@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{ScheduleError, ShutterCurve};
+use shutter_curve::{Pulse, ScheduleError, ShutterCurve};
 use support::cases::shutter;
 use support::oracle::lift::Lifted;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
@@ -418,10 +418,10 @@ fn pulses_next_to_plain_fractions() {
     let closing = by_bits([(0x46d8_12cc, 0), (0x46d8_155b, 0), (0x46d8_1539, 0), (0x46d8_15f5, 0)]);
     let curve = Curve::shutter(opening, closing);
     let (exact, n, duty, hz) = (Exact::new(&curve), 12, f32::from_bits(0x317f_df45), 6_348_806);
-    let pulses: Vec<(u32, u32)> = shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().collect();
-    assert!(pulses.iter().all(|(on, off)| on <= off), "{pulses:?}");
-    assert!(pulses.windows(2).all(|pair| pair[0].1 <= pair[1].0), "{pulses:?}");
-    for (i, (on, off)) in pulses.into_iter().enumerate() {
+    let pulses: Vec<Pulse> = shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().collect();
+    assert!(pulses.iter().all(|pulse| pulse.on <= pulse.off), "{pulses:?}");
+    assert!(pulses.windows(2).all(|pair| pair[0].off <= pair[1].on), "{pulses:?}");
+    for (i, Pulse { on, off }) in pulses.into_iter().enumerate() {
         for (tick, half) in [(on, -0.5), (off, 0.5)] {
             let u = Dd::from(i as f64 + 0.5) + Dd::from(half * f64::from(duty));
             let error = tick_error_at(&exact, tick, u / Dd::from(f64::from(n)), hz, EDGE_ULP);
@@ -513,7 +513,7 @@ fn pulses_between_a_top_and_a_join() {
                 let first = if is_back { n - 1 } else { 0 };
                 for duty in (20..40).map(|k| exp2(-k)) {
                     let mut pulses = ours.pulse_ticks(n, duty as f32, hz).unwrap();
-                    let (on, off) = pulses.nth(first as usize).unwrap();
+                    let Pulse { on, off } = pulses.nth(first as usize).unwrap();
                     for (tick, half) in [(on, -0.5), (off, 0.5)] {
                         let u = Dd::from(f64::from(first) + 0.5) + Dd::from(half * duty);
                         let error =
@@ -570,7 +570,7 @@ fn inner_points_at_the_inner_ends_are_accepted() {
                     [0.0, 0.0, open, 1.0, close, 1.0, 1.0, 0.0],
                     [open, 0.0, open, 1.0, close, 1.0, close, 0.0],
                 ] {
-                    let curve = ShutterCurve::<0>::shutteropening_with_cells(times, inner);
+                    let curve = ShutterCurve::shutteropening(times, inner);
                     refused.extend(curve.err().map(|error| (error, times, inner)));
                 }
             }
@@ -664,7 +664,7 @@ fn the_last_full_pulse_ends_with_the_curve() {
     let dark = |from: f32, to: f32| [(from, 0.0), (from, 0.0), (to, 0.0), (to, 0.0)];
     let curve = shutter::<8>(&Curve::shutter(dark(0.0, 1000.0), dark(2000.0, 252_000.0)));
     for n in 1..100 {
-        let (_, off) = curve.pulse_ticks(n, 1.0, 1).unwrap().next_back().unwrap();
+        let Pulse { off, .. } = curve.pulse_ticks(n, 1.0, 1).unwrap().next_back().unwrap();
         assert_eq!(off, 252_000, "of {n}");
     }
 }
@@ -712,8 +712,8 @@ fn no_trigger_is_beyond_its_ramp() {
     ours.schedule_into(&mut vec![0; n as usize], hz, 0).unwrap();
     assert_eq!(ours.most_triggers(n, hz, 0), Ok(n));
     let pulses = ours.pulse_ticks(4_190_000, 0.5, 2_064_400_737).unwrap();
-    let pulses: Vec<(u32, u32)> = pulses.skip(1_417_240).take(200).collect();
-    assert!(pulses.is_sorted_by(|a, b| a.1 <= b.0), "{pulses:?}");
+    let pulses: Vec<Pulse> = pulses.skip(1_417_240).take(200).collect();
+    assert!(pulses.is_sorted_by(|a, b| a.off <= b.on), "{pulses:?}");
 }
 
 /// Where a ramp is measured from its other end, the noise changes: the last time before was settled by the inverse, the

@@ -2,7 +2,7 @@
 
 mod support;
 
-use shutter_curve::{CubicBezier, ScheduleError, ShutterCurve, valid};
+use shutter_curve::{CubicBezier, Pulse, ScheduleError, ShutterCurve, valid};
 use support::aimed::{FAMILIES, aimed};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
@@ -45,9 +45,9 @@ fn judge_with<const OCTAVES: usize>(
             let duty = DUTIES[(turn + 4 * many + k) % DUTIES.len()];
             let pulses = ours.pulse_ticks(n, duty, hz).unwrap();
             for i in [0, 1, n / 4, n / 2, n - 1].into_iter().filter(|i| *i < n) {
-                let (on, off) = pulses.clone().nth(i as usize).unwrap();
+                let Pulse { on, off } = pulses.clone().nth(i as usize).unwrap();
                 assert!(on <= off, "{i} of {n}, {duty}, {name:?}");
-                if let Some((next, _)) = pulses.clone().nth(i as usize + 1) {
+                if let Some(Pulse { on: next, .. }) = pulses.clone().nth(i as usize + 1) {
                     assert!(off <= next, "{i} of {n}, {duty}, {name:?}");
                 }
                 for (tick, sign) in [(on, -1.0), (off, 1.0)] {
@@ -94,7 +94,7 @@ fn doses_are_equal() {
             exact.cdf_dd(t)
         };
         for (n, duty) in [(12, 0.3), (12, 1.0), (5, 0.01), (64, 0.5)] {
-            for (on, off) in curve.pulse_ticks(n, duty, hz).unwrap() {
+            for Pulse { on, off } in curve.pulse_ticks(n, duty, hz).unwrap() {
                 let dose = (at(off) - at(on)).hi;
                 let even = f64::from(duty) / f64::from(n);
                 // The openness is at most 1: a tick of it is 1/A ticks of the exposure.
@@ -109,10 +109,10 @@ fn doses_are_equal() {
 fn pulses_of_the_whole_share_touch() {
     for n in [1, 2, 12, 100, 1 << 22] {
         let pulses = SOFT.pulse_ticks(n, 1.0, 1 << 23).unwrap();
-        assert_eq!(pulses.clone().next().map(|(on, _)| on), Some(0));
-        assert_eq!(pulses.clone().last().map(|(_, off)| off), Some(1 << 23));
-        let few: Vec<(u32, u32)> = pulses.take(100).collect();
-        assert!(few.windows(2).all(|pair| pair[0].1 == pair[1].0));
+        assert_eq!(pulses.clone().next().map(|pulse| pulse.on), Some(0));
+        assert_eq!(pulses.clone().last().map(|pulse| pulse.off), Some(1 << 23));
+        let few: Vec<Pulse> = pulses.take(100).collect();
+        assert!(few.windows(2).all(|pair| pair[0].off == pair[1].on));
     }
 }
 
@@ -123,12 +123,12 @@ fn ends_at_one_half_are_in_order() {
     let closing = CubicBezier::line((0.93, 1.0), (1.0, 0.0));
     let curve = ShutterCurve::<8>::with_octaves(opening, closing).unwrap();
     let hz = 1_930_098_667;
-    let touching: Vec<(u32, u32)> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
-    assert_eq!(touching[0].1, touching[1].0);
-    let (on, off) = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
+    let touching: Vec<Pulse> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
+    assert_eq!(touching[0].off, touching[1].on);
+    let Pulse { on, off } = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
     assert_eq!(on, off);
-    assert_eq!(curve.pulses_into(&mut [(0, 0); 2], 1.0, hz, 0, 0), Ok(()));
-    assert_eq!(curve.pulses_into(&mut [(0, 0); 1], 1e-30, hz, 0, 0), Ok(()));
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, 0, 0), Ok(()));
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, 0, 0), Ok(()));
 }
 
 /// A first pulse that goes on next to the start, where most of its fraction's words are zeros.
@@ -140,7 +140,8 @@ fn the_first_end_has_all_its_bits() {
     let curve = Curve::shutter(opening.points(), [(1.0, 1.0), (1.0, 0.5), (1.0, 0.5), (1.0, 0.0)]);
     let (exact, hz) = (Exact::new(&curve), 2_147_483_448);
     for (n, duty) in [(4_194_303, 1.0 - f32::EPSILON / 2.0), (1_000_007, 1.0 - f32::EPSILON)] {
-        let (on, _) = shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().next().unwrap();
+        let Pulse { on, .. } =
+            shutter::<8>(&curve).pulse_ticks(n, duty, hz).unwrap().next().unwrap();
         let u = (Dd::from(1.0) - Dd::from(f64::from(duty))) / Dd::from(2.0 * f64::from(n));
         assert!(tick_error_at(&exact, on, u, hz, EDGE_ULP) <= TICK, "{on}: the first of {n}");
     }
@@ -148,7 +149,7 @@ fn the_first_end_has_all_its_bits() {
 
 #[test]
 fn from_either_end_and_anywhere() {
-    let all: Vec<(u32, u32)> = SOFT.pulse_ticks(7, 0.4, 1_000_000).unwrap().collect();
+    let all: Vec<Pulse> = SOFT.pulse_ticks(7, 0.4, 1_000_000).unwrap().collect();
     let frame = || SOFT.pulse_ticks(7, 0.4, 1_000_000).unwrap();
     assert_eq!(frame().len(), 7);
     assert!(frame().rev().eq(all.iter().rev().copied()));
@@ -166,7 +167,7 @@ fn what_cannot_be_is_refused() {
         SOFT.pulse_ticks(3, 0.5, u32::MAX).err(),
         Some(ScheduleError::TickRateTooHigh { most: 1 << 31 })
     );
-    let mut pulses = [(0, 0); 12];
+    let mut pulses = [Pulse::default(); 12];
     let mut checked = |duty, pulse, gap| SOFT.pulses_into(&mut pulses, duty, 1_000_000, pulse, gap);
     assert_eq!(checked(0.5, 30_000, 30_000), Ok(()));
     assert_eq!(
@@ -175,13 +176,17 @@ fn what_cannot_be_is_refused() {
     );
     assert!(matches!(
         checked(1.0, 0, 1),
-        Err(ScheduleError::GapTooSmall { trigger: 1, gap: 0, min_gap: 1 })
+        Err(ScheduleError::PulsesTooClose { pulse: 1, gap: 0, min_gap: 1 })
     ));
     for (error, numbers) in [
         (ScheduleError::DutyOutOfRange, &["0", "1"][..]),
         (
             ScheduleError::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 },
             &["17", "815", "4711"],
+        ),
+        (
+            ScheduleError::PulsesTooClose { pulse: 17, gap: 815, min_gap: 4711 },
+            &["17", "815", "4711", "gone off"],
         ),
     ] {
         let text = error.to_string();
@@ -199,7 +204,7 @@ fn last_pulses_end() {
     let (exact, ours, hz) =
         (Exact::new(&curve), shutter::<32>(&curve), rate(&curve, TYPICAL_TICKS).unwrap());
     for (n, duty) in [(9986, 0.99987376f32), (99_975, 0.9987359), (4_194_302, 0.946967)] {
-        let (_, off) = ours.pulse_ticks(n, duty, hz).unwrap().next_back().unwrap();
+        let Pulse { off, .. } = ours.pulse_ticks(n, duty, hz).unwrap().next_back().unwrap();
         let u = Dd::from(2.0 * f64::from(n) - 1.0) + Dd::from(f64::from(duty));
         let error = tick_error_at(&exact, off, u / Dd::from(2.0 * f64::from(n)), hz, EDGE_ULP);
         assert!(error <= TICK, "{error:.3} ticks: {n} of duty {duty}");

@@ -20,7 +20,7 @@ fn a_static_curve_is_the_one_built_at_run_time() {
         [0.0, 0.25, 0.75, 1.0],
         [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
     );
-    assert_eq!(Ok(CURVE), again);
+    assert_eq!(Ok(CURVE.clone()), again);
 }
 
 #[test]

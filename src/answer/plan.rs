@@ -20,16 +20,18 @@
 //! ([`certificate`](crate::octave::certificate)). A search's is below a quarter of that distance if its step was accepted, so
 //! the order holds where a search follows a polynomial or the line.
 
-use crate::ramp::bezier::CubicBezier;
 use crate::error::CurveError;
 use crate::exposure::{Exposure, FOR_FRACTION};
 use crate::fraction::Fraction;
 use crate::number::moment::Moment;
-use crate::octave::{self, Octave, build};
 use crate::number::pair::Pair;
-use crate::ramp::shape::Shape;
+use crate::number::units::{
+    FINE, WHOLE, exponent, fixed, fixed_f64, floor_bits, power_of_two, time_unit,
+};
 use crate::octave::span::Span;
-use crate::number::units::{FINE, WHOLE, exponent, fixed, fixed_f64, floor_bits, power_of_two, time_unit};
+use crate::octave::{self, Octave, build};
+use crate::ramp::bezier::CubicBezier;
+use crate::ramp::shape::Shape;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const OCTAVES: usize> {
@@ -200,7 +202,9 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     const fn by_octave(&self, side: usize, bits: u32, ramp: usize) -> Option<i64> {
         match self.look_up(side, ramp, bits) {
             // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
-            Some((octave, position)) if octave.exists() => Some(octave.time(octave.offset(position))),
+            Some((octave, position)) if octave.exists() => {
+                Some(octave.time(octave.offset(position)))
+            }
             _ => None,
         }
     }
@@ -237,7 +241,12 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
     /// outside [0, 1] and for NaN.
     #[inline(always)]
-    pub(crate) const fn look_up(&self, side: usize, ramp: usize, bits: u32) -> Option<(&Octave, i32)> {
+    pub(crate) const fn look_up(
+        &self,
+        side: usize,
+        ramp: usize,
+        bits: u32,
+    ) -> Option<(&Octave, i32)> {
         let top = octave::top(self.tops[side & 1][ramp & 1]);
         let below = top.wrapping_sub(bits);
         let index = (below >> 23) as usize;

@@ -18,9 +18,9 @@
 //!
 //! docs/proofs.md leads from this to what an answer is off by.
 
+use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
-use crate::number::units::{WORD, fixed_f64};
 
 /// The greatest N: there is one point more. And the cosine of π/N.
 const POINTS: usize = 96;

@@ -1,12 +1,12 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
-use crate::octave::certificate::certain;
 use crate::exposure::Exposure;
-use crate::octave::{Octave, below};
-use crate::octave::path::{Path, Side};
-use crate::ramp::shape::Shape;
-use crate::octave::span::Span;
 use crate::number::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
+use crate::octave::certificate::certain;
+use crate::octave::path::{Path, Side};
+use crate::octave::span::Span;
+use crate::octave::{Octave, below};
+use crate::ramp::shape::Shape;
 
 /// By how many steps the tops are moved beyond the end of their ramp, one after the other. A ramp's last octave is
 /// often too much for one polynomial. If the tops are moved, the last part of the ramp has a polynomial of its own. The

@@ -1,9 +1,9 @@
 //! A candidate for an octave: the polynomial through the exact times at a few nodes, in the integers of the answer.
 
-use crate::octave::{DEGREE, Octave};
+use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
 use crate::octave::path::{Path, Side, root, singles, value};
 use crate::octave::span::Span;
-use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
+use crate::octave::{DEGREE, Octave};
 
 /// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
 pub(crate) const NODES: [f32; DEGREE + 1] = [

@@ -1,10 +1,10 @@
 //! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
+use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, Side, absolute, scale, singles, value};
 use crate::octave::span::Span;
-use crate::number::units::{exponent, floor_bits, power_of_two};
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp. The time
 /// counts as no more than the interval ([`Side::size_of_time`]), so in an interval of 2²⁴ ticks it is below 0.19 tick.

@@ -5,8 +5,8 @@
 //! what a polynomial of the fraction is off by is itself a polynomial of the place
 //! ([`certificate`](crate::octave::certificate)). Only ends and nodes are inverted, and those need not be exact.
 
-use crate::ramp::cubic::Cubic;
 use crate::exposure::Exposure;
+use crate::ramp::cubic::Cubic;
 use crate::ramp::shape::Shape;
 
 /// As close as single precision comes: a step of Newton's below this share of its place is the last one.

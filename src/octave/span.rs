@@ -1,8 +1,8 @@
 //! A span: the part of an octave that its polynomial serves, and how positions on it are counted.
 
+use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::FINER;
 use crate::octave::path::{Path, scale};
-use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 
 /// An offset counts 2⁻³² of `width`, which is the octave's power of two, but halved while `half <= FILLED * width`. So
 /// `half` is at most 0.48 of `width`. (If nothing is halved it is less than 0.47, since a top is at most 15/8 of the

@@ -1,12 +1,12 @@
 //! A ramp by time: the place at which a time is reached, and mass and openness there.
 
-use crate::search::guess::guess;
 use crate::number::pair::{Pair, flipped};
+use crate::number::series::Series;
+use crate::number::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 use crate::ramp::quick::quick_place;
 use crate::ramp::{BACK, Ramp};
-use crate::number::series::Series;
+use crate::search::guess::guess;
 use crate::search::{Anchor, ROUNDING, solve};
-use crate::number::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 
 /// The error of a search for a time, relative to the way from the ramp's nearer end. The way is at most as long as the time
 /// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up

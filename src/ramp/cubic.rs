@@ -1,6 +1,5 @@
 //! Cubics in `f64`, for the construction of a curve: extremes, and the power form around a place.
 
-
 /// A cubic by its power coefficients around some place: `value + c[0] p + c[1] p² + c[2] p³`.
 #[derive(Clone, Copy)]
 pub(crate) struct Cubic {

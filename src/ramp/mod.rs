@@ -17,15 +17,15 @@ pub(crate) mod lift;
 mod quick;
 pub(crate) mod shape;
 
-use crate::ramp::bezier::CubicBezier;
-use crate::ramp::cubic::integral;
-use crate::search::guess::guess;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, flipped};
 use crate::number::series::Series;
-use crate::ramp::shape::Shape;
-use crate::search::{Anchor, ROUNDING, solve};
 use crate::number::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
+use crate::ramp::bezier::CubicBezier;
+use crate::ramp::cubic::integral;
+use crate::ramp::shape::Shape;
+use crate::search::guess::guess;
+use crate::search::{Anchor, ROUNDING, solve};
 
 /// The sign bit: the direction of what counts back.
 pub(crate) const BACK: u32 = 1 << 31;

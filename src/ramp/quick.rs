@@ -5,8 +5,8 @@
 //! ([`left`](crate::search::left)) accepts the place or not: where time nearly stands still, a search has to find it.
 
 use crate::number::pair::{Pair, lost_by_short_product, upper};
-use crate::search::{ROUNDING, Taylor, left};
 use crate::number::units::LAST_PLACE;
+use crate::search::{ROUNDING, Taylor, left};
 
 /// The place at which a cubic in pairs, without a constant term, reaches `target`, within `error`.
 #[inline(always)]

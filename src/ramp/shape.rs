@@ -1,8 +1,8 @@
 //! The shape of a ramp: what makes one Bezier a ramp, and that Bezier as it is integrated, in `f64`.
 
+use crate::error::{CurveError, Part};
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
-use crate::error::{CurveError, Part};
 use crate::ramp::lift::{forward, lifted};
 
 /// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².

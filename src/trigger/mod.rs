@@ -3,7 +3,7 @@
 mod iterator;
 mod pulse;
 mod schedule;
-mod ticks;
+pub(crate) mod ticks;
 
 pub use pulse::{Pulse, PulseTicks};
 pub use schedule::{TriggerTicks, TriggerTimes};

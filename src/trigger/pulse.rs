@@ -92,7 +92,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
             let length = pulse.off.saturating_sub(pulse.on);
             if length < min_pulse_ticks {
                 let pulse = i as u32;
-                return Err(ScheduleError::PulseTooShort { pulse, length, min_pulse: min_pulse_ticks });
+                return Err(ScheduleError::PulseTooShort {
+                    pulse,
+                    length,
+                    min_pulse: min_pulse_ticks,
+                });
             }
             let gap = pulse.on.saturating_sub(last);
             if i > 0 && gap < min_gap_ticks {

@@ -3,10 +3,10 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
-use crate::trigger::iterator::iterate;
-use crate::shutter::ShutterCurve;
-use crate::trigger::ticks::{MOST_TRIGGERS, Ticks};
 use crate::number::units::DOUBLE_WORD;
+use crate::shutter::ShutterCurve;
+use crate::trigger::iterator::iterate;
+use crate::trigger::ticks::{MOST_TRIGGERS, Ticks};
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:

@@ -1,18 +1,18 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
-use crate::ramp::bezier::CubicBezier;
+use crate::exposure::Exposure;
+use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
+use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES};
 use crate::octave::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
-use crate::exposure::Exposure;
-use crate::octave::{DEGREE, Octave, below, top};
-use crate::octave::build::{build, range};
 use crate::octave::path::{Path, Side, value};
-use crate::ramp::shape::Shape;
 use crate::octave::span::Span;
+use crate::octave::{DEGREE, Octave, below, top};
+use crate::ramp::bezier::CubicBezier;
+use crate::ramp::shape::Shape;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, hard_openness, hard_times, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
-use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
 fn chebyshev(x: f64) -> f64 {

@@ -1,10 +1,10 @@
 //! The scripts in `proofs/` prove what they say of transcriptions. These are the Rust functions' answers, on words that the
 //! scripts chose, held to the transcriptions' (`proofs/vectors`).
 
-use crate::search::guess::divided;
 use crate::number::moment::rounded_sum;
 use crate::number::pair::Pair;
 use crate::number::series::Series;
+use crate::search::guess::divided;
 use crate::search::{ROUNDING, Taylor, left};
 use crate::trigger::ticks::TickScale;
 

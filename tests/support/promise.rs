@@ -510,10 +510,9 @@ impl Figures {
             None => ours.trigger_ticks(n, hz).ok().map(|ticks| {
                 ticks.skip(first).take(frame.exact.len()).map(|tick| (tick, tick)).collect()
             }),
-            Some(duty) => ours
-                .pulse_ticks(n, duty, hz)
-                .ok()
-                .map(|ticks| ticks.skip(first).take(frame.exact.len()).collect()),
+            Some(duty) => ours.pulse_ticks(n, duty, hz).ok().map(|ticks| {
+                ticks.skip(first).take(frame.exact.len()).map(|p| (p.on, p.off)).collect()
+            }),
         };
         let Some(ticks) = ticks else {
             self.expect("tick rate", false, curve);
