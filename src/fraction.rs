@@ -10,12 +10,12 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / all`, within an ulp, or the nearest `f32` if `more` is 0; it has to be from 0 to 1. Half is counted
-    /// from the start.
+    /// `(odd + more) / 2n`, which has to be from 0 to 1: within an ulp, or the nearest `f32` if `more` is 0. Half is
+    /// counted from the start.
     #[inline(always)]
-    pub(crate) const fn new(odd: u32, more: f32, all: u32) -> Self {
-        let (part, rest) = (odd as f32 + more, (all - odd) as f32 - more);
-        let all = all as f32;
+    pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
+        let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
+        let all = (2 * n) as f32;
         if part <= rest { Self { side: 0, a: part / all } } else { Self { side: 1, a: rest / all } }
     }
 }

@@ -116,37 +116,40 @@ impl Span {
             order += 1;
         }
         // ... multiplied out into powers of x, from the highest order on.
-        let (mut c, mut degree) = ([0.0; DEGREE + 1], 0);
-        while degree <= DEGREE {
-            multiply(&mut c, degree, x[DEGREE - degree], d[DEGREE - degree]);
-            degree += 1;
+        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
+        while i > 0 {
+            i -= 1;
+            multiply(&mut c, x[i], d[i]);
         }
         c
     }
 }
 
-/// The divided differences of the next order, in the places from it on. Out of line, as the next function, because
-/// loops that the compiler unrolls in each place cost kilobytes.
+/// The divided differences of the next order, in the places from it on. Out of line, as the next function: unrolled in
+/// each place, such loops cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
-    let (mut last, mut first) = (d[order - 1], 0);
-    while first + order <= DEGREE {
-        let this = d[first + order];
-        d[first + order] = (this - last) / (x[first + order] - x[first]);
+    let (mut i, mut last) = (0, 0.0);
+    while i <= DEGREE {
+        let this = d[i];
+        if i >= order {
+            d[i] = (this - last) / (x[i] - x[i - order]);
+        }
         last = this;
-        first += 1;
+        i += 1;
     }
 }
 
-/// A polynomial times `x - root`, after which it has this degree, and a constant added.
+/// A polynomial times `x - root`, and a constant added; its last coefficient is 0.
 #[inline(never)]
-const fn multiply(c: &mut [f64; DEGREE + 1], degree: usize, root: f64, constant: f64) {
-    let mut k = degree;
-    while k > 0 {
-        c[k] = c[k - 1] - c[k] * root;
-        k = k - 1;
+const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
+    let (mut k, mut below) = (0, constant);
+    while k <= DEGREE {
+        let this = c[k];
+        c[k] = below - this * root;
+        below = this;
+        k += 1;
     }
-    c[0] = constant - c[0] * root;
 }
 
 /// The nearest number of units of `2^e`; of two that are as near, the one away from 0.

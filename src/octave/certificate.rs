@@ -1,7 +1,7 @@
 //! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
+use crate::octave::bound::{KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, Side, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -98,20 +98,12 @@ impl Side<'_> {
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded to 1/2 and a trace.
         let noise = limits.rounding + 0.5002 * steep * per_position as f32;
-        let (mut effort, mut bounds) = (0, [f32::INFINITY; 3]);
-        let (Some(sampled), true) = (Sampled::new(&along), fits) else { return bounds };
-        while effort < EFFORTS {
-            let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
-            bounds = limits.share(&errors.most);
-            // If the samples alone are too wrong, no closer bound helps. (As
-            // `share` adds what rounding does once more, one might after all, if rarely: then a search answers.)
-            effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
-                EFFORTS
-            } else {
-                effort + 1
-            };
+        match Sampled::new(&along) {
+            Some(sampled) if fits => {
+                limits.share(&errors(octave, &sampled, &offset, &weights, noise))
+            }
+            _ => [f32::INFINITY; 3],
         }
-        bounds
     }
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but

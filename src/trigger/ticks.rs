@@ -61,7 +61,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
-        Fraction::new(2 * i + 1, more, 2 * self.n)
+        Fraction::new(2 * i + 1, more, self.n)
     }
 }
 
@@ -103,6 +103,7 @@ impl TickScale {
         // The length or one of the ends is at least 2⁶¹ units (`time_unit`). If an end is, the next `f32` is at least
         // 2³⁷ units away. So an interval has from 2³⁷ to 2⁶² units.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
+        let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
         let down = (up + zeros) as i32 - unit - 33;
         // An interval that is much shorter than a tick has none.
@@ -118,7 +119,9 @@ impl TickScale {
         // Not below 0, whatever the last units of a time are. No time is beyond the end: a polynomial's would be off by
         // all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line is rounded
         // down; and `Moment::in_units` stops searches.
-        let delay = (if delay > 0 { delay } else { 0 } as u64) << (self.up & 63);
+        let delay = if delay > 0 { delay as u64 } else { 0 };
+        // Mostly by 0 or 1.
+        let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
         (((product >> (self.down & 63)) + 1) >> 1) as u32

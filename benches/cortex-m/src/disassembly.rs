@@ -77,7 +77,7 @@ impl Disassembly {
         Ok(Self { instructions, functions, statics })
     }
 
-    /// The instances of the firmware's function `name`, one for each number of cells, in no order.
+    /// The instances of the firmware's function `name`, one for each number of octaves, in no order.
     pub fn named(&self, name: &str) -> Vec<u32> {
         // As both of Rust's manglings have it.
         let part = format!("{}{name}", name.len());

@@ -11,7 +11,7 @@ use crate::disassembly::Disassembly;
 use crate::firmware::{Core, build, output};
 use crate::trace::{Call, replay};
 
-use Function::{Construct, InverseCdf, Root, Schedule, Static, TickStep};
+use Function::{Construct, InverseCdf, Root, Static, TickStep};
 
 /// What functions are measured on.
 #[derive(Clone, Copy, PartialEq)]
@@ -24,26 +24,25 @@ pub enum On {
     All,
 }
 
-/// The series of these functions, with each of these numbers of cells.
-pub fn series(functions: &[Function], cells: &[usize], on: On) -> Vec<Series> {
+/// The series of these functions, with each of these numbers of octaves.
+pub fn series(functions: &[Function], octaves: &[usize], on: On) -> Vec<Series> {
     let mut all = Vec::new();
-    for (function, cells) in functions.iter().flat_map(|f| cells.iter().map(|c| (*f, *c))) {
-        // Of uniform inputs, of hard ones, and of those that are solved.
+    for (function, octaves) in functions.iter().flat_map(|f| octaves.iter().map(|c| (*f, *c))) {
+        // Of uniform inputs, and of hard ones.
         let curves = match function {
-            Root => [ROOTS.len(), 0, 0],
-            Construct => [1, 0, 0],
-            Static => [TYPICAL, TYPICAL, 0],
-            TickStep | Schedule => [TYPICAL, CURVES.len(), CURVES.len()],
-            _ => [TYPICAL, CURVES.len(), 0],
+            Root => [ROOTS.len(), 0],
+            Construct => [1, 0],
+            Static => [TYPICAL, TYPICAL],
+            _ => [TYPICAL, CURVES.len()],
         };
         let most = match on {
-            On::Rows => [ROWS.len(), 0, 0],
-            On::Typical => [TYPICAL, 0, 0],
+            On::Rows => [ROWS.len(), 0],
+            On::Typical => [TYPICAL, 0],
             On::All => curves,
         };
         for (i, inputs) in Inputs::ALL.into_iter().enumerate() {
             let curves = 0..curves[i].min(most[i]);
-            all.extend(curves.map(|curve| Series { function, cells, inputs, curve }));
+            all.extend(curves.map(|curve| Series { function, octaves, inputs, curve }));
         }
     }
     all
@@ -134,29 +133,37 @@ impl Measured {
         &self,
         function: Function,
         inputs: Inputs,
-        cells: usize,
+        octaves: usize,
     ) -> impl Iterator<Item = &Ran> {
-        let key = (function, inputs, cells);
-        self.ran.iter().filter(move |Ran { series: s, .. }| (s.function, s.inputs, s.cells) == key)
+        let key = (function, inputs, octaves);
+        self.ran
+            .iter()
+            .filter(move |Ran { series: s, .. }| (s.function, s.inputs, s.octaves) == key)
     }
 
     /// The one over uniform inputs on one of the curves.
-    pub fn on(&self, function: Function, curve: usize, cells: usize) -> Option<&Ran> {
-        self.over(function, Inputs::Uniform, cells).find(|ran| ran.series.curve == curve)
+    pub fn on(&self, function: Function, curve: usize, octaves: usize) -> Option<&Ran> {
+        self.over(function, Inputs::Uniform, octaves).find(|ran| ran.series.curve == curve)
     }
 
     /// The mean over all typical curves.
-    pub fn typical(&self, function: Function, cells: usize, of: fn(&Ran) -> Spread) -> Option<f64> {
-        let means = self.over(function, Inputs::Uniform, cells).map(|ran| of(ran).mean);
+    pub fn typical(
+        &self,
+        function: Function,
+        octaves: usize,
+        of: fn(&Ran) -> Spread,
+    ) -> Option<f64> {
+        let means = self.over(function, Inputs::Uniform, octaves).map(|ran| of(ran).mean);
         let (count, sum) = means.fold((0, 0.0), |(count, sum), mean| (count + 1, sum + mean));
         (count > 0).then(|| sum / f64::from(count))
     }
 
     /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
     /// ones, too; with its curve and its fraction.
-    pub fn worst_direct(&self, function: Function, cells: usize) -> Option<(u32, String)> {
-        let ran =
-            [Inputs::Uniform, Inputs::Hard].into_iter().flat_map(|i| self.over(function, i, cells));
+    pub fn worst_direct(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
+        let ran = [Inputs::Uniform, Inputs::Hard]
+            .into_iter()
+            .flat_map(|i| self.over(function, i, octaves));
         let calls = ran.flat_map(|ran| {
             let calls = asked(ran.series).into_iter().zip(&ran.calls);
             calls.map(|((u, is_direct), call)| (is_direct, call.cycles, ran.name(), u))
@@ -165,43 +172,29 @@ impl Measured {
         Some((cycles, format!("{name}, u = {u}")))
     }
 
-    /// The most cycles of a call over these hard inputs on each curve, and the curve: the worst first.
-    pub fn worst(
-        &self,
-        function: Function,
-        inputs: Inputs,
-        cells: usize,
-    ) -> Vec<(u32, &'static str)> {
-        let curves = self.over(function, inputs, cells);
-        let mut curves: Vec<_> = curves.map(|ran| (ran.cycles().max, ran.name())).collect();
-        curves.sort_unstable_by(|a, b| b.cmp(a));
-        curves
+    /// The most cycles of a call over the hard inputs on any curve, and the curve.
+    pub fn worst(&self, function: Function, octaves: usize) -> Option<(u32, &'static str)> {
+        let curves = self.over(function, Inputs::Hard, octaves);
+        curves.map(|ran| (ran.cycles().max, ran.name())).max()
     }
 
-    /// The worst over all hard inputs.
-    pub fn worst_of_all(&self, function: Function, cells: usize) -> Option<(u32, &'static str)> {
-        let worst =
-            [Inputs::Hard, Inputs::Solved].map(|inputs| self.worst(function, inputs, cells));
-        worst.concat().into_iter().max()
-    }
-
-    pub fn code_bytes(&self, function: Function, cells: usize) -> Option<u32> {
-        Some(self.code.code_bytes(self.instance(function, cells)?))
+    pub fn code_bytes(&self, function: Function, octaves: usize) -> Option<u32> {
+        Some(self.code.code_bytes(self.instance(function, octaves)?))
     }
 
     /// The stack of a call as the compiler says.
-    pub fn stack_said(&self, function: Function, cells: usize) -> Option<u32> {
-        Some(self.code.stack_bytes(self.instance(function, cells)?))
+    pub fn stack_said(&self, function: Function, octaves: usize) -> Option<u32> {
+        Some(self.code.stack_bytes(self.instance(function, octaves)?))
     }
 
     /// The same as painted.
-    pub fn stack_painted(&self, function: Function, cells: usize) -> Option<u32> {
-        let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, cells));
+    pub fn stack_painted(&self, function: Function, octaves: usize) -> Option<u32> {
+        let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, octaves));
         all.map(|ran| ran.depth).max()
     }
 
-    fn instance(&self, function: Function, cells: usize) -> Option<u32> {
-        Some(self.over(function, Inputs::Uniform, cells).next()?.calls[0].called)
+    fn instance(&self, function: Function, octaves: usize) -> Option<u32> {
+        Some(self.over(function, Inputs::Uniform, octaves).next()?.calls[0].called)
     }
 }
 
@@ -209,7 +202,7 @@ impl Measured {
 /// it asked for, and whether a polynomial or the plateau's line answered it; none for functions other than the
 /// inverse and the step of a frame's triggers.
 fn asked(series: Series) -> Vec<(f64, bool)> {
-    match series.cells {
+    match series.octaves {
         0 => with::<0>(series),
         4 => with::<4>(series),
         8 => with::<8>(series),
@@ -218,7 +211,7 @@ fn asked(series: Series) -> Vec<(f64, bool)> {
 }
 
 fn with<const OCTAVES: usize>(series: Series) -> Vec<(f64, bool)> {
-    let (opening, closing) = CURVES[series.curve].ramps(SCALES[series.scale()]);
+    let (opening, closing) = CURVES[series.curve].ramps(series.is_scaled());
     let curve = ShutterCurve::<OCTAVES>::with_octaves(opening, closing).expect("a good curve");
     match series.function {
         InverseCdf | Static => series.us().map(|u| (u.into(), curve.is_direct(u))).collect(),

@@ -2,7 +2,7 @@
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{OCTAVES, CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, ROWS, TRIGGERS, TYPICAL};
+use measured::{CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, OCTAVES, ROWS, TRIGGERS, TYPICAL};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
@@ -10,7 +10,7 @@ use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
 use crate::measure::{Measured, On, Ran, series};
 
 use Function::{
-    Cdf, Construct, InverseCdf, Newton, Opening, Root, Schedule, Static, Table, TickStep,
+    Cdf, Construct, InverseCdf, Newton, Openness, Root, Schedule, Static, Table, TickStep,
 };
 
 const METHOD: &str = "## How it is measured
@@ -36,7 +36,7 @@ const CALLS: [(&str, Function); 8] = [
     ("`inverse_cdf`", InverseCdf),
     ("`inverse_cdf` of a `static`", Static),
     ("`cdf`", Cdf),
-    ("`opening`", Opening),
+    ("`openness`", Openness),
     ("a tick", TickStep),
     ("a schedule", Schedule),
     ("textbook Newton in `f32`", Newton),
@@ -46,7 +46,7 @@ const CALLS: [(&str, Function); 8] = [
 pub fn run() -> Result {
     let plan = [
         series(&[InverseCdf, TickStep, Schedule], &OCTAVES, On::All),
-        series(&[Static, Cdf, Opening, Newton, Table], &[DEFAULT], On::All),
+        series(&[Static, Cdf, Openness, Newton, Table], &[DEFAULT], On::All),
         series(&[Construct], &OCTAVES, On::All),
         series(&[Root], &[DEFAULT], On::All),
     ];
@@ -55,7 +55,7 @@ pub fn run() -> Result {
         series(&[InverseCdf, Static], &[DEFAULT], On::Typical),
         series(&[InverseCdf], &[0, 4, 16], On::Rows),
         series(&[TickStep, Schedule, Construct], &OCTAVES, On::Rows),
-        series(&[Cdf, Opening, Newton, Table], &[DEFAULT], On::Rows),
+        series(&[Cdf, Openness, Newton, Table], &[DEFAULT], On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
     let others = others.into_iter().collect::<Result<Vec<_>>>()?;
@@ -109,14 +109,14 @@ fn overview(cores: &[&Measured]) -> String {
     let m4f = cores[0];
     let calls = CALLS.map(|(name, function)| (name, function, DEFAULT));
     let without = ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0);
-    let rows = calls.into_iter().chain([without]).map(|(name, function, cells)| {
-        let on_rows = [0, 1, 2].map(|row| Some(m4f.on(function, row, cells)?.cycles().mean));
-        let means = on_rows.into_iter().chain([m4f.typical(function, cells, Ran::cycles)]);
+    let rows = calls.into_iter().chain([without]).map(|(name, function, octaves)| {
+        let on_rows = [0, 1, 2].map(|row| Some(m4f.on(function, row, octaves)?.cycles().mean));
+        let means = on_rows.into_iter().chain([m4f.typical(function, octaves, Ran::cycles)]);
         let counts = [
-            m4f.worst_of_all(function, cells).map(|(cycles, _)| cycles),
-            m4f.worst_direct(function, cells).map(|(cycles, _)| cycles),
-            m4f.code_bytes(function, cells),
-            m4f.stack_painted(function, cells),
+            m4f.worst(function, octaves).map(|(cycles, _)| cycles),
+            m4f.worst_direct(function, octaves).map(|(cycles, _)| cycles),
+            m4f.code_bytes(function, octaves),
+            m4f.stack_painted(function, octaves),
         ];
         let means = means.map(|mean| Some(format!("{:.0}", mean?)));
         format!("{name} | {} | {}", figures(means), figures(counts))
@@ -173,7 +173,7 @@ What a curve takes, and the largest error over 65 537 equally spaced `u`, as a s
 /// The largest error of a baseline, as a share of the interval.
 fn error(row: usize, function: Function) -> f64 {
     let curve = &CURVES[row];
-    let (opening, closing) = curve.ramps(None);
+    let (opening, closing) = curve.ramps(false);
     let exact = ShutterCurve::<8>::with_octaves(opening, closing).expect("a good curve");
     let newton = TextbookNewton::new(curve.opening, curve.closing);
     let table = InverseTable::<256>::new(|u| exact.inverse_cdf(u));
@@ -188,22 +188,21 @@ fn error(row: usize, function: Function) -> f64 {
 /// Every call on each core, and the worst on one.
 fn calls(cores: &[&Measured]) -> String {
     let mut rows = Vec::new();
-    for ((name, function), cells) in CALLS.iter().flat_map(|call| OCTAVES.map(|cells| (call, cells)))
+    for ((name, function), octaves) in
+        CALLS.iter().flat_map(|call| OCTAVES.map(|octaves| (call, octaves)))
     {
         for (row, curve) in ROWS.iter().enumerate() {
-            let on = |core: &Measured| core.on(*function, row, cells).map(Ran::instructions);
-            // What has no cells is measured with the default ones.
-            let Some(s) = cores[0].on(*function, row, cells).map(Ran::cycles) else { continue };
+            let on = |core: &Measured| core.on(*function, row, octaves).map(Ran::instructions);
+            // What has no octaves is measured with the default ones.
+            let Some(s) = cores[0].on(*function, row, octaves).map(Ran::cycles) else { continue };
             let cycles =
                 format!("{} | {} | **{:.0}** | {} | {}", s.min, s.median, s.mean, s.most, s.max);
             let counts = cores.iter().map(|core| Some(grouped(on(core)?.mean)));
-            rows.push(format!("{name} | {curve} | {cells} | {cycles} | {}", figures(counts)));
+            rows.push(format!("{name} | {curve} | {octaves} | {cycles} | {}", figures(counts)));
         }
-        for inputs in [Inputs::Hard, Inputs::Solved] {
-            let worst = cores[0].worst(*function, inputs, cells);
-            let Some((worst, curve)) = worst.first() else { continue };
+        if let Some((worst, curve)) = cores[0].worst(*function, octaves) {
             let blank = " | ".repeat(cores.len());
-            rows.push(format!("{name} | {inputs:?}: {curve} | {cells} | | | | | {worst} {blank}"));
+            rows.push(format!("{name} | Hard: {curve} | {octaves} | | | | | {worst} {blank}"));
         }
     }
     let header = format!(
@@ -214,10 +213,9 @@ fn calls(cores: &[&Measured]) -> String {
     format!(
         "## Every call
 
-`opening` and the usual ways have no use for the cells. *Hard* is the worst over the hard curves and inputs, with its curve.
+`openness` and the usual ways have no use for the octaves. *Hard* is the worst over the hard curves and inputs, with its curve.
 Of triggers that is over the steps of a frame of {TRIGGERS} and the first of a frame whose first share ends near a hard input, and the
-frame as a whole, on a scale of time that makes the interval one to two million ticks; *solved* is 64 times that, where no
-polynomial serves. A frame that is refused for its gap costs no more than one that is not.
+frame as a whole, on a scale of time that makes the interval one to two million ticks. A frame that is refused for its gap costs no more than one that is not.
 
 {table}"
     )
@@ -226,18 +224,19 @@ polynomial serves. A frame that is refused for its gap costs no more than one th
 /// What every call takes beside time, on each core, and what building a curve does.
 fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
     let calls = CALLS[..6].iter().map(|(name, function)| (name.to_string(), *function, DEFAULT));
-    let building = OCTAVES.map(|cells| (format!("building, `OCTAVES = {cells}`"), Construct, cells));
+    let building =
+        OCTAVES.map(|octaves| (format!("building, `OCTAVES = {octaves}`"), Construct, octaves));
     let mut rows = Vec::new();
-    for (name, function, cells) in building.iter().cloned().chain(calls) {
+    for (name, function, octaves) in building.iter().cloned().chain(calls) {
         let mut row = |what: &str, of: &dyn Fn(&Measured) -> Option<f64>| {
             let counts = figures(cores.iter().map(|core| of(core).map(grouped)));
             rows.push(format!("{name} | {what} | {counts}"));
         };
         if function == Construct {
-            row("instructions", &|core| Some(core.on(function, 0, cells)?.instructions().mean));
+            row("instructions", &|core| Some(core.on(function, 0, octaves)?.instructions().mean));
         }
-        row("code", &|core| core.code_bytes(function, cells).map(f64::from));
-        row("stack", &|core| core.stack_said(function, cells).map(f64::from));
+        row("code", &|core| core.code_bytes(function, octaves).map(f64::from));
+        row("stack", &|core| core.stack_said(function, octaves).map(f64::from));
     }
     let table = table(&format!("| | {}", names(cores)), 2, rows);
     let cycles = cores[0].on(Construct, 0, DEFAULT).map(|ran| grouped(ran.cycles().mean));

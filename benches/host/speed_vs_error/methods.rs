@@ -49,12 +49,6 @@ pub trait Inverse {
             black_box(self.inverse_cdf(black_box(u)));
         }
     }
-
-    fn slice(&self, u: &[f32], t: &mut [f32]) {
-        for (u, t) in u.iter().zip(t) {
-            *t = self.inverse_cdf(*u);
-        }
-    }
 }
 
 impl<const OCTAVES: usize> Inverse for ShutterCurve<OCTAVES> {
@@ -75,7 +69,7 @@ impl<F: Fn(f32) -> (f32, u32)> Inverse for F {
 
 pub struct Method {
     pub name: &'static str,
-    /// Its call and number of cells in `docs/cost.md`, the table of cycles.
+    /// Its call and number of octaves in `docs/cost.md`, the table of cycles.
     pub cost: [&'static str; 2],
     pub is_ours: bool,
     pub bytes: usize,
@@ -90,9 +84,9 @@ const fn peer<T>(
     Method { name, cost: [cost, "8"], is_ours: false, bytes: size_of::<T>(), build }
 }
 
-const fn ours<const OCTAVES: usize>(name: &'static str, cells: &'static str) -> Method {
+const fn ours<const OCTAVES: usize>(name: &'static str, octaves: &'static str) -> Method {
     let bytes = size_of::<ShutterCurve<OCTAVES>>();
-    let cost = ["`inverse_cdf`", cells];
+    let cost = ["`inverse_cdf`", octaves];
     Method { name, cost, is_ours: true, bytes, build: |c| Box::new(shutter::<OCTAVES>(c)) }
 }
 
@@ -138,9 +132,9 @@ type Prepared = fn(&Curve) -> Forward;
 
 /// The openness and the cdf in turn, by this crate and by the usual solver of animation curves.
 pub const FORWARDS: [(&str, Prepared); 4] = [
-    ("`opening`", |c| forward(shutter::<8>(c), |ours, t| ours.openness(t))),
+    ("`openness`", |c| forward(shutter::<8>(c), |ours, t| ours.openness(t))),
     ("`cdf`", |c| forward(shutter::<8>(c), |ours, t| ours.cdf(t))),
-    ("opening, 8 Newton steps", |c| {
+    ("openness, 8 Newton steps", |c| {
         forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {
             parts.openness(t, |ramp, t| animation(ramp, t, 1e-6).unwrap_or(0.0))
         })

@@ -105,7 +105,7 @@ fn superscript(n: i32) -> String {
 /// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a sample
 /// costs.
 pub fn frontier(path: &str, measured: &Measured) {
-    let times = measured.times[0].0.iter().map(|time| Some(time.single));
+    let times = measured.times[0].0.iter().map(|time| Some(*time));
     let cycles = (0..METHODS.len()).map(|method| Some(cycles(measured, method)?[0]));
     let panels: [(&str, Vec<Option<f64>>); 2] = [
         ("nanoseconds a sample on the host, soft curve", times.collect()),

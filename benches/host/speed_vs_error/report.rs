@@ -58,7 +58,7 @@ octaves, since that is where tables and absolute tolerances fail.
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
 
-The time of `inverse_cdf` as a share of the textbook Newton's, both times its single calls:
+The time of `inverse_cdf` as a share of the textbook Newton's:
 
 {}
 
@@ -72,18 +72,15 @@ Full dots are the greatest error, rings the mean.",
     )
 }
 
-/// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's single calls.
+/// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's.
 pub fn ratios(measured: &Measured) -> String {
     let ours = METHODS.iter().enumerate().filter(|(_, method)| method.is_ours);
     let rows = ours.map(|(index, method)| {
-        let shares = measured.times[..2].iter().flat_map(|(times, _)| {
-            let (time, textbook) = (times[index], times[TEXTBOOK].single);
-            [time.single, time.slice].map(|time| format!("{:.2}", time / textbook))
-        });
+        let shares = measured.times[..2].iter();
+        let shares = shares.map(|(times, _)| format!("{:.2}", times[index] / times[TEXTBOOK]));
         [method.name.into()].into_iter().chain(shares).collect()
     });
-    let [soft, all_ramp] = [CURVES[0].0, CURVES[1].0];
-    table(&format!("| {soft}: single | slice | {all_ramp}: single | slice"), 1, rows)
+    table(&format!("| {} | {}", CURVES[0].0, CURVES[1].0), 1, rows)
 }
 
 /// A method's mean and greatest cycles on the soft curve, where `docs/cost.md` has them.
@@ -91,9 +88,9 @@ pub fn cycles(measured: &Measured, method: usize) -> Option<[f64; 2]> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
     let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;
     let mean = head.iter().position(|name| *name == "mean")?;
-    let [call, cells] = METHODS[method].cost;
+    let [call, octaves] = METHODS[method].cost;
     let row = rows
-        .find(|row| row.len() > mean && row[..3] == [&format!("| {call}"), CURVES[0].0, cells])?;
+        .find(|row| row.len() > mean && row[..3] == [&format!("| {call}"), CURVES[0].0, octaves])?;
     // Behind it the 99 %, then the greatest.
     let cycles = [mean, mean + 2].map(|column| row[column].trim_matches('*').parse().ok());
     Some([cycles[0]?, cycles[1]?])
@@ -101,15 +98,13 @@ pub fn cycles(measured: &Measured, method: usize) -> Option<[f64; 2]> {
 
 fn methods(measured: &Measured) -> String {
     let costs = METHODS.iter().enumerate().map(|(index, method)| {
-        let times = measured.times.iter().flat_map(|(times, _)| {
-            [times[index].single, times[index].slice].map(|time| format!("{time:.1}"))
-        });
+        let times = measured.times.iter().map(|(times, _)| format!("{:.1}", times[index]));
         let cycles = cycles(measured, index);
         let cycles = [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])));
         let head = [method.name.to_owned(), method.bytes.to_string()];
         head.into_iter().chain(times).chain(cycles).collect()
     });
-    let timed = CURVES.map(|(name, ..)| format!("{name}: single, ns | slice, ns")).join(" | ");
+    let timed = CURVES.map(|(name, ..)| format!("{name}, ns")).join(" | ");
     let costs =
         table(&format!("method | bytes | {timed} | M4F cycles, soft: mean | max"), 1, costs);
     let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
@@ -223,11 +218,10 @@ fn search(measured: &Measured) -> String {
     let tried = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
     let bred = bred.into_iter().map(|row| shown(row, "what worst at"));
     let bred = table("aim | worst found | control points of the opening; of the closing", 1, bred);
-    let columns = "what backward evaluations steps_back cdf_steps_back tick_steps_back cdf density \
-                   few_ticks many_ticks breaches";
+    let columns = "what backward evaluations steps_back cdf_steps_back tick_steps_back cdf density ticks breaches";
     let aimed = aimed.into_iter().map(|row| shown(row, columns));
     let header = "family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
-                  | of openness and pdf | of ticks, up to 2<sup>24</sup> | more | promises broken";
+                  | of openness and pdf | of ticks | promises broken";
     let aimed = table(header, 1, aimed);
     format!(
         "### Found by search
@@ -253,7 +247,8 @@ fn every_f32(measured: &Measured) -> String {
         (figures("count").sum::<f64>(), figures("seconds").sum::<f64>() / 60.0);
     let (of_inverse, of_values): (Vec<_>, Vec<_>) =
         measured.every_f32.iter().partition(|row| row["function"] == INVERSE);
-    let columns = "curve kind cells count out_of_range steps_back forward error judged evaluations";
+    let columns =
+        "curve kind octaves count out_of_range steps_back forward error judged evaluations";
     let of_inverse = of_inverse.into_iter().map(|row| shown(row, columns));
     let header = "curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) \
                   | judged | evaluations: worst of every 16th f32";
@@ -269,7 +264,7 @@ fn every_f32(measured: &Measured) -> String {
 
 `cargo bench -p benches --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
 and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
-`opening` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
+`openness` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
 runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that
 follows u or t, and samples and the worst of each 4 million against the double-double oracle (*judged*). These {answers} answers
 took {minutes:.0} minutes on two busy cores, in a run of its own.
@@ -278,7 +273,7 @@ took {minutes:.0} minutes on two busy cores, in a run of its own.
 
 The forward error leaves out answers where the density is so low that doubles cannot tell the time to an ulp.
 
-`cdf` and `opening`: the error in ulp at some time within an ulp of the one asked for, an ulp of the cdf being at least that of
+`cdf` and `openness`: the error in ulp at some time within an ulp of the one asked for, an ulp of the cdf being at least that of
 2<sup>-24</sup>, and the same without that floor.
 
 {of_values}"

@@ -14,7 +14,7 @@ pub struct Sweep {
     pub function: &'static str,
     pub curve: &'static str,
     pub kind: &'static str,
-    pub cells: usize,
+    pub octaves: usize,
     pub count: u64,
     pub out_of_range: u64,
     /// Not of the openness, which may fall.

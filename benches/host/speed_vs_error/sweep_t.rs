@@ -39,8 +39,8 @@ pub fn sweep(curve: &Curve) -> [Sweep; 2] {
 
 fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2] {
     let count = (to - from) as u64 + 1;
-    let [mut cdf, mut opening] =
-        ["cdf", "opening"].map(|function| Sweep { function, cells: 8, count, ..Sweep::default() });
+    let sweep = |function| Sweep { function, octaves: 8, count, ..Sweep::default() };
+    let [mut cdf, mut openness] = ["cdf", "openness"].map(sweep);
     let (mut steps_back, mut without_floor) = (0, 0.0f64);
     let mut truth = Truth::new(exact.curve(), from);
     let mut last = if at(from) > shutter.open_start() { shutter.cdf(at(from - 1)) } else { 0.0 };
@@ -50,7 +50,7 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
         let got = [shutter.cdf(t), shutter.openness(t)];
         steps_back += u64::from(got[0] < last);
         last = got[0];
-        for (sweep, got) in [&mut cdf, &mut opening].into_iter().zip(got) {
+        for (sweep, got) in [&mut cdf, &mut openness].into_iter().zip(got) {
             sweep.out_of_range += u64::from(!(0.0..=1.0).contains(&got));
         }
         let [cdfs, opennesses] = truth.around(place);
@@ -64,20 +64,20 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
         }
         let missed = self::missed(got[1], opennesses);
         let error = missed.0 / ulp_f32(missed.1).max(truth.least_ulp);
-        if error > opening.error {
-            (opening.error, worst[1]) = (error, place);
+        if error > openness.error {
+            (openness.error, worst[1]) = (error, place);
         }
         if place % SAMPLED == 0 {
             cdf.judge(exact.near(t).cdf_ulp(got[0], CDF_FLOOR));
-            opening.judge(exact.near(t).openness_ulp(got[1]));
+            openness.judge(exact.near(t).openness_ulp(got[1]));
         }
     }
-    let [of_cdf, of_opening] = worst.map(at);
+    let [of_cdf, of_openness] = worst.map(at);
     cdf.judge(exact.near(of_cdf).cdf_ulp(shutter.cdf(of_cdf), CDF_FLOOR));
-    opening.judge(exact.near(of_opening).openness_ulp(shutter.openness(of_opening)));
+    openness.judge(exact.near(of_openness).openness_ulp(shutter.openness(of_openness)));
     cdf.steps_back = Some(steps_back);
     cdf.without_floor = Some(without_floor);
-    [cdf, opening]
+    [cdf, openness]
 }
 
 /// By how much a value misses a range, and the bound that it misses.

@@ -15,7 +15,7 @@ pub fn sweep<const OCTAVES: usize>(curve: &Curve, first: f32) -> Sweep {
     let at = |bits| f32::from_bits(bits as u32);
     let [found] = in_parts(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
         let count = (to - from) as u64 + 1;
-        let mut found = Sweep { function: INVERSE, cells: OCTAVES, count, ..Sweep::default() };
+        let mut found = Sweep { function: INVERSE, octaves: OCTAVES, count, ..Sweep::default() };
         let (mut steps_back, mut greatest, mut evaluations) = (0, 0.0, 0);
         let mut follower = Follower::new(curve);
         // The neighbour below, so that no pair is left out between two parts.

@@ -7,13 +7,6 @@ use std::time::Instant;
 use crate::methods::{FORWARDS, METHODS, fractions};
 use crate::support::oracle::{Curve, Exact};
 
-/// Nanoseconds a sample.
-#[derive(Clone, Copy, Debug)]
-pub struct Time {
-    pub single: f64,
-    pub slice: f64,
-}
-
 /// Samples a run.
 const RUN: usize = 1 << 11;
 
@@ -38,10 +31,10 @@ fn medians(
     times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / samples as f64).collect()
 }
 
-/// Of the methods, and nanoseconds and errors of [`FORWARDS`].
-pub type Times = (Vec<Time>, Vec<(f64, f64)>);
+/// Nanoseconds a sample of the methods, and the same and errors of [`FORWARDS`].
+pub type Times = (Vec<f64>, Vec<(f64, f64)>);
 
-/// For every method, its times on the curve; and of [`FORWARDS`] the times and the greatest errors.
+/// For every method, its time on the curve; and of [`FORWARDS`] the times and the greatest errors.
 pub fn times(curve: &Curve, repeats: usize) -> Times {
     let u = fractions();
     let length = curve.close_end() - curve.open_start();
@@ -51,17 +44,14 @@ pub fn times(curve: &Curve, repeats: usize) -> Times {
     let (u, ts) = (&u, &ts);
     let mut calls: Vec<Box<dyn FnMut(Range<usize>)>> = Vec::new();
     for method in &methods {
-        let mut out = vec![0.0; u.len()];
         calls.push(Box::new(|run| method.singles(&u[run])));
-        calls.push(Box::new(move |run| method.slice(&u[run.clone()], black_box(&mut out[run]))));
     }
     for forward in &forwards {
         let mut out = vec![0.0; u.len()];
         calls.push(Box::new(move |run| forward(&ts[run.clone()], black_box(&mut out[run]))));
     }
     let medians = medians(&mut calls, u.len(), repeats);
-    let (inverses, times) = medians.split_at(2 * METHODS.len());
-    let inverses = inverses.chunks(2).map(|pair| Time { single: pair[0], slice: pair[1] });
+    let (inverses, times) = medians.split_at(METHODS.len());
     let exact = Exact::new(curve);
     let forwards = forwards.iter().zip(times).enumerate().map(|(i, (forward, time))| {
         let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
@@ -71,5 +61,5 @@ pub fn times(curve: &Curve, repeats: usize) -> Times {
         let errors = some.map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
         (*time, errors.fold(0.0, f64::max))
     });
-    (inverses.collect(), forwards.collect())
+    (inverses.to_vec(), forwards.collect())
 }

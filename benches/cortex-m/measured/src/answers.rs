@@ -4,7 +4,7 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Pulse, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, DEFAULT, uniform};
@@ -68,10 +68,10 @@ const ODD: [f32; 12] = {
     [f32::NAN, NONE, -NONE, -1.0, 2.0, max, -max, least, 1e-45, -0.0, 1.0, below_1]
 };
 
-/// For every number of cells that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the data, built
+/// For every number of octaves that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the data, built
 /// where this runs, with every hard input, as many uniform ones and odd ones; and of what is said to curves that are none.
 ///
-/// Each curve has one number of cells, since an emulated processor without floats takes minutes for all.
+/// Each curve has one number of octaves, since an emulated processor without floats takes minutes for all.
 pub fn hashes() -> [u64; 4] {
     let hostile = HOSTILE.iter().map(|(t, f)| {
         let ramp = |i: usize| core::array::from_fn(|k| (t[i + k], f[i + k]));
@@ -89,7 +89,7 @@ pub fn hashes() -> [u64; 4] {
 
 /// The hash of all that is made of two ramps; of fractions, these beside others.
 type Of = fn([Ramp; 2], &[f32]) -> u64;
-/// By the number of cells.
+/// By the number of octaves.
 const OF: [Of; 4] = [of::<0>, of::<4>, of::<8>, of::<16>];
 
 pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
@@ -98,13 +98,13 @@ pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
 
 fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let hash = &mut Fnv(0xCBF2_9CE4_8422_2325);
-    let [opening, closing] = ramps.map(CubicBezier::new);
+    let [opening, closing] = ramps.map(CubicBezier::from);
     hash.add([opening == closing]);
     if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
         for odd in ODD {
             hash.floats([curve.cdf(odd), curve.openness(odd), curve.pdf(odd)]);
-            hash.add([(curve.is_direct(odd), curve.evaluations(odd), curve.max_triggers(odd))]);
+            hash.add([(curve.is_direct(odd), curve.evaluations(odd))]);
         }
         schedules(hash, &curve);
     }
@@ -126,15 +126,12 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
         }
         let mixed = hash.curve(ShutterCurve::new(opening, lines.1));
         hash.floats(mixed.map(|curve| curve.exposure()));
+        let density = hash.curve(ShutterCurve::density(opening.scaled(0.5)));
+        hash.floats(density.map(|curve| curve.normalization()));
     }
-    let other = [
-        ShutterCurve::<OCTAVES>::shutteropening_with_cells(times, inner),
-        ShutterCurve::linear_with_cells(a, b, c, d),
-        ShutterCurve::with_octaves(lines.0, closing),
-    ];
-    for curve in other {
-        if let Some(curve) = hash.curve(curve) {
-            hash.add([curve == black_box(curve)]);
+    for (opening, closing) in [(opening, closing), lines, (lines.0, closing)] {
+        if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
+            hash.add([curve == black_box(curve.clone())]);
             answers(hash, &curve, (0..16).map(uniform));
         }
     }
@@ -162,9 +159,15 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
     hash.all(curve.trigger_times(9), f32::to_bits);
     hash.floats(curve.trigger_times(u32::MAX).nth(1 << 30));
     hash.add([curve.direct_triggers()]);
-    for (n, hz) in
-        [(64, 1_000), (33, 1_000_000), (17, 1_000_000_000), (0, 1), (5, 0), (5, u32::MAX)]
-    {
+    for (n, hz) in [
+        (64, 1_000),
+        (33, 1_000_000),
+        (17, 1_000_000_000),
+        (0, 1),
+        (5, 0),
+        (5, u32::MAX),
+        (u32::MAX, 1),
+    ] {
         if let Some(ticks) = hash.made(curve.trigger_ticks(n, hz)) {
             hash.add([ticks.is_direct(2)]);
             hash.all(ticks, |tick| tick);
@@ -174,7 +177,7 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
                 hash.all(pulses, |pulse| pulse);
             }
         }
-        let mut pulses = [(0, 0); 9];
+        let mut pulses = [Pulse::default(); 9];
         hash.made(curve.pulses_into(&mut pulses, 0.3, hz, 3, 7));
         hash.add(pulses);
         // The third is a gap that a part of the triggers would keep.
@@ -182,6 +185,8 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             let mut ticks = [0; 20];
             hash.made(curve.schedule_into(&mut ticks, hz, gap));
             hash.add(ticks);
+            let ticks = hash.made(curve.ticks::<3>(hz, gap));
+            hash.add(ticks.into_iter().flatten());
             let planned = hash.made(curve.schedule::<64>(n, hz, gap));
             hash.add(planned.iter().flatten());
             let most = hash.made(curve.most_triggers(n, hz, gap));

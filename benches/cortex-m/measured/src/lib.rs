@@ -24,10 +24,9 @@ include!(concat!(env!("OUT_DIR"), "/curves.rs"));
 
 impl Curve {
     /// The ramps, on a scale of time.
-    pub fn ramps(&self, scale: Option<u32>) -> (CubicBezier, CubicBezier) {
-        let length = self.closing[3].0 - self.opening[0].0;
-        let factor =
-            scale.map_or(1.0, |k| f32::from_bits((254 + k - (length.to_bits() >> 23)) << 23));
+    pub fn ramps(&self, is_scaled: bool) -> (CubicBezier, CubicBezier) {
+        let exponent = (self.closing[3].0 - self.opening[0].0).to_bits() >> 23;
+        let factor = f32::from_bits(if is_scaled { 254 - exponent } else { 127 } << 23);
         let ramp = |ramp: baseline::Ramp| CubicBezier::new(ramp.map(|(t, f)| (t * factor, f)));
         (ramp(self.opening), ramp(self.closing))
     }
@@ -52,7 +51,7 @@ pub enum Function {
     /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a reference.
     Static,
     Cdf,
-    Opening,
+    Openness,
     TickStep,
     Schedule,
     Construct,
@@ -64,7 +63,7 @@ pub enum Function {
 impl Function {
     pub const ALL: [Self; 10] = {
         use Function::*;
-        [InverseCdf, Static, Cdf, Opening, TickStep, Schedule, Construct, Newton, Table, Root]
+        [InverseCdf, Static, Cdf, Openness, TickStep, Schedule, Construct, Newton, Table, Root]
     };
 }
 
@@ -75,20 +74,18 @@ pub enum Inputs {
     Uniform,
     /// The hard inputs of any curve.
     Hard,
-    /// The same with intervals of so many ticks that every trigger is solved.
-    Solved,
 }
 
 impl Inputs {
-    pub const ALL: [Self; 3] = [Self::Uniform, Self::Hard, Self::Solved];
+    pub const ALL: [Self; 2] = [Self::Uniform, Self::Hard];
 }
 
 /// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of `roots`.
 #[derive(Clone, Copy)]
 pub struct Series {
     pub function: Function,
-    /// What has no cells counts as having [`DEFAULT`].
-    pub cells: usize,
+    /// What has no octaves counts as having [`DEFAULT`].
+    pub octaves: usize,
     pub inputs: Inputs,
     pub curve: usize,
 }
@@ -96,13 +93,13 @@ pub struct Series {
 impl Series {
     /// As the host tells the firmware of it.
     pub fn to_bytes(self) -> [u8; 4] {
-        let Self { function, cells, inputs, curve } = self;
-        [function as u8, cells as u8, inputs as u8, curve as u8]
+        let Self { function, octaves, inputs, curve } = self;
+        [function as u8, octaves as u8, inputs as u8, curve as u8]
     }
 
     pub fn from_bytes(bytes: [u8; 4]) -> Self {
-        let [function, cells, inputs, curve] = bytes.map(usize::from);
-        Self { function: Function::ALL[function], cells, inputs: Inputs::ALL[inputs], curve }
+        let [function, octaves, inputs, curve] = bytes.map(usize::from);
+        Self { function: Function::ALL[function], octaves, inputs: Inputs::ALL[inputs], curve }
     }
 
     /// How many calls it makes.
@@ -118,7 +115,7 @@ impl Series {
     pub fn us(self) -> impl Iterator<Item = f32> {
         let (count, hard) = match self.inputs {
             Inputs::Uniform => (UNIFORM, &[][..]),
-            Inputs::Hard | Inputs::Solved => (0, CURVES[self.curve].hard),
+            Inputs::Hard => (0, CURVES[self.curve].hard),
         };
         (0..count).map(uniform).chain(hard.iter().copied())
     }
@@ -126,31 +123,28 @@ impl Series {
     /// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or one of
     /// [`TRIGGERS`] and for each hard input the one that starts nearest to it.
     pub fn frames(self) -> impl Iterator<Item = (u32, u32)> {
-        let is_hard = self.inputs != Inputs::Uniform;
+        let is_hard = self.inputs == Inputs::Hard;
         let whole = if is_hard { TRIGGERS } else { UNIFORM };
-        let first = self.us().filter(move |u| is_hard && *u > 1.0 / u32::MAX as f32 && *u < 0.5);
+        // A frame has at most 2²² triggers.
+        let first = self.us().filter(move |u| is_hard && (1.0 / (1 << 23) as f32..0.5).contains(u));
         core::iter::once((whole, whole)).chain(first.map(|u| ((0.5 / u) as u32, 1)))
     }
 
-    /// The curve's scale of time, of [`SCALES`].
-    pub fn scale(self) -> usize {
-        match (self.function, self.inputs) {
-            (Function::TickStep | Function::Schedule, Inputs::Solved) => 2,
-            (Function::TickStep | Function::Schedule, _) => 1,
-            _ => 0,
-        }
+    /// The curve's scale of time.
+    pub fn is_scaled(self) -> bool {
+        matches!(self.function, Function::TickStep | Function::Schedule)
     }
 }
 
-/// The scales of time on which curves are built: as they are, and with intervals of 2ᵏ seconds up to twice that,
-/// for the rate of the timer is the same for all.
-pub const SCALES: [Option<u32>; 3] = [None, Some(0), Some(6)];
+/// Whether the time of curves is scaled: they are built as they are, and with intervals of a second up to twice that, for the
+/// rate of the timer is the same for all.
+pub const SCALES: [bool; 2] = [false, true];
 
 /// The triggers of a planned frame, and the timer's rate.
 pub const TRIGGERS: u32 = 64;
 pub const TICK_HZ: u32 = 1_000_000;
 
-/// The numbers of cells measured, and the crate's default.
+/// The numbers of octaves measured, and the crate's default.
 pub const OCTAVES: [usize; 4] = [0, 4, 8, 16];
 pub const DEFAULT: usize = 8;
 

@@ -3,7 +3,7 @@
 use micromath::F32Ext;
 
 #[allow(dead_code, unused_imports)] // Its tests are the crate's.
-#[path = "../../../../src/guess.rs"]
+#[path = "../../../../src/search/guess.rs"]
 mod guess;
 
 pub struct Root {

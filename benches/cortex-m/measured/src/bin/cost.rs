@@ -83,7 +83,7 @@ fn depth<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) ->
     (DEPTH - 4 * untouched.count()) as u32
 }
 
-/// All curves with so many cells, on each of the scales.
+/// All curves with so many octaves, on each of the scales.
 type Curves<const C: usize> = [[ShutterCurve<C>; CURVES.len()]; SCALES.len()];
 
 /// The first run's curves; or else they are built, and written for the next.
@@ -109,7 +109,7 @@ fn curves<'a, const C: usize>(
 
 fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
     let data = &CURVES[series.curve];
-    let curve = black_box(&curves[series.scale()][series.curve]);
+    let curve = black_box(&curves[usize::from(series.is_scaled())][series.curve]);
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let us = series.us();
     let ts = series.us().map(|u| start + length * u);
@@ -117,7 +117,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
         Function::InverseCdf => depth(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
         Function::Static => depth(us, EACH_STATIC[series.curve]),
         Function::Cdf => depth(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
-        Function::Opening => depth(ts, |t| the_call(ShutterCurve::opening, curve, t)),
+        Function::Openness => depth(ts, |t| the_call(ShutterCurve::openness, curve, t)),
         Function::TickStep => depth(series.frames(), |(n, steps)| {
             let mut ticks = curve.trigger_ticks(n, black_box(TICK_HZ)).expect("a good rate");
             for _ in 0..steps {
@@ -141,7 +141,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             let mut built = None;
             let build =
                 |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
-            let depth = depth([data.ramps(None)].into_iter(), |(opening, closing)| {
+            let depth = depth([data.ramps(false)].into_iter(), |(opening, closing)| {
                 built = the_call(build, &opening, &closing).ok();
             });
             black_box(built);
@@ -174,7 +174,7 @@ fn run() {
     let mut bytes = [0; 4];
     while input.read(&mut bytes) == bytes.len() {
         let series = Series::from_bytes(bytes);
-        let depth = match series.cells {
+        let depth = match series.octaves {
             0 => run_series(series, with_0),
             4 => run_series(series, with_4),
             8 => run_series(series, with_8),
