@@ -8,6 +8,7 @@
 //! and so is the error that is asked for. A mirrored curve gives mirrored times.
 
 use crate::error::{CurveError, Part};
+use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
 use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT};
@@ -17,9 +18,9 @@ use crate::ramp::shape::{Shape, check_finite, check_ramp};
 
 /// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
 /// that these keep their order.
-pub(crate) const FOR_FRACTION: f32 = 1.0 / (1 << 26) as f32;
+pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
 /// For a fraction with more bits, as ticks have them, and where a `cdf` is settled.
-pub(crate) const FOR_TICK: f32 = 1.0 / (1u64 << 40) as f32;
+pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
@@ -34,7 +35,7 @@ pub(crate) struct Exposure {
 enum Section {
     Plateau(Moment),
     /// On a ramp, with what is to be collected there, in [`WHOLE`].
-    Ramp(usize, Pair),
+    Ramp(Side, Pair),
 }
 
 impl Exposure {
@@ -85,18 +86,18 @@ impl Exposure {
 
     /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
     #[inline(always)]
-    pub(crate) const fn ramp(&self, index: usize) -> &Ramp {
-        &self.ramps[index & 1]
+    pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
+        &self.ramps[side as usize]
     }
 
     /// The time of the curve's end at a side, from which that side counts.
-    pub(crate) const fn outer(&self, side: usize) -> f32 {
+    pub(crate) const fn end(&self, side: Side) -> f32 {
         self.ramp(side).time(side)
     }
 
     /// The time at which the ramp at a side meets the plateau.
-    pub(crate) const fn inner(&self, side: usize) -> f32 {
-        self.ramp(side).time(side ^ 1)
+    pub(crate) const fn join(&self, side: Side) -> f32 {
+        self.ramp(side).time(side.other())
     }
 
     pub(crate) const fn has_plateau(&self) -> bool {
@@ -106,21 +107,21 @@ impl Exposure {
     /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side; with an `error`
     /// relative to it.
     #[inline(always)]
-    pub(crate) const fn at_fraction(&self, side: usize, a: Pair, error: f32) -> Moment {
+    pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
             Section::Plateau(moment) => moment,
             Section::Ramp(ramp, target) => {
                 // One address instead of the curve's and an index, which the search would keep on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
                 // Wanted; and accepted where the step is less than an ulp.
-                ramp.at_mass(side, target, [error * a.hi, FOR_FRACTION * a.hi])
+                ramp.at_mass(side, target, [error * a.hi, INVERSE_ERROR * a.hi])
             }
         }
     }
 
     /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
     #[inline(always)]
-    const fn section(&self, side: usize, a: Pair) -> Section {
+    const fn section(&self, side: Side, a: Pair) -> Section {
         let near = self.ramp(side).share;
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
@@ -130,21 +131,21 @@ impl Exposure {
         let past_near = a.minus_loose(near);
         let past_plateau = past_near.minus(self.plateau);
         if past_plateau.rounded() > 0.0 {
-            return Section::Ramp(side ^ 1, past_plateau);
+            return Section::Ramp(side.other(), past_plateau);
         }
-        let (base, until) = (self.inner(side), self.inner(side ^ 1));
+        let (base, until) = (self.join(side), self.join(side.other()));
         let (area, exponent) = significand(self.area);
         let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
-        Section::Plateau(Moment { base, until, back: side == 1, way, unit, evaluations: 0 })
+        Section::Plateau(Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 })
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is
     /// computed from the lesser of the two parts, which has more bits. So without a plateau both are one number.
     #[inline(never)]
-    pub(crate) const fn joins(&self, side: usize) -> [f64; 2] {
+    pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
-        let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+        let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
         [
             if near < 0.5 { near } else { 1.0 - (plateau + far) },
             if near + plateau < 0.5 { near + plateau } else { 1.0 - far },

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::answer::plan::Plan;
 use crate::error::{CurveError, Part};
+use crate::fraction::Side;
 use crate::number::moment::rounded;
 use crate::number::pair::Pair;
 use crate::ramp::bezier::CubicBezier;
@@ -173,25 +174,25 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn open_start(&self) -> f32 {
-        self.plan.exposure.outer(0)
+        self.plan.exposure.end(Side::Start)
     }
 
     /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn open_end(&self) -> f32 {
-        self.plan.exposure.inner(0)
+        self.plan.exposure.join(Side::Start)
     }
 
     /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_start(&self) -> f32 {
-        self.plan.exposure.inner(1)
+        self.plan.exposure.join(Side::End)
     }
 
     /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_end(&self) -> f32 {
-        self.plan.exposure.outer(1)
+        self.plan.exposure.end(Side::End)
     }
 
     /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.

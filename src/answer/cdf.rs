@@ -1,7 +1,8 @@
 //! The exposure by time: where a time lies on the curve, the openness there, its density, and the fraction collected
 //! until then.
 
-use crate::exposure::{Exposure, FOR_TICK};
+use crate::exposure::{CDF_ERROR, Exposure};
+use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::rounded;
 use crate::number::pair::{Pair, significand};
 use crate::number::units::{WHOLE, WHOLE_EXPONENT};
@@ -11,25 +12,25 @@ enum At {
     Outside,
     Plateau,
     /// On a ramp, by its index.
-    Ramp(usize),
+    Ramp(Side),
 }
 
 impl Exposure {
     #[inline]
     fn at(&self, t: f32) -> At {
-        let [start, end] = [self.outer(0), self.outer(1)];
-        let [open, close] = [self.inner(0), self.inner(1)];
+        let [start, end] = [self.end(Start), self.end(End)];
+        let [open, close] = [self.join(Start), self.join(End)];
         if t < open {
-            if t >= start { At::Ramp(0) } else { At::Outside }
+            if t >= start { At::Ramp(Start) } else { At::Outside }
         } else if t > close {
-            if t <= end { At::Ramp(1) } else { At::Outside }
+            if t <= end { At::Ramp(End) } else { At::Outside }
         } else if t.is_nan() {
             At::Outside
         } else if open < close {
             At::Plateau
         } else {
             // The instant of both inner ends is on the opening ramp if that has length, else on the closing one.
-            At::Ramp((start == open) as usize)
+            At::Ramp(Side::end_if(start == open))
         }
     }
 
@@ -59,7 +60,7 @@ impl Exposure {
             _ => t,
         };
         match self.at(t) {
-            At::Outside if t > self.outer(1) => 1.0,
+            At::Outside if t > self.end(End) => 1.0,
             At::Outside => 0.0,
             At::Plateau => self.cdf_on_plateau(t),
             At::Ramp(ramp) => self.cdf_on_ramp(ramp, t),
@@ -71,15 +72,16 @@ impl Exposure {
     fn cdf_on_plateau(&self, t: f32) -> f32 {
         let (area, exponent) = significand(self.area);
         // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
-        let way = Pair::sum(t, -self.inner(0)).shifted(WHOLE_EXPONENT - exponent);
+        let way = Pair::sum(t, -self.join(Start)).shifted(WHOLE_EXPONENT - exponent);
         self.nearest(t, self.ramps[0].share.plus(way.over(area)), |_| 0.0)
     }
 
     #[inline(never)]
-    fn cdf_on_ramp(&self, ramp: usize, t: f32) -> f32 {
+    fn cdf_on_ramp(&self, ramp: Side, t: f32) -> f32 {
         let point = self.ramp(ramp).at_time(t);
         let part = point.mass();
-        let mass = if ramp == 0 { part } else { self.ramps[0].share.plus(self.plateau).plus(part) };
+        let mass =
+            if ramp.is(Start) { part } else { self.ramps[0].share.plus(self.plateau).plus(part) };
         self.nearest(t, mass, |side| point.noise(side))
     }
 
@@ -91,7 +93,7 @@ impl Exposure {
     /// for its rounding. `noise` is by the side from which the inverse counts.
     // docs/proofs.md: `cdf` never steps back
     #[inline(always)]
-    fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(usize) -> f32) -> f32 {
+    fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();
         if nearest <= 0.0 {
             return 0.0;
@@ -101,9 +103,9 @@ impl Exposure {
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
         let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
-        let side = (lesser >= 0.5 * WHOLE) as usize;
+        let side = Side::end_if(lesser >= 0.5 * WHOLE);
         let half = 0.5 * (next - nearest);
-        let is_told = (half - rest).abs() > noise(side) + 2.0 * FOR_TICK * nearest;
+        let is_told = (half - rest).abs() > noise(side) + 2.0 * CDF_ERROR * nearest;
         let cdf = if is_told {
             nearest
         } else if t >= self.time_of(side, Pair::sum(nearest, half)) {
@@ -117,8 +119,8 @@ impl Exposure {
     /// The time by which a mass, in [`WHOLE`], has been collected, found from a side.
     #[cold]
     #[inline(never)]
-    fn time_of(&self, side: usize, mass: Pair) -> f32 {
-        let a = if side == 0 { mass } else { Pair::new(WHOLE).minus(mass) };
-        self.at_fraction(side, a, FOR_TICK).time()
+    fn time_of(&self, side: Side, mass: Pair) -> f32 {
+        let a = if side.is(Start) { mass } else { Pair::new(WHOLE).minus(mass) };
+        self.at_fraction(side, a, CDF_ERROR).time()
     }
 }

@@ -21,8 +21,9 @@
 //! the order holds where a search follows a polynomial or the line.
 
 use crate::error::CurveError;
-use crate::exposure::{Exposure, FOR_FRACTION};
+use crate::exposure::{Exposure, INVERSE_ERROR};
 use crate::fraction::Fraction;
+use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::Moment;
 use crate::number::pair::Pair;
 use crate::number::units::{
@@ -40,8 +41,8 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     pub(crate) scale: f32,
     /// Seen from each side: the last fraction before the far ramp, by the bits of its `f32` (without a plateau, too: it
     /// tells the ramps apart), and how many up to it are on the plateau's line.
-    pub(crate) last: [u32; 2],
-    pub(crate) count: [u32; 2],
+    pub(crate) last_before_far: [u32; 2],
+    pub(crate) on_line_count: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
     pub(crate) slope: i64,
@@ -66,13 +67,16 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             Err(error) => return Err(error),
         };
         let shapes = [Shape::new(opening), Shape::new(closing)];
-        let unit = time_unit(exposure.outer(0), exposure.outer(1));
-        let [open, close] = [exposure.inner(0), exposure.inner(1)];
+        let unit = time_unit(exposure.end(Start), exposure.end(End));
+        let [open, close] = [exposure.join(Start), exposure.join(End)];
         let mut plan = Self {
             exposure,
             scale: power_of_two(unit + 32),
-            last: [floor_bits(exposure.joins(0)[1]), floor_bits(exposure.joins(1)[1])],
-            count: [0; 2],
+            last_before_far: [
+                floor_bits(exposure.joins(Start)[1]),
+                floor_bits(exposure.joins(End)[1]),
+            ],
+            on_line_count: [0; 2],
             base: 0,
             slope: 0,
             tops: [[0; 2]; 2],
@@ -91,11 +95,15 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             while side < 2 {
                 // 1 itself has the exact end.
                 let before_end = 1.0f32.to_bits() - 1;
-                let last = if plan.last[side] < before_end { plan.last[side] } else { before_end };
-                let near = floor_bits(plan.exposure.joins(side)[0]);
+                let last = if plan.last_before_far[side] < before_end {
+                    plan.last_before_far[side]
+                } else {
+                    before_end
+                };
+                let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);
                 let before = if near < FINE.to_bits() { FINE.to_bits() } else { near };
-                plan.last[side] = last;
-                plan.count[side] = last.saturating_sub(before);
+                plan.last_before_far[side] = last;
+                plan.on_line_count[side] = last.saturating_sub(before);
                 side += 1;
             }
         }
@@ -103,7 +111,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         // `OCTAVES > 0` lets the compiler leave the building out where there are no octaves.
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut plan.octaves[side];
-            plan.tops[side] = build::build(&plan.exposure, &shapes, unit, side, octaves);
+            plan.tops[side] =
+                build::build(&plan.exposure, &shapes, unit, Side::BOTH[side], octaves);
             side += 1;
         }
         Ok(plan)
@@ -122,8 +131,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     }
 
     /// The time of the curve's end at a side, in units.
-    pub(crate) const fn outer_in_units(&self, side: usize) -> i64 {
-        fixed(self.exposure.outer(side), self.unit())
+    pub(crate) const fn end_in_units(&self, side: Side) -> i64 {
+        fixed(self.exposure.end(side), self.unit())
     }
 
     /// The time by which the fraction `u` of the exposure has been collected: the start for `u <= 0` and NaN, the end for
@@ -132,19 +141,19 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The early return keeps register saves off the plateau (68 -> 42 cycles).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        let before_last = self.last[0].wrapping_sub(u.to_bits());
-        if before_last < self.count[0] {
+        let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
+        if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));
             return match upper_word(time) {
                 Some(time) => time as f32 * self.scale,
-                None => self.rounded_apart(time),
+                None => self.rounded_near_0_apart(time),
             };
         }
         let (side, bits) = Self::nearer(u);
-        let (time, scale) = match self.by_octave(side, bits, (before_last >> 31) as usize) {
+        let (time, scale) = match self.by_octave(side, bits, Side::end_if(until_far >> 31 == 1)) {
             Some(time) => match upper_word(time) {
                 Some(time) => (time as f32, self.scale),
-                None => (self.rounded_with_care(time), 1.0),
+                None => (self.rounded_near_0(time), 1.0),
             },
             None => (f32::from_bits(self.searched(u)), 1.0),
         };
@@ -154,7 +163,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// A time near 0, rounded once.
     // proofs/words.py
     #[inline(always)]
-    fn rounded_with_care(&self, time: i64) -> f32 {
+    fn rounded_near_0(&self, time: i64) -> f32 {
         // A time of one word is moved up by 31 first, which keeps the sign.
         let sign = (time >> 63) as i32;
         let is_word = (time >> 32) as i32 == sign;
@@ -170,8 +179,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The same, for the plateau, which seldom needs it.
     #[cold]
     #[inline(never)]
-    fn rounded_apart(&self, time: i64) -> f32 {
-        self.rounded_with_care(time)
+    fn rounded_near_0_apart(&self, time: i64) -> f32 {
+        self.rounded_near_0(time)
     }
 
     /// The time, in units, at a fraction.
@@ -187,19 +196,19 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     #[inline(always)]
     pub(crate) const fn direct(&self, Fraction { side, a }: Fraction) -> Option<i64> {
         let bits = a.to_bits();
-        let before_last = self.last[side & 1].wrapping_sub(bits);
-        if before_last < self.count[side & 1] {
+        let until_far = self.last_before_far[side as usize].wrapping_sub(bits);
+        if until_far < self.on_line_count[side as usize] {
             let word = in_words(bits);
-            Some(self.on_line(if side == 0 { word } else { word.wrapping_neg() }))
+            Some(self.on_line(if side.is(Start) { word } else { word.wrapping_neg() }))
         } else {
-            self.by_octave(side, bits, (before_last >> 31) as usize ^ side)
+            self.by_octave(side, bits, side.other_if(until_far >> 31 == 1))
         }
     }
 
     /// The time, in units, by a polynomial of a ramp, at a fraction with these bits.
     // proofs/octaves.py: the look-up finds the octave that was built
     #[inline(always)]
-    const fn by_octave(&self, side: usize, bits: u32, ramp: usize) -> Option<i64> {
+    const fn by_octave(&self, side: Side, bits: u32, ramp: Side) -> Option<i64> {
         match self.look_up(side, ramp, bits) {
             // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
             Some((octave, position)) if octave.exists() => {
@@ -216,12 +225,12 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         self.searched_moment(side, a).in_units(self.unit())
     }
 
-    const fn searched_moment(&self, side: usize, a: f32) -> Moment {
+    const fn searched_moment(&self, side: Side, a: f32) -> Moment {
         if a > 0.0 {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION)
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR)
         } else {
             // The end itself, though no light may fall there.
-            Moment::at(self.exposure.outer(side))
+            Moment::at(self.exposure.end(side))
         }
     }
 
@@ -231,11 +240,11 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
     /// unpredictable.
     #[inline(always)]
-    pub(crate) fn nearer(u: f32) -> (usize, u32) {
+    pub(crate) fn nearer(u: f32) -> (Side, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
         // Signed, so that a negative `u` does not count as late.
         let is_late = bits as i32 > 0.5f32.to_bits() as i32;
-        (is_late as usize, core::hint::select_unpredictable(is_late, late, bits))
+        (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits))
     }
 
     /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
@@ -243,17 +252,17 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     #[inline(always)]
     pub(crate) const fn look_up(
         &self,
-        side: usize,
-        ramp: usize,
+        side: Side,
+        ramp: Side,
         bits: u32,
     ) -> Option<(&Octave, i32)> {
-        let top = octave::top(self.tops[side & 1][ramp & 1]);
+        let top = octave::top(self.tops[side as usize][ramp as usize]);
         let below = top.wrapping_sub(bits);
         let index = (below >> 23) as usize;
         if index >= OCTAVES {
             return None;
         }
-        let octave = &self.octaves[side & 1][index];
+        let octave = &self.octaves[side as usize][index];
         // `top - bits` borrowed from the exponent just where the exclusive or of bit 23 of `top`, `bits` and `below` is
         // 1: then `a` is in the lower of the two binades. That, in the place of bit 23 of `bits`, becomes the sign; the
         // shift drops the rest of the exponent.
@@ -280,19 +289,19 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
         let time = if a > 0.0 {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).time()
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR).time()
         } else {
-            self.exposure.outer((u >= 1.0) as usize)
+            self.exposure.end(Side::end_if(u >= 1.0))
         };
         time.to_bits()
     }
 
     /// Is no search needed for `u`?
     pub(crate) fn is_direct(&self, u: f32) -> bool {
-        let before_last = self.last[0].wrapping_sub(u.to_bits());
+        let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         let (side, bits) = Self::nearer(u);
-        let ramp = (before_last >> 31) as usize;
-        before_last < self.count[0] || self.by_octave(side, bits, ramp).is_some()
+        let ramp = Side::end_if(until_far >> 31 == 1);
+        until_far < self.on_line_count[0] || self.by_octave(side, bits, ramp).is_some()
     }
 
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
@@ -300,19 +309,19 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
         if a > 0.0 && !self.is_direct(u) {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), FOR_FRACTION).evaluations
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR).evaluations
         } else {
             0
         }
     }
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
-    pub(crate) const fn least_direct(&self, side: usize) -> f64 {
+    pub(crate) const fn least_direct(&self, side: Side) -> f64 {
         let [near, far] = self.exposure.joins(side);
-        let mut least = self.least_served(side, side ^ 1, 0.5);
+        let mut least = self.least_served(side, side.other(), 0.5);
         if least <= far && near < far && near < least {
             // The plateau, by its line.
-            if self.count[side & 1] == 0 {
+            if self.on_line_count[side as usize] == 0 {
                 return least;
             }
             least = if near < FINE as f64 { FINE as f64 } else { near };
@@ -321,13 +330,13 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     }
 
     /// The same after one ramp's octaves, if it holds above `least` without them.
-    const fn least_served(&self, side: usize, ramp: usize, mut least: f64) -> f64 {
+    const fn least_served(&self, side: Side, ramp: Side, mut least: f64) -> f64 {
         let part = build::range(&self.exposure, side, ramp);
-        let top = octave::top(self.tops[side & 1][ramp & 1]);
+        let top = octave::top(self.tops[side as usize][ramp as usize]);
         let mut index = 0;
         while index < OCTAVES {
             if let Some(span) = Span::new(part, octave::below(top, index)) {
-                if !self.octaves[side & 1][index].exists() {
+                if !self.octaves[side as usize][index].exists() {
                     break;
                 }
                 least = span.from;

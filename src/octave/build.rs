@@ -1,9 +1,10 @@
 //! The octaves of a side: which part of a ramp each serves. A candidate is kept if it has a certificate.
 
 use crate::exposure::Exposure;
+use crate::fraction::Side;
 use crate::number::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
 use crate::octave::certificate::certain;
-use crate::octave::path::{Path, Side};
+use crate::octave::path::{Path, View};
 use crate::octave::span::Span;
 use crate::octave::{Octave, below};
 use crate::ramp::shape::Shape;
@@ -15,9 +16,9 @@ use crate::ramp::shape::Shape;
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The fractions between which a ramp has octaves, seen from a side. No side counts beyond 1/2.
-pub(crate) const fn range(exposure: &Exposure, side: usize, ramp: usize) -> [f64; 2] {
+pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 2] {
     let [near, far] = exposure.joins(side);
-    if ramp != side {
+    if !ramp.is(side) {
         return [far, 0.5];
     }
     // If the opening ramp ends below FINE, the plateau from there to FINE is not on its line, and the look-up takes it
@@ -37,32 +38,32 @@ pub(crate) const fn build(
     exposure: &Exposure,
     shapes: &[Shape; 2],
     unit: i32,
-    side: usize,
+    side: Side,
     octaves: &mut [Octave],
 ) -> [u8; 2] {
-    let this = Side { exposure, shapes, side, unit };
+    let view = View { exposure, shapes, side, unit };
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
-        let ramp = side ^ 1 ^ i;
-        let (top, end) = this.of_ramp(ramp, octaves, first);
+        let ramp = [side.other(), side][i];
+        let (top, end) = view.of_ramp(ramp, octaves, first);
         // It fits a byte, since a raised top is below 2³. Let the far ramp have `n` octaves. Its top `f` is below 1,
         // and the top of its last octave, `2 f / 2ⁿ`, is above the near ramp's end and above LEAST_TOP / 2. The near
         // ramp's top is less than twice that end (a step beyond it and moved by six, at most 15/8), or twice LEAST_TOP:
         // so less than `8 f / 2ⁿ`. (If that ramp is hidden
         // or empty, its top is at most 9/8 of the far ramp's beginning, or LEAST_TOP.) Raised `n` times it is below
         // `8 f`.
-        tops[ramp & 1] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
+        tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
     }
     tops
 }
 
-impl Side<'_> {
+impl View<'_> {
     /// Builds the octaves of a ramp, in the places from `first` on. Returns the bits of their top, and the place after
     /// the last one.
     #[inline(never)]
-    const fn of_ramp(&self, ramp: usize, octaves: &mut [Octave], first: usize) -> (u32, usize) {
+    const fn of_ramp(&self, ramp: Side, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
             // Here too a fraction may be looked up: on side 0, one of the plateau that is at most FINE, and so not on
@@ -106,7 +107,7 @@ impl Side<'_> {
 
     /// The octave of a part of a ramp, with a polynomial where one keeps the promise.
     #[inline(never)]
-    const fn certified(&self, ramp: usize, path: &Path, span: &Span) -> Octave {
+    const fn certified(&self, ramp: Side, path: &Path, span: &Span) -> Octave {
         let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));

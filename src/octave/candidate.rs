@@ -1,7 +1,7 @@
 //! A candidate for an octave: the polynomial through the exact times at a few nodes, in the integers of the answer.
 
 use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
-use crate::octave::path::{Path, Side, root, singles, value};
+use crate::octave::path::{Path, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
@@ -37,7 +37,7 @@ pub(crate) struct Candidate {
     pub(crate) truncated: f32,
 }
 
-impl Side<'_> {
+impl View<'_> {
     /// The polynomial along a stretch, in the unit in which its coefficients fill their words.
     #[inline(always)]
     pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
@@ -76,9 +76,9 @@ impl Side<'_> {
         if middle.unsigned_abs() > 1 << 62 {
             return None;
         }
-        let start = fixed(self.exposure.outer(self.side), self.unit);
-        octave.middle = if self.side == 0 { start + middle } else { start - middle };
-        octave.factor = if self.side == 0 { factor } else { -factor };
+        let start = fixed(self.exposure.end(self.side), self.unit);
+        octave.middle = if self.side.is_end() { start - middle } else { start + middle };
+        octave.factor = if self.side.is_end() { -factor } else { factor };
         Some(Candidate {
             octave,
             middle: middle as f64 * power_of_two_f64(self.unit),

@@ -1,13 +1,14 @@
 //! The certificate of an octave: what its errors may be, and whether their bounds are within that.
 
+use crate::fraction::Side::{self, End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
-use crate::octave::path::{Path, Side, absolute, scale, singles, value};
+use crate::octave::path::{Path, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
 
 /// The error in time that a polynomial may have, relative to the time: below 0.19 ulp. The time
-/// counts as no more than the interval ([`Side::size_of_time`]), so in an interval of 2²⁴ ticks it is below 0.19 tick.
+/// counts as no more than the interval ([`View::size_of_time`]), so in an interval of 2²⁴ ticks it is below 0.19 tick.
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// The error in `u` that it may have, in ulp of where its span begins. Neighbouring `u` are at least an ulp of the
 /// lesser one apart, so below 1/2 their times cannot change places, also not where one octave follows another.
@@ -33,7 +34,7 @@ const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 /// 1, but for what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
-impl Side<'_> {
+impl View<'_> {
     /// Bounds of a polynomial's errors along a stretch of a ramp between two places, as shares of what each may be:
     /// relative to the time, in exposure, and in exposure beyond the ramp. What [`certain`] asks for is that
     /// all are below 1.
@@ -43,7 +44,7 @@ impl Side<'_> {
         candidate: &Candidate,
         span: &Span,
         mut along: Path,
-        ramp: usize,
+        ramp: Side,
         [first, last]: [f64; 2],
     ) -> [f32; 3] {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
@@ -79,7 +80,7 @@ impl Side<'_> {
         // Only while `x` fits its word are the samples those of a polynomial. It is greatest at an end.
         let [x0, x1, x2, x3, x4, x5, x6] = offset;
         let fits = (x0 + x2 + x4 + x6).abs() + (x1 + x3 + x5).abs() < MOST_OFFSET;
-        let is_joined = if ramp == side { last >= 1.0 } else { first <= 0.0 };
+        let is_joined = if ramp.is(side) { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
             rounding: truncated
                 + SAMPLE_OFF
@@ -87,7 +88,7 @@ impl Side<'_> {
                 + (ends[1] / step) as f32 * TIME_OFF,
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
-                let most = FORWARD_ERROR * (exposure.outer(1) - exposure.outer(0));
+                let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));
                 (self.greatest_beyond(ramp, most) * per_exposure) as f32
             } else {
                 0.0
@@ -110,8 +111,8 @@ impl Side<'_> {
     /// at most the interval. So wherever a curve lies, its error is small beside its length, as ticks ask for.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since: f64) -> f32 {
-        let [start, end] = [self.exposure.outer(0), self.exposure.outer(1)];
-        let time = if self.side == 0 { start as f64 + since } else { end as f64 - since };
+        let [start, end] = [self.exposure.end(Start), self.exposure.end(End)];
+        let time = if self.side.is_end() { end as f64 - since } else { start as f64 + since };
         let size = if !(start < 0.0 && end > 0.0) {
             (time as f32).abs()
         } else if end > -start {
@@ -124,12 +125,12 @@ impl Side<'_> {
 
     /// A bound of the openness within some time of where a ramp meets the plateau or the other ramp, on the other side.
     #[inline(never)]
-    pub(crate) const fn greatest_beyond(&self, ramp: usize, time: f32) -> f64 {
+    pub(crate) const fn greatest_beyond(&self, ramp: Side, time: f32) -> f64 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
         // Seen from there.
-        let (other, is_back) = (&self.shapes[(ramp ^ 1) & 1], ramp == 1);
+        let (other, is_back) = (&self.shapes[ramp.other() as usize], ramp.is_end());
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
         let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
         let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);

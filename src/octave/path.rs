@@ -6,6 +6,7 @@
 //! ([`certificate`](crate::octave::certificate)). Only ends and nodes are inverted, and those need not be exact.
 
 use crate::exposure::Exposure;
+use crate::fraction::Side;
 use crate::ramp::cubic::Cubic;
 use crate::ramp::shape::Shape;
 
@@ -18,17 +19,17 @@ const MOST_STEPS: usize = 40;
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A side of the curve, as its octaves are built.
-pub(crate) struct Side<'a> {
+pub(crate) struct View<'a> {
     pub(crate) exposure: &'a Exposure,
     pub(crate) shapes: &'a [Shape; 2],
-    pub(crate) side: usize,
+    pub(crate) side: Side,
     /// The exponent of the unit of time.
     pub(crate) unit: i32,
 }
 
-impl Side<'_> {
-    pub(crate) const fn path(&self, ramp: usize) -> Path {
-        Path::new(self.exposure, &self.shapes[ramp & 1], self.side, ramp)
+impl View<'_> {
+    pub(crate) const fn path(&self, ramp: Side) -> Path {
+        Path::new(self.exposure, &self.shapes[ramp as usize], self.side, ramp)
     }
 }
 
@@ -46,10 +47,11 @@ pub(crate) struct Path {
 
 impl Path {
     /// The ramp with this shape and index: places count from 0 at the end that faces a side to 1 at the other one.
-    pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: usize, ramp: usize) -> Self {
+    pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: Side, ramp: Side) -> Self {
         let shape = shape.from(side);
-        let way = exposure.inner(side ^ 1) as f64 - exposure.outer(side) as f64;
-        let (t0, u0) = if ramp == side { (0.0, 0.0) } else { (way.abs(), exposure.joins(side)[1]) };
+        let way = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
+        let (t0, u0) =
+            if ramp.is(side) { (0.0, 0.0) } else { (way.abs(), exposure.joins(side)[1]) };
         let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
         let Cubic { c: [t1, t2, t3], .. } = shape.time();
         let [u1, u2, u3, u4, u5, u6] = shape.mass();

@@ -1,5 +1,6 @@
 //! A ramp by time: the place at which a time is reached, and mass and openness there.
 
+use crate::fraction::Side::{self, End, Start};
 use crate::number::pair::{Pair, flipped};
 use crate::number::series::Series;
 use crate::number::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
@@ -12,7 +13,7 @@ use crate::search::{Anchor, ROUNDING, solve};
 /// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up
 /// to about the time of the farther end. But there [`on_grid`] leaves multiples of a quarter of that end's ulp, which
 /// are about 2⁻²⁶ of the way apart, or more. The error is a quarter of this distance, so neighbours keep their order.
-const FOR_TIME: f32 = 1.0 / (1 << 28) as f32;
+const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
 /// below, a time may be searched for from there.
@@ -21,7 +22,7 @@ const SLOW: f32 = 0.25 * LENGTH / LAST_PLACE;
 /// A point of a ramp, found by its time: its place from the end that faces a side.
 pub(crate) struct RampPoint<'a> {
     ramp: &'a Ramp,
-    side: usize,
+    side: Side,
     place: Pair,
 }
 
@@ -39,23 +40,23 @@ impl Ramp {
 
     /// The side of the nearer end, and the exact time between it and `t`, in the ramp's unit.
     #[inline(always)]
-    const fn since(&self, t: f32) -> (usize, Pair) {
-        let [start, end] = [self.time(0), self.time(1)];
-        let side = (t - start > end - t) as usize;
-        let way = if side == 0 { Pair::sum(t, -start) } else { Pair::sum(end, -t) };
+    const fn since(&self, t: f32) -> (Side, Pair) {
+        let [start, end] = [self.time(Start), self.time(End)];
+        let side = Side::end_if(t - start > end - t);
+        let way = if side.is_end() { Pair::sum(end, -t) } else { Pair::sum(t, -start) };
         (side, way.shifted(-self.unit()))
     }
 
     /// The place at which a time has passed since the end that faces a side, if a few steps lead there.
     #[inline(always)]
-    const fn quick_place(&self, side: usize, target: Pair) -> Option<Pair> {
+    const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {
         let Series { c, last } = self.time_since(side);
-        quick_place([c[0], c[1], last], target, FOR_TIME * target.hi)
+        quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)
     }
 
     /// From which side a time is counted, and whether a few steps lead to its place.
     #[cfg(test)]
-    pub(crate) fn way(&self, t: f32) -> (usize, bool) {
+    pub(crate) fn way(&self, t: f32) -> (Side, bool) {
         let (side, target) = self.since(self.on_grid(t));
         (side, self.quick_place(side, target).is_some())
     }
@@ -63,7 +64,7 @@ impl Ramp {
     /// The same by a search.
     #[cold]
     #[inline(never)]
-    const fn searched_place(&self, side: usize, target: Pair) -> Pair {
+    const fn searched_place(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor =
@@ -82,7 +83,7 @@ impl Ramp {
             }
         }
         let guess = guess(&anchor.c, anchor.sought);
-        solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2]).0
+        solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0
     }
 
     /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
@@ -90,7 +91,7 @@ impl Ramp {
     pub(crate) fn openness_at(&self, t: f32) -> (Pair, i32) {
         let RampPoint { side, place, .. } = self.at_time(self.on_grid(t));
         let [f0, f1, f2, f3] = self.openness;
-        let f = if side == 0 { [f0, f1, f2, f3] } else { [f3, f2, f1, f0] };
+        let f = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
         // Scaled so that the second halves of all coefficients that count, and their products with the least place,
         // keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
@@ -109,7 +110,7 @@ impl RampPoint<'_> {
     #[inline(always)]
     const fn from_start(&self) -> Pair {
         let Pair { hi, lo } = self.place;
-        if self.side == 0 {
+        if self.side.is(Start) {
             return self.place;
         }
         let rest = Pair::sum(LAST_PLACE, -hi);
@@ -119,21 +120,21 @@ impl RampPoint<'_> {
     /// The fraction collected from the ramp's start until here, in [`WHOLE`](crate::number::units::WHOLE).
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
-        let mass = self.ramp.mass_since(0).at_pair_unrolled(self.from_start());
+        let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.from_start());
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
     /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is
     /// next to it: what [`Series::at_pair`] loses of the terms from either end, twice, for the step of the search.
     // proofs/series.py
-    pub(crate) fn noise(&self, side: usize) -> f32 {
+    pub(crate) fn noise(&self, side: Side) -> f32 {
         let from_start = self.from_start().hi;
-        let terms = |side: usize| {
-            let x = if side == 0 { from_start } else { LAST_PLACE - from_start };
+        let terms = |side: Side| {
+            let x = if side.is(Start) { from_start } else { LAST_PLACE - from_start };
             let c = self.ramp.mass_in_single(side);
             c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
         };
-        let terms = terms(0) + terms(side);
+        let terms = terms(Start) + terms(side);
         terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32
     }
 }
@@ -143,7 +144,7 @@ impl Ramp {
     /// half an ulp of the farther end, onto a multiple of a quarter, a half or all of that.
     #[inline(always)]
     pub(crate) const fn on_grid(&self, t: f32) -> f32 {
-        let [start, end] = [self.time(0), self.time(1)];
+        let [start, end] = [self.time(Start), self.time(End)];
         if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t }
     }
 }

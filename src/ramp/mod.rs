@@ -17,6 +17,7 @@ pub(crate) mod lift;
 mod quick;
 pub(crate) mod shape;
 
+use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, flipped};
 use crate::number::series::Series;
@@ -106,11 +107,11 @@ impl Ramp {
             flats: [Flat::NONE; 2],
             share,
         };
-        let mut side = 0;
-        while side < 2 {
+        let mut i = 0;
+        while i < 2 {
+            let side = Side::BOTH[i];
             let seen = shape.from(side);
-            let (openness, time, seen_end) =
-                (seen.openness(), seen.time(), &mut ramp.ends[side & 1]);
+            let (openness, time, seen_end) = (seen.openness(), seen.time(), &mut ramp.ends[i]);
             // Both last coefficients are the same from either side, to the bit, but for the sign of the mass.
             ramp.last_of_time = in_places(&time.c, per_unit, &mut seen_end.time);
             let last = in_places(&seen.mass(), per_mass, &mut seen_end.mass);
@@ -126,26 +127,26 @@ impl Ramp {
                     let mut c = [Pair::ZERO; 4];
                     in_places(&integral(openness.around(p), time.around(p)), per_mass, &mut c);
                     ramp.flats[kind & 1] = Flat {
-                        place: flipped(place, (side as u32) << 31),
+                        place: flipped(place, side.sign()),
                         mass: seen_from(side, series.at(place)),
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };
                 }
                 kind += 1;
             }
-            side += 1;
+            i += 1;
         }
         ramp
     }
 
     /// An end by the side that it faces, which is 0 or 1.
     #[inline(always)]
-    const fn end(&self, side: usize) -> &End {
-        &self.ends[side & 1]
+    const fn end(&self, side: Side) -> &End {
+        &self.ends[side as usize]
     }
 
     /// The time of the end that faces a side.
-    pub(crate) const fn time(&self, side: usize) -> f32 {
+    pub(crate) const fn time(&self, side: Side) -> f32 {
         self.end(side).at
     }
 
@@ -157,19 +158,19 @@ impl Ramp {
 
     /// The time since the end that faces a side.
     #[inline(always)]
-    pub(crate) const fn time_since(&self, side: usize) -> Series<'_> {
+    pub(crate) const fn time_since(&self, side: Side) -> Series<'_> {
         Series { c: &self.end(side).time, last: self.last_of_time }
     }
 
     /// The mass since the end that faces a side.
     #[inline(always)]
-    pub(crate) const fn mass_since(&self, side: usize) -> Series<'_> {
+    pub(crate) const fn mass_since(&self, side: Side) -> Series<'_> {
         Series { c: &self.end(side).mass, last: seen_from(side, self.last_of_mass) }
     }
 
     /// The same in single precision.
     #[inline(always)]
-    pub(crate) const fn mass_in_single(&self, side: usize) -> [f32; 6] {
+    pub(crate) const fn mass_in_single(&self, side: Side) -> [f32; 6] {
         let Series { c, last } = self.mass_since(side);
         [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
     }
@@ -177,7 +178,7 @@ impl Ramp {
     /// The moment at which the fraction `target` has been collected since the end that faces a side. Target and errors,
     /// which are those of [`solve`], are in [`WHOLE`].
     #[inline(always)]
-    pub(crate) const fn at_mass(&self, side: usize, target: Pair, error: [f32; 2]) -> Moment {
+    pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: [f32; 2]) -> Moment {
         let factor = mass_per_fraction(self.share.hi);
         let target = target.scaled(factor);
         let anchor = self.anchor(side, target);
@@ -187,21 +188,21 @@ impl Ramp {
     }
 
     #[inline(always)]
-    const fn moment(&self, side: usize, (place, evaluations): (Pair, u32)) -> Moment {
+    const fn moment(&self, side: Side, (place, evaluations): (Pair, u32)) -> Moment {
         let way = self.time_since(side).at_pair(place);
         Moment {
             base: self.time(side),
-            back: side == 1,
+            back: side.is_end(),
             way: if way.rounded() < 0.0 { Pair::ZERO } else { way },
             unit: self.unit(),
-            until: self.time(side ^ 1),
+            until: self.time(side.other()),
             evaluations,
         }
     }
 
     /// The anchor whose mass is nearest to a target, seen from a side.
     #[inline(always)]
-    const fn anchor(&self, side: usize, target: Pair) -> Anchor<6> {
+    const fn anchor(&self, side: Side, target: Pair) -> Anchor<6> {
         // The other end, then the minima.
         let from_other = target.minus_loose(self.share.scaled(mass_per_fraction(self.share.hi)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
@@ -221,13 +222,13 @@ impl Ramp {
             return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
         }
         if nearest == 2 {
-            let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side ^ 1));
+            let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
             return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER };
         }
         // The powers count away from the flat place's nearer end. They are mirrored if the target lies the other way.
         let flat = &self.flats[nearest & 1];
-        let is_other = (flat.place < 0.0) != (side == 1);
-        let [.., c5, c6] = self.mass_in_single(side ^ is_other as usize);
+        let is_other = (flat.place < 0.0) != side.is_end();
+        let [.., c5, c6] = self.mass_in_single(side.other_if(is_other));
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
         let c5 = c5 + 6.0 * c6 * from_end;
@@ -244,8 +245,8 @@ impl Ramp {
 
 /// A number that is negative for what counts from the later end, as it is seen from a side: negative for the other end.
 #[inline(always)]
-const fn seen_from(side: usize, x: Pair) -> Pair {
-    x.flipped((side as u32) << 31)
+const fn seen_from(side: Side, x: Pair) -> Pair {
+    x.flipped(side.sign())
 }
 
 /// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`, into `pairs`;

@@ -1,6 +1,7 @@
 //! The shape of a ramp: what makes one Bezier a ramp, and that Bezier as it is integrated, in `f64`.
 
 use crate::error::{CurveError, Part};
+use crate::fraction::Side;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
 use crate::ramp::lift::{forward, lifted};
@@ -67,9 +68,13 @@ impl Shape {
     }
 
     /// Seen from a side: from the earlier end as it is, or from the later one.
-    pub(crate) const fn from(self, side: usize) -> Self {
+    pub(crate) const fn from(self, side: Side) -> Self {
         let Self { f, d } = self;
-        if side == 0 { self } else { Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] } }
+        if side.is_end() {
+            Self { f: [f[3], f[2], f[1], f[0]], d: [d[2], d[1], d[0]] }
+        } else {
+            self
+        }
     }
 
     #[inline(never)]
@@ -95,7 +100,7 @@ impl Shape {
 
     /// `∫ f dt` over the ramp, the same seen from both ends.
     pub(crate) const fn area(&self) -> f64 {
-        let (m, n) = (self.mass(), self.from(1).mass());
+        let (m, n) = (self.mass(), self.from(Side::End).mass());
         let (mut first, mut last, mut k) = (0.0, 0.0, 0);
         while k < m.len() {
             first += m[k];

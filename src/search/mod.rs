@@ -10,7 +10,7 @@
 //! If that is too great, 2 and 3 are repeated from the place that was reached. A search also ends at the anchor itself,
 //! if the target is within half of the wanted error of what the anchor has, and at the cap on evaluations.
 //!
-//! After `FREE` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
+//! After `FREE_EVALUATIONS` evaluations each measured place halves a bracket. The sign of what is missing at its ends is known, but
 //! for the noise of measuring. Once these are neighbouring `f32`, a step between them is accepted: its bound is at most
 //! 2⁻²⁷·⁷ of a mass that is sought, and 2⁻³⁶·⁶ of a time (docs/proofs.md, "The end of a search"). That the step stays
 //! between them is not proven: where next to no light falls, what is missing may be noise alone. No search for an
@@ -26,12 +26,12 @@ use crate::number::units::LAST_PLACE;
 
 /// After so many evaluations, twice what any search for an `f32` in the tests takes, every place is measured in pairs,
 /// and each halves the bracket.
-const FREE: u32 = 10;
+const FREE_EVALUATIONS: u32 = 10;
 /// Bisections that bring any bracket between 0 and [`LAST_PLACE`] down to neighbours, taken by their bits; each takes
-/// two evaluations, of the slopes and in pairs. What was measured before the first may have brought `FREE` up to 2 more.
+/// two evaluations, of the slopes and in pairs. What was measured before the first may have brought `FREE_EVALUATIONS` up to 2 more.
 const BISECTION: u32 = 31;
 /// The most evaluations of the polynomial that one search takes, in single precision and in pairs.
-pub const MAX_EVALUATIONS: u32 = FREE + 2 + 2 * BISECTION;
+pub const MAX_EVALUATIONS: u32 = FREE_EVALUATIONS + 2 + 2 * BISECTION;
 
 /// If less than this share of what is sought is missing, it is measured in pairs. A step of Halley's leaves about a
 /// tenth of the cube of that: 2⁻⁴².
@@ -195,7 +195,7 @@ pub(crate) const fn solve<const N: usize>(
         local = Taylor::new(&c, x);
         evaluations += 1;
         let missing = sought - local.value;
-        if missing.abs().to_bits() as i32 <= hardly_any || evaluations >= FREE {
+        if missing.abs().to_bits() as i32 <= hardly_any || evaluations >= FREE_EVALUATIONS {
             break;
         }
         // By bits, so that the step of a NaN is one of the limits, too.
@@ -212,14 +212,14 @@ pub(crate) const fn solve<const N: usize>(
     let mut p = place.hi + flipped(x, back);
     let distance = anchor.distance(p);
     let mut moved = distance - x;
-    let mut is_elsewhere = moved.abs() > MOVED * x;
-    if is_elsewhere {
+    let mut needs_slopes = moved.abs() > MOVED * x;
+    if needs_slopes {
         (x, moved) = (distance, 0.0);
     }
     // The bracket, by bits, since that is how it is halved.
     let (mut low, mut high) = (0, LAST_PLACE.to_bits() as i32);
     loop {
-        if is_elsewhere {
+        if needs_slopes {
             local = Taylor::new(&c, x);
             evaluations += 1;
         }
@@ -247,7 +247,7 @@ pub(crate) const fn solve<const N: usize>(
         }
         // The middle by bits, so that half of the `f32` in the bracket lie on either side.
         let middle = f32::from_bits((low + (high - low) / 2) as u32);
-        p = if is_inside && evaluations < FREE { end } else { middle };
-        (x, moved, is_elsewhere) = (anchor.distance(p), 0.0, true);
+        p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { middle };
+        (x, moved, needs_slopes) = (anchor.distance(p), 0.0, true);
     }
 }

@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::error::ScheduleError;
+use crate::fraction::Side;
 use crate::number::units::DOUBLE_WORD;
 use crate::shutter::ShutterCurve;
 use crate::trigger::iterator::iterate;
@@ -55,7 +56,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn direct_triggers(&self) -> u32 {
-        let above = [self.plan.least_direct(0), self.plan.least_direct(1)];
+        let above = [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
         let above = if above[0] > above[1] { above[0] } else { above[1] };
         // Above this fraction from either side nothing is searched for, and the first and the last trigger are 1/2n from
         // the ends. In units of 2⁻⁶⁴; 2⁻²⁴ is added, since a fraction may be rounded to an `f32`. Saturating, so that

@@ -2,7 +2,7 @@
 
 use crate::answer::plan::Plan;
 use crate::error::ScheduleError;
-use crate::fraction::Fraction;
+use crate::fraction::{Fraction, Side};
 
 /// An interval has at most 2^`MOST_TICKS` ticks: half of what a timer of 32 bits counts, so that it tells before from
 /// after.
@@ -30,8 +30,8 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let (start, unit) = (plan.outer_in_units(0), plan.unit());
-        let length = (plan.outer_in_units(1) - start) as u64;
+        let (start, unit) = (plan.end_in_units(Side::Start), plan.unit());
+        let length = (plan.end_in_units(Side::End) - start) as u64;
         if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {
             return Err(too_high(length, ticks_per_unit, unit));
         }

@@ -3,6 +3,7 @@
 
 use crate::ShutterCurve;
 use crate::exposure::Exposure;
+use crate::fraction::Side;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::cases::shutter;
 use crate::support::curves::{Rng, named, random_hard, random_typical};
@@ -14,7 +15,7 @@ use crate::support::promise::{CDF_FLOOR, VALUE};
 enum Way {
     Outside,
     Plateau,
-    Ramp { ramp: usize, side: usize, is_quick: bool },
+    Ramp { ramp: Side, side: Side, is_quick: bool },
 }
 
 const CHANGES: [&str; 7] = [
@@ -28,15 +29,19 @@ const CHANGES: [&str; 7] = [
 ];
 
 fn way(exposure: &Exposure, t: f32) -> Way {
-    let [start, open, close, end] =
-        [exposure.outer(0), exposure.inner(0), exposure.inner(1), exposure.outer(1)];
+    let [start, open, close, end] = [
+        exposure.end(Side::Start),
+        exposure.join(Side::Start),
+        exposure.join(Side::End),
+        exposure.end(Side::End),
+    ];
     if !(t >= start && t <= end) {
         return Way::Outside;
     }
     if open < close && t >= open && t <= close {
         return Way::Plateau;
     }
-    let ramp = (t > open || t == open && start == open) as usize;
+    let ramp = Side::end_if(t > open || t == open && start == open);
     let (side, is_quick) = exposure.ramp(ramp).way(t);
     Way::Ramp { ramp, side, is_quick }
 }
@@ -64,7 +69,7 @@ fn change(ways: [Way; 2]) -> usize {
 
 /// Walks so many neighbours around each change of way that so many samples show, and judges order and error.
 fn walk(exact: &Exact, exposure: &Exposure, samples: u32, seen: &mut [u32; 7]) {
-    let [start, end] = [exposure.outer(0), exposure.outer(1)];
+    let [start, end] = [exposure.end(Side::Start), exposure.end(Side::End)];
     let length = f64::from(end) - f64::from(start);
     let mut ts: Vec<f32> = (0..=samples)
         .map(|i| (f64::from(start) + length * f64::from(i) / f64::from(samples)) as f32)

@@ -1,11 +1,12 @@
 //! How octaves are fitted: the nodes, and that a certificate is never below the truth.
 
 use crate::exposure::Exposure;
+use crate::fraction::Side;
 use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES};
 use crate::octave::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
-use crate::octave::path::{Path, Side, value};
+use crate::octave::path::{Path, View, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below, top};
 use crate::ramp::bezier::CubicBezier;
@@ -45,12 +46,13 @@ impl Truth {
             return;
         };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
-        let (exact, unit) = (Exact::new(curve), time_unit(exposure.outer(0), exposure.outer(1)));
-        for side in 0..2 {
-            let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
+        let (exact, unit) =
+            (Exact::new(curve), time_unit(exposure.end(Side::Start), exposure.end(Side::End)));
+        for side in Side::BOTH {
+            let this = View { exposure: &exposure, shapes: &shapes, side, unit };
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
-            for (ramp, steps) in tops.into_iter().enumerate() {
+            for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
                 let (range, path) = (range(&exposure, side, ramp), this.path(ramp));
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(top(steps), index)) {
@@ -63,7 +65,7 @@ impl Truth {
     }
 }
 
-impl Side<'_> {
+impl View<'_> {
     /// What was built of a span: the polynomial, the stretch that it is held against, and the places where that lies.
     fn built(&self, span: &Span, path: &Path) -> (Candidate, Path, [f64; 2]) {
         let ends = [span.middle - span.half, span.middle + span.half].map(f64::from);
@@ -76,7 +78,7 @@ impl Side<'_> {
     fn judge(
         &self,
         octave: &Octave,
-        ramp: usize,
+        ramp: Side,
         path: &Path,
         span: &Span,
         exact: &Exact,
@@ -86,7 +88,7 @@ impl Side<'_> {
         let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = self.certificate(&candidate, span, stretch, ramp, places).map(f64::from);
-        let start = fixed(self.exposure.outer(self.side), self.unit);
+        let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
         // The span itself rounds its end.
@@ -104,14 +106,14 @@ impl Side<'_> {
                 let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
                 let time = octave.time(octave.offset(position)) - start;
                 let time = time as f64 * power_of_two_f64(self.unit);
-                let served = Dd::from(f64::from(self.exposure.outer(self.side))) + Dd::from(time);
-                let u = if self.side == 0 { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
+                let served = Dd::from(f64::from(self.exposure.end(self.side))) + Dd::from(time);
+                let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
                 let off = (early - served).max(served - late).hi.max(0.0);
                 let size = f64::from(self.size_of_time(time.abs()));
                 // Counted from the side, so that no bits are lost next to the later end.
-                let light = if self.side == 0 {
+                let light = if self.side == Side::Start {
                     exact.cdf_dd(served) - u
                 } else {
                     exact.complement_dd(served) - Dd::from(a)
@@ -190,14 +192,15 @@ fn an_offset_beyond_its_word_is_refused() {
     let ramps = [opening, closing].map(CubicBezier::new);
     let exposure = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
     let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
-    let unit = time_unit(exposure.outer(0), exposure.outer(1));
+    let unit = time_unit(exposure.end(Side::Start), exposure.end(Side::End));
     let mut judged = 0;
-    for side in 0..2 {
-        let this = Side { exposure: &exposure, shapes: &shapes, side, unit };
+    for side in Side::BOTH {
+        let this = View { exposure: &exposure, shapes: &shapes, side, unit };
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, unit, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
-            let Some(span) = Span::new(range(&exposure, side, side), below(top(tops[side]), index))
+            let Some(span) =
+                Span::new(range(&exposure, side, side), below(top(tops[side as usize]), index))
             else {
                 continue;
             };
@@ -232,8 +235,8 @@ fn the_openness_beyond_a_join_is_bounded() {
         let ramps = [opening, closing].map(CubicBezier::new);
         let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else { return };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
-        let bounds = [0, 1].map(|ramp| {
-            Side { exposure: &exposure, shapes: &shapes, side: ramp, unit: 0 }
+        let bounds = Side::BOTH.map(|ramp| {
+            View { exposure: &exposure, shapes: &shapes, side: ramp, unit: 0 }
                 .greatest_beyond(ramp, time)
         });
         assert_eq!(bounds[0], bounds[1], "a mirrored curve, {t:?} {f:?} {time:e}");
