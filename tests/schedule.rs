@@ -503,3 +503,12 @@ fn last_triggers_of_large_frames() {
         }
     }
 }
+
+/// A liquid-crystal shutter that closes in two bends: with 49 points alone an octave of it has no certificate, and 2
+/// triggers are direct.
+#[test]
+fn a_closing_ramp_with_two_bends_has_direct_triggers() {
+    let inner = [0.01, 0.6, 0.015, 1.0, 0.46, 0.1, 0.6, 0.0];
+    let curve = ShutterCurve::shutteropening([0.0, 0.0003, 0.003, 0.008], inner).unwrap();
+    assert!(curve.direct_triggers() >= 255, "{}", curve.direct_triggers());
+}

@@ -44,17 +44,10 @@ impl Facts {
             half_open: half_open(curve),
             exposure,
             efficiency: curve.efficiency().into(),
-            direct_triggers: direct_triggers(plan),
+            direct_triggers: curve.direct_triggers(),
             delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
         }
     }
-}
-
-/// 0 on intervals of more ticks than the crate's polynomials serve.
-fn direct_triggers(plan: &Plan) -> u32 {
-    const DIRECT_TICKS: f64 = (1 << 24) as f64;
-    let is_served = plan.length() * f64::from(plan.timer_hz) <= DIRECT_TICKS;
-    if is_served { plan.curve.direct_triggers() } else { 0 }
 }
 
 /// From the first to the last time at which the shutter is half open.

@@ -50,7 +50,7 @@ impl Lamp {
                 .collect(),
             Self::Doses { duty } => ticks
                 .zip(curve.pulse_ticks(n, duty, timer_hz)?)
-                .map(|(tick, (on, off))| flash(tick, on.into(), off.into()))
+                .map(|(tick, pulse)| flash(tick, pulse.on.into(), pulse.off.into()))
                 .collect(),
         })
     }

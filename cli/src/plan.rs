@@ -86,7 +86,7 @@ impl Plan {
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let end = (end * f64::from(timer_hz)).round();
         let delay = Delay::new(scene.delay.as_ref(), scene.unit(), timer_hz, end)?;
-        let frames = Frames { curve, timer_hz, end: end as i64 };
+        let frames = Frames { curve: &curve, timer_hz, end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
@@ -98,6 +98,7 @@ impl Plan {
             pulse: (asked.lamp != Lamp::Triggered).then_some((flash.on as u32, flash.off as u32)),
         };
         let triggers = (0..).zip(curve.trigger_times(n)).zip(&frame).map(trigger).collect();
+        let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
         Ok(Self {
             shape,
             curve,
@@ -106,7 +107,7 @@ impl Plan {
             min_gap: asked.min_gap,
             lamp: asked.lamp,
             nominal: asked.nominal,
-            most: frames.most(&asked, n, MOST_TRIGGERS + 1),
+            most,
             triggers,
             unit: scene.unit,
         })
@@ -198,8 +199,8 @@ impl Asked {
 }
 
 /// The frames of a shutter, of any number of triggers.
-struct Frames {
-    curve: ShutterCurve,
+struct Frames<'a> {
+    curve: &'a ShutterCurve,
     timer_hz: u32,
     /// The ticks until the shutter is closed.
     end: i64,
@@ -216,11 +217,11 @@ enum Problem {
     Outside,
 }
 
-impl Frames {
+impl Frames<'_> {
     /// The frame of `n` triggers, if it keeps what is asked for.
     fn checked(&self, asked: &Asked, n: u32) -> Result<Vec<Flash>, Problem> {
         // The rate is known to be good.
-        let frame = asked.lamp.frame(&self.curve, n, self.timer_hz).unwrap_or_default();
+        let frame = asked.lamp.frame(self.curve, n, self.timer_hz).unwrap_or_default();
         let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
         let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
         if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), asked.dark)) {
@@ -264,7 +265,7 @@ impl Frames {
 
     /// The longest equal pulse that `n` triggers leave room for, in ticks.
     fn longest(&self, asked: &Asked, n: u32) -> i64 {
-        let ticks = Lamp::Triggered.frame(&self.curve, n, self.timer_hz).unwrap_or_default();
+        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer_hz).unwrap_or_default();
         let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
         let dark = i64::try_from(asked.dark).unwrap_or(i64::MAX);
         let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));

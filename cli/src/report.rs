@@ -46,18 +46,18 @@ fn write_curve(out: &mut String, plan: &Plan) -> fmt::Result {
 
 /// The triggers on a line of time.
 fn write_times(out: &mut String, times: &Times) -> fmt::Result {
-    const OCTAVES: usize = DOTS.0 as usize / 2;
+    const CELLS: usize = DOTS.0 as usize / 2;
     let unit = times.unit();
-    let mut line = ['─'; OCTAVES];
+    let mut line = ['─'; CELLS];
     for trigger in &times.triggers {
         let part = (trigger.time - times.open_start) / times.length();
-        line[(part * (OCTAVES - 1) as f64).round() as usize] = '┼';
+        line[(part * (CELLS - 1) as f64).round() as usize] = '┼';
     }
     let ends = [times.open_start, times.open_start + times.length()];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
     writeln!(out, "\ntriggers over time ({})", unit.name())?;
     writeln!(out, "{}", String::from_iter(line))?;
-    writeln!(out, "{first}{last:>width$}", width = OCTAVES.saturating_sub(first.len()))
+    writeln!(out, "{first}{last:>width$}", width = CELLS.saturating_sub(first.len()))
 }
 
 /// The function `f` of time with a line up to it at each trigger.

@@ -149,8 +149,8 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
                 println!("{} {}", speed.name, speed.delay_ticks);
             }
             for speed in &lit::SPEEDS {
-                let n = speed.ticks.len() as u32;
-                assert!(speed.shutter.pulse_ticks(n, 0.3, lit::TIMER_HZ).unwrap().eq(speed.pulses.iter().copied()));
+                let pulses = speed.shutter.pulse_ticks(speed.ticks.len() as u32, 0.3, lit::TIMER_HZ).unwrap();
+                assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
             }
         }"#;
     write("main.rs", main.into());

@@ -11,13 +11,11 @@ use defmt_semihosting as _;
 use heapless::Vec;
 use semihosting::process::ExitCode;
 use semihosting::sys::arm_compat::sys_get_cmdline_uninit;
-use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks};
+use shutter_curve::{ScheduleError, TriggerTicks};
 
 use crate::board::{TICK_HZ, TIMER_IRQ, acknowledge, interrupt_in, now, start, trigger_line};
-use crate::measured;
+use crate::measured::{self, SHUTTER};
 
-// In flash, its polynomials computed by the compiler.
-static CURVE: ShutterCurve = measured::SHUTTER;
 // The program that planned knew this timer.
 const _: () = assert!(measured::TIMER_HZ == TICK_HZ);
 
@@ -37,7 +35,7 @@ const _: () = assert!(measured::DELAY_TICKS == 106_175);
 const PERIOD: u32 = TICK_HZ / 50;
 
 // The handler computes a tick between two pulses, so none may be searched for: a curve that needs that does not compile.
-const _: () = assert!(CURVE.direct_triggers() >= CAPACITY as u32);
+const _: () = assert!(SHUTTER.direct_triggers() >= CAPACITY as u32);
 /// The most cycles of a direct tick, by the crate's README; the timer counts cycles.
 const DIRECT_TICK: u32 = 160;
 // And there is time enough between two pulses.
@@ -130,8 +128,8 @@ enum Wrong {
 fn plan(wanted: u32, fault: Fault) -> Result<TriggerTicks<'static>, ScheduleError> {
     // A pulse may be late and the next on time.
     let gap = if fault == Fault::Close { 1 } else { MIN_GAP + LATEST };
-    let n = CURVE.most_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
-    CURVE.trigger_ticks(n, TICK_HZ)
+    let n = SHUTTER.most_triggers(wanted.min(CAPACITY as u32), TICK_HZ, gap)?;
+    SHUTTER.trigger_ticks(n, TICK_HZ)
 }
 
 /// Fires the pulse that is due, and has the next one come.
@@ -219,7 +217,7 @@ fn check(edge: u32, plan: TriggerTicks<'_>, fired: &[u32]) -> Result<u32, Wrong>
 
 /// Sleeps until the frame that starts at `base` is over: until a gap has passed after its end.
 fn wait_for_end(base: u32) {
-    let length = ((CURVE.close_end() - CURVE.open_start()) * TICK_HZ as f32) as u32 + MIN_GAP;
+    let length = ((SHUTTER.close_end() - SHUTTER.open_start()) * TICK_HZ as f32) as u32 + MIN_GAP;
     while (now().wrapping_sub(base.wrapping_add(length)) as i32) < 0 {
         // An interrupt that comes in here wakes the processor, and is served at the end: none is missed.
         critical_section::with(|cs| {
@@ -240,7 +238,7 @@ fn main() -> ! {
     let begin = now().wrapping_add(PERIOD);
     let mut good = true;
     let mut wrapped = false;
-    info!("{}: exposure {} s", CURVE, CURVE.exposure());
+    info!("{}: exposure {} s", SHUTTER, SHUTTER.exposure());
     for (i, wanted) in FRAMES.into_iter().enumerate() {
         // What a capture unit holds of the sync's edge: the counter at that moment, which no interrupt makes late.
         let edge = begin.wrapping_add(i as u32 * PERIOD);

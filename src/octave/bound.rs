@@ -22,9 +22,12 @@ use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
 
-/// N: there is one point more. And the cosine of π/N.
-const POINTS: usize = 48;
-const COSINE: f64 = 0.9978589232386035;
+/// The greatest N: there is one point more. And the cosine of π/N.
+const POINTS: usize = 96;
+const COSINE: f64 = 0.9994645874763657;
+
+/// A bound is tried with so many efforts, the cheapest first: with every fourth point, every second, and all.
+pub(crate) const EFFORTS: usize = 3;
 
 /// The cosines of i π/N, from 1 down to 0. Each follows from the two before it. They count 2⁻³⁰, as samples' places do.
 // proofs/certificate.py
@@ -62,6 +65,12 @@ const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 /// The products of the error with cubics: with 1, which is the error itself, with the openness, and with a bound of the
 /// time's reciprocal.
 pub(crate) const KINDS: usize = 3;
+
+/// The greatest errors: what they are at least, by the samples, and at most.
+pub(crate) struct Errors {
+    pub(crate) least: [f32; KINDS],
+    pub(crate) most: [f32; KINDS],
+}
 
 /// A sample's fraction counts 2⁻²⁰ of a position, and its time 2⁻²⁴ of a coefficient's 1.
 const FRACTION_BITS: i32 = 20;
@@ -122,8 +131,9 @@ pub(crate) const fn errors(
     x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
-) -> [f32; KINDS] {
-    let (mut seen, mut i) = ([0.0; KINDS], 0);
+    effort: usize,
+) -> Errors {
+    let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
         // At this cosine and at its negative.
@@ -147,7 +157,7 @@ pub(crate) const fn errors(
             }
             place = -place;
         }
-        i += 1;
+        i += step;
     }
     let (mut tails, mut i) = ([0.0; ELLIPSES.len()], 0);
     while i < ELLIPSES.len() {
@@ -155,23 +165,24 @@ pub(crate) const fn errors(
         tails[i] = SLACK * first * bends(octave, x, axis);
         i += 1;
     }
-    let mut kind = 0;
+    let (mut found, mut kind) = (Errors { least: seen, most: seen }, 0);
     while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
-        seen[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind]);
+        found.least[kind] -= noise;
+        found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
         kind += 1;
     }
-    seen
+    found
 }
 
 /// The bound that follows from the greatest sample, by the best ellipse and degree.
 #[inline(never)]
-const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4]) -> f32 {
+const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step: usize) -> f32 {
     let (mut least, mut i) = (f32::INFINITY, 0);
     while i < ELLIPSES.len() {
         let [axis, square, _] = ELLIPSES[i];
         let mut tail = tails[i] * absolute(weight, axis);
-        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE, DEGREES);
+        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
         while degrees > 0 && k < COSINES.len() {
             // The cosine of π/2N times the degree: 0, and no bound, where the degree is N.
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
@@ -180,7 +191,7 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4]) -> f
             degrees = if bound < last { degrees - 1 } else { 0 };
             least = if bound < least { bound } else { least };
             (last, tail) = (bound, tail * square);
-            k += 1;
+            k += step;
         }
         i += 1;
     }

@@ -2,7 +2,7 @@
 
 use crate::fraction::Side::{self, End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{KINDS, SAMPLE_OFF, Sampled, errors};
+use crate::octave::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -99,12 +99,20 @@ impl View<'_> {
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded to 1/2 and a trace.
         let noise = limits.rounding + 0.5002 * steep * per_position as f32;
-        match Sampled::new(&along) {
-            Some(sampled) if fits => {
-                limits.share(&errors(octave, &sampled, &offset, &weights, noise))
-            }
-            _ => [f32::INFINITY; 3],
+        let (mut effort, mut bounds) = (0, [f32::INFINITY; 3]);
+        let (Some(sampled), true) = (Sampled::new(&along), fits) else { return bounds };
+        while effort < EFFORTS {
+            let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
+            bounds = limits.share(&errors.most);
+            // If the samples alone are too wrong, no closer bound helps. (As
+            // `share` adds what rounding does once more, one might after all, if rarely: then a search answers.)
+            effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
+                EFFORTS
+            } else {
+                effort + 1
+            };
         }
+        bounds
     }
 
     /// What an error in time is relative to: the time itself, or, if the curve runs across time 0, its farther end; but

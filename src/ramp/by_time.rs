@@ -108,7 +108,7 @@ impl Ramp {
 impl RampPoint<'_> {
     /// The place from the ramp's start. (A time nearer to the end is at least an eighteenth of the ramp from there.)
     #[inline(always)]
-    const fn from_start(&self) -> Pair {
+    const fn place_from_start(&self) -> Pair {
         let Pair { hi, lo } = self.place;
         if self.side.is(Start) {
             return self.place;
@@ -120,7 +120,7 @@ impl RampPoint<'_> {
     /// The fraction collected from the ramp's start until here, in [`WHOLE`](crate::number::units::WHOLE).
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
-        let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.from_start());
+        let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.place_from_start());
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
@@ -128,9 +128,9 @@ impl RampPoint<'_> {
     /// next to it: what [`Series::at_pair`] loses of the terms from either end, twice, for the step of the search.
     // proofs/series.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
-        let from_start = self.from_start().hi;
+        let place_from_start = self.place_from_start().hi;
         let terms = |side: Side| {
-            let x = if side.is(Start) { from_start } else { LAST_PLACE - from_start };
+            let x = if side.is(Start) { place_from_start } else { LAST_PLACE - place_from_start };
             let c = self.ramp.mass_in_single(side);
             c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
         };

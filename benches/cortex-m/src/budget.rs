@@ -49,7 +49,6 @@ pub fn run() -> Result {
         series(&[Cdf, TickStep], &[0], On::Rows),
     ];
     let m4f = Measured::new(M4F, OPT_LEVEL, &m4f.concat())?;
-    if std::env::var("FAST").is_ok() { for f in [Schedule] { for r in [SOFT, ALL_RAMP, BOX] { println!("{f:?} {} {:?}", ROWS[r], m4f.on(f, r, DEFAULT).map(|ran| ran.cycles().mean)); } } let (w, p) = m4f.worst_direct(TickStep, DEFAULT).unzip(); println!("tick {w:?} {p:?} {:?}", m4f.on(TickStep, ALL_RAMP, DEFAULT).map(|r| r.cycles().mean)); return Ok(()); }
     let m0 = [
         series(&[InverseCdf, Cdf, Newton, Schedule], &[DEFAULT], On::Rows),
         series(&[InverseCdf, Cdf], &[0], On::Rows),

@@ -51,6 +51,7 @@ static void refusals(void)
         shutter_pulses(LEAF, 0.5f, 1000000, 100000, 0, 4, pulses),
         shutter_pulses(LEAF, 0.5f, 1000000, 0, 100000, 4, pulses),
         shutter_tick(LEAF, 1000000, 4, 4, ticks),
+        shutter_tick(LEAF, 1000000, UINT32_MAX, 4, ticks),
         shutter_schedule(LEAF, 1000000, 0, 0, NULL),
     };
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {

@@ -20,7 +20,8 @@ enum {
     SHUTTER_DUTY = -6,            /* duty is not above 0 and at most 1 */
     SHUTTER_PULSE_TOO_SHORT = -7, /* a pulse is shorter than min_pulse ticks */
     SHUTTER_NO_TRIGGER = -8,      /* the frame has no trigger i */
-    SHUTTER_OTHER = -9            /* what this header does not know yet */
+    SHUTTER_OTHER = -9,           /* what this header does not know yet */
+    SHUTTER_TOO_MANY = -10        /* a frame has at most 4194304 triggers */
 };
 
 typedef struct {

@@ -23,6 +23,7 @@ enum Error {
     PulseTooShort = -7,
     NoTrigger = -8,
     Other = -9,
+    TooMany = -10,
 }
 
 impl From<ScheduleError> for Error {
@@ -30,7 +31,7 @@ impl From<ScheduleError> for Error {
         match error {
             ScheduleError::TickRateZero => Self::RateZero,
             ScheduleError::TickRateTooHigh { .. } => Self::RateTooHigh,
-            ScheduleError::CapacityExceeded { .. } => Self::NoRoom,
+            ScheduleError::TooManyTriggers { .. } => Self::TooMany,
             ScheduleError::GapTooSmall { .. } => Self::Gap,
             ScheduleError::DutyOutOfRange => Self::Duty,
             ScheduleError::PulseTooShort { .. } => Self::PulseTooShort,
@@ -124,8 +125,8 @@ pub unsafe extern "C" fn shutter_pulses(
     let pulses = unsafe { places(pulses, n) };
     code(curve(speed).and_then(|curve| {
         let pulses = pulses.ok_or(Error::NoRoom)?;
-        let mut last = None;
-        for (place, (on, off)) in pulses.iter_mut().zip(curve.pulse_ticks(n, duty, timer_hz)?) {
+        let (frame, mut last) = (curve.pulse_ticks(n, duty, timer_hz)?, None);
+        for (place, shutter_curve::Pulse { on, off }) in pulses.iter_mut().zip(frame) {
             if off.wrapping_sub(on) < min_pulse {
                 return Err(Error::PulseTooShort);
             }

@@ -75,8 +75,8 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();
-        let curve =
-            steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.openness(t))));
+        let curve = steps(start, curve.close_end(), 100)
+            .map(|t| (unit.of(t), f64::from(curve.openness(t))));
         let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
         graph.draw_series(dashes)?;
         Ok(())

@@ -47,7 +47,7 @@ impl<'a> Frame<'a> {
             }
             Light::Doses(duty) => {
                 let pulses = self.curve.pulse_ticks(self.pulses, duty, TICK_HZ).unwrap();
-                pulses.map(|(on, off)| (on, off - on)).collect()
+                pulses.map(|pulse| (pulse.on, pulse.off - pulse.on)).collect()
             }
         };
         let (count, period) = self.frames;

@@ -1,7 +1,7 @@
 //! What makes it a controller that one would ship: the delay, the edge, several frames, doses, and settings that are saved.
 
 use serde_json::Value;
-use shutter_curve::ScheduleError;
+use shutter_curve::{Pulse, ScheduleError};
 use strobe::{CURVES, MIN_LOW, TICK_HZ};
 
 use crate::frame::{Frame, Light};
@@ -111,6 +111,6 @@ fn full(mut step: Value) -> Value {
 
 /// What the crate says of pulses with so small a pause.
 fn too_close(frame: Frame, duty: f32) -> ScheduleError {
-    let mut pulses = vec![(0, 0); frame.pulses as usize];
+    let mut pulses = vec![Pulse::default(); frame.pulses as usize];
     frame.curve.pulses_into(&mut pulses, duty, TICK_HZ, 2, MIN_LOW).unwrap_err()
 }

@@ -2,6 +2,8 @@
 
 use core::sync::atomic::{AtomicUsize, Ordering};
 
+use shutter_curve::Pulse;
+
 use crate::limits::MIN_LOW;
 
 /// One that can be planted.
@@ -59,10 +61,10 @@ fn planted() -> Option<Fault> {
 }
 
 /// Spoils the first `n` of the pulses, which have room for one more, and gives their new number.
-pub fn spoil(pulses: &mut [(u32, u32)], n: usize) -> usize {
+pub fn spoil(pulses: &mut [Pulse], n: usize) -> usize {
     let (Some(fault), true) = (planted(), n > SPOILED + 1) else { return n };
-    let moved = |(on, off): (u32, u32), by: u32| (on + by, off + by);
-    let (on, off) = pulses[SPOILED];
+    let Pulse { on, off } = pulses[SPOILED];
+    let moved = |by| Pulse { on: on + by, off: off + by };
     match fault {
         Fault::Lost => {
             pulses.copy_within(SPOILED + 1..n, SPOILED);
@@ -70,14 +72,14 @@ pub fn spoil(pulses: &mut [(u32, u32)], n: usize) -> usize {
         }
         Fault::Twice => {
             pulses.copy_within(SPOILED..n, SPOILED + 1);
-            pulses[SPOILED + 1] = moved((on, off), off - on + MIN_LOW);
+            pulses[SPOILED + 1] = moved(off - on + MIN_LOW);
             return n + 1;
         }
-        Fault::Early => pulses[SPOILED] = (on - 1, off - 1),
-        Fault::Late => pulses[SPOILED] = moved((on, off), 1),
+        Fault::Early => pulses[SPOILED] = Pulse { on: on - 1, off: off - 1 },
+        Fault::Late => pulses[SPOILED] = moved(1),
         Fault::Close => {
-            let before = pulses[SPOILED - 1].1 + MIN_LOW;
-            pulses[SPOILED] = (before, before + off - on);
+            let before = pulses[SPOILED - 1].off + MIN_LOW;
+            pulses[SPOILED] = Pulse { on: before, off: before + off - on };
         }
         Fault::Torn | Fault::Full | Fault::Save => (),
     }

@@ -1,6 +1,6 @@
 //! From settings to the words that the state machine reads.
 
-use shutter_curve::ScheduleError;
+use shutter_curve::{Pulse, ScheduleError};
 
 use crate::limits::{LATEST, LONGEST_FRAME, MIN_LOW, MIN_PULSE, MOST_PULSES, TICK_HZ};
 use crate::refused::Refused;
@@ -16,9 +16,6 @@ pub struct Frame {
     length: usize,
     edge: Edge,
 }
-
-/// When the lamp goes on and off, in ticks after the start of opening.
-type Pulse = (u32, u32);
 
 impl Frame {
     /// A frame that is yet to be planned.
@@ -40,7 +37,7 @@ impl Frame {
     /// Too many pulses, or pulses too close to each other or too late; the frame is empty then.
     pub fn plan(&mut self, settings: &Settings) -> Result<(), Refused> {
         self.length = 0;
-        let mut pulses = [(0, 0); LONGEST_FRAME + 1];
+        let mut pulses = [Pulse::default(); LONGEST_FRAME + 1];
         let n = settings.pulses as usize;
         let Some(planned) = pulses[..LONGEST_FRAME].get_mut(..n) else {
             let capacity = LONGEST_FRAME as u32;
@@ -61,7 +58,7 @@ impl Frame {
         let mut ready = 0;
         for frame in 0..u64::from(settings.frames.count) {
             let base = u64::from(settings.delay) + frame * u64::from(settings.frames.period);
-            for &(on, off) in &pulses[..n] {
+            for &Pulse { on, off } in &pulses[..n] {
                 let start = base + u64::from(on);
                 self.push(off - on - MIN_PULSE);
                 // Not more than 2³¹, for that was checked.
@@ -95,9 +92,9 @@ fn place(pulses: &mut [Pulse], settings: &Settings) -> Result<(), Refused> {
                 }
                 _ => Refused::Schedule(error),
             })?;
-            for (pulse, on) in pulses.iter_mut().zip(ticks) {
+            for (pulse, &mut on) in pulses.iter_mut().zip(ticks) {
                 // The last one may end beyond all ticks; no other does, for it keeps the gap.
-                *pulse = (*on, on.checked_add(length).ok_or(Refused::TooLate)?);
+                *pulse = Pulse { on, off: on.checked_add(length).ok_or(Refused::TooLate)? };
             }
             Ok(())
         }
@@ -113,16 +110,16 @@ fn check_frames(pulses: &[Pulse], settings: &Settings) -> Result<(), Refused> {
     let (Some(first), Some(last)) = (pulses.first(), pulses.last()) else { return Ok(()) };
     let frames = settings.frames;
     let after = u64::from(frames.count - 1) * u64::from(frames.period);
-    if u64::from(settings.delay) + after + u64::from(last.0) > LATEST {
+    if u64::from(settings.delay) + after + u64::from(last.on) > LATEST {
         return Err(Refused::TooLate);
     }
     let busy = match settings.light {
         Light::Equal(length) => {
-            u64::from(last.0) + u64::from(settings.gap).max(u64::from(length) + u64::from(MIN_LOW))
+            u64::from(last.on) + u64::from(settings.gap).max(u64::from(length) + u64::from(MIN_LOW))
         }
-        Light::Doses(_) => u64::from(last.1) + u64::from(settings.gap.max(MIN_LOW)),
+        Light::Doses(_) => u64::from(last.off) + u64::from(settings.gap.max(MIN_LOW)),
     };
-    let least = busy.saturating_sub(u64::from(first.0));
+    let least = busy.saturating_sub(u64::from(first.on));
     match frames.count > 1 && u64::from(frames.period) < least {
         true => Err(Refused::Overlap { least }),
         false => Ok(()),

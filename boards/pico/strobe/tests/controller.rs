@@ -51,7 +51,7 @@ fn expected(settings: &Settings) -> Vec<(u64, u64)> {
         }
         Light::Doses(duty) => {
             let pulses = curve.pulse_ticks(n, duty, TICK_HZ).unwrap();
-            pulses.map(|(on, off)| (on.into(), off.into())).collect()
+            pulses.map(|pulse| (pulse.on.into(), pulse.off.into())).collect()
         }
     };
     let Frames { count, period } = settings.frames;
@@ -147,7 +147,7 @@ fn doses_are_equal() {
         let dose = curve.cdf(time(off)) - curve.cdf(time(on));
         assert!((dose - 0.3 / 20.0).abs() < 1e-5, "{dose}");
     }
-    let touching = ScheduleError::GapTooSmall { trigger: 1, gap: 0, min_gap: MIN_LOW };
+    let touching = ScheduleError::PulsesTooClose { pulse: 1, gap: 0, min_gap: MIN_LOW };
     assert_eq!(refusal(&["gap 0ns", "duty 1"]), Refused::Schedule(touching));
     assert!(matches!(
         refusal(&["gap 0ns", "duty 1e-6"]),
