@@ -25,9 +25,9 @@ const IN_U: [&str; 10] = [
     "ramps of 1e-6 beside a plateau of 1",
     "times from -1 to 1",
 ];
-/// For the cdf and the openness; the opening ramp of the last runs across time 0.
+/// For the cdf and the openness; the last is of the class on which it stepped back.
 const IN_TIME: [&str; 4] =
-    ["rman_soft", "time stands still inside", "openness touches 0 inside", "cross_zero"];
+    ["rman_soft", "time stands still inside", "openness touches 0 inside", "a join before time 0"];
 
 /// Below this, no octave serves, whatever their number.
 const LOWEST_OCTAVE: f32 = 1.0 / (1 << 20) as f32;

@@ -218,6 +218,12 @@ const KNOWN: &[Case] = &[
         [(-1.0, 0.0), (-0.8, 0.0), (-0.7, 1.0), (-0.5, 1.0)],
         [(0.5, 1.0), (0.7, 1.0), (0.8, 0.0), (1.0, 0.0)],
     ),
+    // Here a cdf stepped back: the closing ramp begins at its join with the other one, and runs across time 0.
+    Case::new(
+        "a join before time 0",
+        [(-3.42, 0.0), (-1.89, 0.0), (-1.89, 1.0), (-0.36, 1.0)],
+        [(-0.36, 1.0), (1.395, 1.0), (1.395, 0.0), (3.15, 0.0)],
+    ),
     Case::new(
         "an interval of 2^-64",
         line((0.0, 0.0), (0.25 * LEAST, 1.0)),
