@@ -1,11 +1,8 @@
-//! The exposure: a ramp, a plateau and a ramp, with one area over all three, and the inverse, to 2⁻²⁶ or 2⁻⁴⁰.
+//! The exposure: two ramps and the plateau between them, one area over all three, and the moment of a fraction.
 //!
-//! Fractions of the exposure are counted from the nearer end of the curve: from side 0, the earlier end, `a = u`; from
-//! side 1, the later end, back in time, `a = 1 - u`, which is exact for `u >= 1/2`. The ramp at that end is the *near*
-//! ramp, the other one the *far* ramp; of a ramp, the end of the curve is the *outer* end, the one at the plateau the
-//! *inner* end. A fraction `a` of at most 1/2 lies on the near ramp, on the plateau, or on the far ramp, and what is
-//! sought there is never more than `a`. So what measuring loses, relative to what is sought, is as little relative to `a`,
-//! and so is the error that is asked for. A mirrored curve gives mirrored times.
+//! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau or on
+//! the far ramp, and the part of it that is sought there is never more than `a`. So what measuring loses of that part is as
+//! little of `a`, next to either end. A mirrored curve gives mirrored times.
 
 use crate::error::{CurveError, Part};
 use crate::fraction::Side;
@@ -16,10 +13,10 @@ use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::{Shape, check_finite, check_ramp};
 
-/// The error of a search for an `f32` fraction, relative to it: a quarter of the least distance between neighbours, so
-/// that these keep their order.
+/// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which so
+/// keep their order.
 pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
-/// For a fraction with more bits, as ticks have them, and where a `cdf` is settled.
+/// The error of the inverse that decides a cdf: far below the noise of a measured mass.
 pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +31,12 @@ pub(crate) struct Exposure {
 /// Where a fraction is collected.
 enum Section {
     Plateau(Moment),
-    /// On a ramp, with what is to be collected there, in [`WHOLE`].
+    /// The ramp at a side, and the fraction to be collected there, in [`WHOLE`].
     Ramp(Side, Pair),
 }
 
 impl Exposure {
-    /// The exposure of two ramps and what is between them. Out of line, so that all constructors that are called at run
-    /// time share it.
+    /// Checks both ramps, and integrates them. Out of line: all constructors share it.
     #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
@@ -75,7 +71,7 @@ impl Exposure {
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
-        // It is at most as great as an interval, so only too small; the reciprocal of a normal one is normal, too.
+        // At most 2⁶⁴, so its reciprocal is normal if it is.
         if !(area as f32).is_normal() {
             return Err(CurveError::AreaOutOfRange);
         }
@@ -84,18 +80,17 @@ impl Exposure {
         Ok(Self { ramps, plateau, area })
     }
 
-    /// A ramp by its index, which is 0 or 1: that the compiler sees it spares a check that could panic.
     #[inline(always)]
     pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
         &self.ramps[side as usize]
     }
 
-    /// The time of the curve's end at a side, from which that side counts.
+    /// The time of the curve's end at a side.
     pub(crate) const fn end(&self, side: Side) -> f32 {
         self.ramp(side).time(side)
     }
 
-    /// The time at which the ramp at a side meets the plateau.
+    /// The time of the join of the ramp at a side.
     pub(crate) const fn join(&self, side: Side) -> f32 {
         self.ramp(side).time(side.other())
     }
@@ -104,16 +99,15 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side; with an `error`
-    /// relative to it.
+    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side, within `error · a`.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
             Section::Plateau(moment) => moment,
             Section::Ramp(ramp, target) => {
-                // One address instead of the curve's and an index, which the search would keep on the stack.
+                // One address, or the search keeps the curve's and an index on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
-                // Wanted; and accepted where the step is less than an ulp.
+                // The error that is wanted, and the one that is accepted once a step is below an ulp.
                 ramp.at_mass(side, target, [error * a.hi, INVERSE_ERROR * a.hi])
             }
         }
@@ -126,8 +120,8 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
-        // If the two nearly cancel, the second number may be the greater one. Multiplied below, it is rounded to 2⁻²⁴
-        // of itself, which is some 2⁻⁴⁸ of `a`. No script proves that.
+        // If the two nearly cancel, the second number may be the greater one: the product below then loses 2⁻²⁴ of it,
+        // some 2⁻⁴⁸ of `a`. No script proves that.
         let past_near = a.minus_loose(near);
         let past_plateau = past_near.minus(self.plateau);
         if past_plateau.rounded() > 0.0 {
@@ -139,8 +133,8 @@ impl Exposure {
         Section::Plateau(Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 })
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Each join divides the exposure, and is
-    /// computed from the lesser of the two parts, which has more bits. So without a plateau both are one number.
+    /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two parts
+    /// into which it divides the exposure. So without a plateau both are one number.
     #[inline(never)]
     pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;

@@ -1,5 +1,8 @@
-//! The exposure by time: where a time lies on the curve, the openness there, its density, and the fraction collected
-//! until then.
+//! From a time: the openness, the density, and the cdf.
+//!
+//! A cdf is the mass that is collected until the place at which the time is reached. It is measured from the ramp's start,
+//! so all of it are sums. Where the computed noise of that measurement reaches the middle of two `f32`, the inverse's time
+//! of the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
 
 use crate::exposure::{CDF_ERROR, Exposure};
 use crate::fraction::Side::{self, End, Start};
@@ -29,7 +32,7 @@ impl Exposure {
         } else if open < close {
             At::Plateau
         } else {
-            // The instant of both inner ends is on the opening ramp if that has length, else on the closing one.
+            // The join of both ramps is on the opening one, if that has length.
             At::Ramp(Side::end_if(start == open))
         }
     }
@@ -54,7 +57,7 @@ impl Exposure {
     /// The fraction of the exposure collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        // First, so that what becomes the join of two ramps is answered as the join is.
+        // The section is asked for again, since a time may become that of a join.
         let t = match self.at(t) {
             At::Ramp(ramp) => self.ramp(ramp).on_grid(t),
             _ => t,
@@ -67,11 +70,11 @@ impl Exposure {
         }
     }
 
-    // Out of line, so that a ramp's way saves no registers for it.
+    // Out of line: a ramp's way saves no registers for it.
     #[inline(never)]
     fn cdf_on_plateau(&self, t: f32) -> f32 {
         let (area, exponent) = significand(self.area);
-        // Scaled first: the way may be subnormal, and a quotient of that has too few bits.
+        // Scaled first: a quotient of a subnormal way has too few bits.
         let way = Pair::sum(t, -self.join(Start)).shifted(WHOLE_EXPONENT - exponent);
         self.nearest(t, self.ramps[0].share.plus(way.over(area)), |_| 0.0)
     }
@@ -85,20 +88,17 @@ impl Exposure {
         self.nearest(t, mass, |side| point.noise(side))
     }
 
-    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, the inverse
-    /// decides: times before that of the middle get the lesser `f32`, all others the greater one. (A subnormal answer is
-    /// rounded once more.)
+    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, times before
+    /// the middle's get the lesser `f32`, all others the greater one. (A subnormal answer is rounded once more.)
     ///
-    /// So the cdf never steps back, not even where next to no light falls and neighbouring times have the same mass but
-    /// for its rounding. `noise` is by the side from which the inverse counts.
-    // docs/proofs.md: `cdf` never steps back
+    /// `noise` bounds the error of the measurement and of the inverse, by the side from which that counts.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();
         if nearest <= 0.0 {
             return 0.0;
         }
-        // How far the mass is from the nearest `f32`, and that from the next one on the mass's side.
+        // mass = nearest + rest, and the middle is nearest + half, on the side of rest.
         let rest = (mass.hi - nearest) + mass.lo;
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
@@ -116,7 +116,7 @@ impl Exposure {
         if cdf < WHOLE { cdf / WHOLE } else { 1.0 }
     }
 
-    /// The time by which a mass, in [`WHOLE`], has been collected, found from a side.
+    /// The time by which a mass, in [`WHOLE`], has been collected, counted from a side.
     #[cold]
     #[inline(never)]
     fn time_of(&self, side: Side, mass: Pair) -> f32 {

@@ -1,24 +1,20 @@
-//! How one `u` is answered. The plateau's line or an octave's polynomial gives the time as a 64-bit count of units,
-//! which is rounded once. Where neither serves, a search finds it. A curve holds one plan.
+//! From a fraction of the exposure to its time.
 //!
-//! The way of a `u` through [`Plan::inverse_cdf`], with the file of each step:
+//! The steps of [`Plan::inverse_cdf`], with the file of each:
 //!
-//! 1. If `u` is on the plateau, and above 1/512, the line `t = base + A u` gives the time. Go to 10.
-//! 2. The nearer end of the curve is its *side*, 0 or 1, and `a = min(u, 1 - u)` is counted from there.
-//! 3. If `a` falls into an octave with a polynomial ([`octave`]), that gives the time. Go to 10.
-//! 4. Else `a` becomes a pair of two `f32` ([`pair`](crate::number::pair)).
-//! 5. The section in which `a` is collected ([`exposure`](crate::exposure)): on the plateau that is the time. Go to 10.
-//!    Else the ramp, and how much of `a` is collected there.
-//! 6. That ramp, seen from the end that faces the side ([`ramp`](crate::ramp)).
-//! 7. The nearest of four places on it from which a search may start, its *anchors*.
+//! 1. On the plateau, from `u = 1/512` on, the time is on a line: `t = base + A u`. Go to 10.
+//! 2. Else the fraction is counted from the nearer end of the curve, its *side*: `a = min(u, 1 - u)`.
+//! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
+//! 4. Else a search begins: `a` becomes a pair of `f32` ([`pair`](crate::number::pair)).
+//! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
+//! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
+//! 7. The search starts from the nearest of four places on it, the *anchors*.
 //! 8. A root of the leading term there is the first guess ([`guess`](crate::search::guess)).
-//! 9. Halley's steps, what is then missing in pairs, and one step for that, with a proof ([`solve`](crate::search)).
+//! 9. Halley's steps, what they miss in pairs, and a last step with a bound of its error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
-//! **Order.** A greater `u` never has an earlier time. On the line the time is a product rounded down. A polynomial's
-//! error is below half of the distance between neighbours, also where octaves meet; each has a certificate of that
-//! ([`certificate`](crate::octave::certificate)). A search's is below a quarter of that distance if its step was accepted, so
-//! the order holds where a search follows a polynomial or the line.
+//! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of the
+//! distance between neighbours, or a quarter for a search (docs/proofs.md, "An octave's certificate", 7).
 
 use crate::error::CurveError;
 use crate::exposure::{Exposure, INVERSE_ERROR};
@@ -38,29 +34,33 @@ use crate::ramp::shape::Shape;
 pub(crate) struct Plan<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
     /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
-    pub(crate) scale: f32,
-    /// Seen from each side: the last fraction before the far ramp, by the bits of its `f32` (without a plateau, too: it
-    /// tells the ramps apart), and how many up to it are on the plateau's line.
-    pub(crate) last_before_far: [u32; 2],
-    pub(crate) on_line_count: [u32; 2],
+    scale: f32,
+    /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
+    last_before_far: [u32; 2],
+    /// By side: the number of `f32` up to that one, included, that are on the plateau's line.
+    on_line_count: [u32; 2],
     /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
     base: i64,
-    pub(crate) slope: i64,
-    /// For each side, the tops of its octaves by ramp. The near ramp's is raised by one octave for each of the far
-    /// ramp's, so that a difference to a top is an index among both ([`build::build`]).
-    pub(crate) tops: [[u8; 2]; 2],
-    /// For each side, the octaves of `a`: those of the far ramp, then those of the near one, the widest first.
-    pub(crate) octaves: [[Octave; OCTAVES]; 2],
+    slope: i64,
+    /// By side: the top of the octaves of the ramp at the start, and of the one at the end. That of the near ramp is
+    /// raised by one octave for each of the far ramp's, so that `(top - a) >> 23` indexes `octaves`:
+    ///
+    /// ```text
+    /// octaves of a side      far 0    far 1    near 0   near 1   near 2
+    /// serves (top/2, top]    0.5      0.25     0.19     0.09     0.05
+    /// stored top             far 0.5           near 0.19, times 2² = 0.75
+    /// ```
+    tops: [[u8; 2]; 2],
+    /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
+    octaves: [[Octave; OCTAVES]; 2],
 }
 
 impl<const OCTAVES: usize> Plan<OCTAVES> {
-    /// The plan of two ramps and what is between them.
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
     ) -> Result<Self, CurveError> {
-        // A fraction of 0 has to fall into no octave: by its bits, it is 99 octaves or more below every top. (Only
-        // about 30 octaves a side can have a polynomial.)
+        // A fraction of 0 has no octave: by its bits it is 99 octaves or more below every top.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let exposure = match Exposure::new(opening, closing) {
             Ok(exposure) => exposure,
@@ -83,17 +83,16 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
         if plan.exposure.has_plateau() {
-            // The line at `u = 0` and at `u = 1`: as if the shutter opened and closed at once, with the same exposure.
+            // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // Too coarse a line does not serve, and then nothing may: without it, fractions of the plateau would be looked
-            // up in a ramp's octaves, whose top lies beyond the ramp's end.
+            // Without a line nothing may be direct: a fraction on the plateau would be looked up in a ramp's octave.
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
             }
             let mut side = 0;
             while side < 2 {
-                // 1 itself has the exact end.
+                // Below 1, which has the exact end.
                 let before_end = 1.0f32.to_bits() - 1;
                 let last = if plan.last_before_far[side] < before_end {
                     plan.last_before_far[side]
@@ -108,7 +107,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             }
         }
         let mut side = 0;
-        // `OCTAVES > 0` lets the compiler leave the building out where there are no octaves.
+        // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut plan.octaves[side];
             plan.tops[side] =
@@ -118,10 +117,9 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         Ok(plan)
     }
 
-    /// Has a line with this slope enough bits? If a curve with a plateau is so far from time 0, or so dark for its
-    /// length, that its area is less than 2⁴⁰ units, every `u` is searched for. From there on an error of a few units is
-    /// less than 2⁻⁶ ulp of the least `u` on the line.
-    pub(crate) const fn is_fine(slope: i64) -> bool {
+    /// Has a line with this slope enough bits? From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the least
+    /// `u` on the line. A curve with less is far from time 0, or dark for its length, and all of it is searched.
+    const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
 
@@ -135,12 +133,12 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         fixed(self.exposure.end(side), self.unit())
     }
 
-    /// The time by which the fraction `u` of the exposure has been collected: the start for `u <= 0` and NaN, the end for
-    /// `u >= 1`.
+    /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// The early return keeps register saves off the plateau (68 -> 42 cycles).
+    /// The early return keeps register saves off the plateau: 68 -> 42 cycles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
+        // until_far < on_line_count: on the line. Bit 31 set: on the far ramp, or 2²⁹ and more for `u < 0` and NaN.
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));
@@ -160,23 +158,22 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         time * scale
     }
 
-    /// A time near 0, rounded once.
+    /// A time of fewer than 26 bits in its upper word, rounded once.
     // proofs/words.py
     #[inline(always)]
     fn rounded_near_0(&self, time: i64) -> f32 {
-        // A time of one word is moved up by 31 first, which keeps the sign.
+        // A time of one word moves up by 31, which keeps its sign.
         let sign = (time >> 63) as i32;
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // Moved up until the upper word is full; scaled in two steps, because one power of two may not be a normal
-        // number.
+        // Then up until the upper word is full; back in two steps, since one power of two may not be a normal number.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
-    /// The same, for the plateau, which seldom needs it.
+    /// For the plateau, which seldom needs it.
     #[cold]
     #[inline(never)]
     fn rounded_near_0_apart(&self, time: i64) -> f32 {
@@ -210,7 +207,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     #[inline(always)]
     const fn by_octave(&self, side: Side, bits: u32, ramp: Side) -> Option<i64> {
         match self.look_up(side, ramp, bits) {
-            // Asked for here, or the compiler would load all coefficients at once, into registers that it has to save.
+            // Asked for here, or the compiler saves registers to load all coefficients at once.
             Some((octave, position)) if octave.exists() => {
                 Some(octave.time(octave.offset(position)))
             }
@@ -229,26 +226,25 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         if a > 0.0 {
             self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR)
         } else {
-            // The end itself, though no light may fall there.
+            // Of 0: the end itself, though no light may fall there.
             Moment::at(self.exposure.end(side))
         }
     }
 
-    /// The side from which `u` is counted, and the bits of `min(u, 1 - u)`. Outside [0, 1] and for NaN they are those
-    /// of no octave, and of no number above 0.
+    /// The side from which `u` is counted, and the bits of `a = min(u, 1 - u)`; outside [0, 1] and for NaN, bits of no
+    /// octave and of no number above 0.
     ///
-    /// By integers, because a processor waits for a comparison of floats. Without a branch, because the side is
-    /// unpredictable.
+    /// Integers, since a comparison of floats waits; no branch, since the side is unpredictable.
     #[inline(always)]
     pub(crate) fn nearer(u: f32) -> (Side, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
-        // Signed, so that a negative `u` does not count as late.
+        // Signed: a negative `u` is not late.
         let is_late = bits as i32 > 0.5f32.to_bits() as i32;
         (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The octave of an `a` with these bits on a ramp, and its position ([`Octave::offset`]). There is none for 0,
-    /// outside [0, 1] and for NaN.
+    /// The octave of an `a` with these bits on a ramp, and its position there ([`Octave::offset`]). None for 0, outside
+    /// [0, 1] and for NaN.
     #[inline(always)]
     pub(crate) const fn look_up(
         &self,
@@ -263,9 +259,11 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             return None;
         }
         let octave = &self.octaves[side as usize][index];
-        // `top - bits` borrowed from the exponent just where the exclusive or of bit 23 of `top`, `bits` and `below` is
-        // 1: then `a` is in the lower of the two binades. That, in the place of bit 23 of `bits`, becomes the sign; the
-        // shift drops the rest of the exponent.
+        // A position counts from the power of two in the octave, so its sign says whether `a` is below that. It is where
+        // `top - bits` borrows from the exponent: where bit 23 of top ^ bits ^ below is 1. In the octave (0.1875, 0.375]:
+        //   top    0.375   0 01111101 100...
+        //   bits   0.3     0 01111101 00110...   no borrow: above 1/4, the position is 0.2 · 2³¹
+        //   bits   0.2     0 01111100 10011...   a borrow: below, the position is -0.2 · 2³²
         let borrowed = bits ^ (top ^ below) & 1 << 23;
         Some((octave, (borrowed << 8) as i32))
     }
@@ -279,21 +277,15 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         self.base.wrapping_add(way as i64)
     }
 
-    /// [`inverse_cdf`](Self::inverse_cdf) by a search: the start for `u <= 0` and NaN, the end for `u >= 1`.
-    ///
-    /// Out of line, so that the direct way saves no registers for it. It returns bits, because a call that returned the
-    /// answer itself would become a tail call, which is a second return of the ramp's way.
+    /// [`inverse_cdf`](Self::inverse_cdf) by a search. Out of line: direct answers save no registers for it. It returns
+    /// bits: a tail call would be a second return for the ramps.
     #[cold]
     #[inline(never)]
     fn searched(&self, u: f32) -> u32 {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
-        let time = if a > 0.0 {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR).time()
-        } else {
-            self.exposure.end(Side::end_if(u >= 1.0))
-        };
-        time.to_bits()
+        let side = if a > 0.0 { side } else { Side::end_if(u >= 1.0) };
+        self.searched_moment(side, a).time().to_bits()
     }
 
     /// Is no search needed for `u`?
@@ -307,11 +299,10 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
     pub(crate) fn evaluations(&self, u: f32) -> u32 {
         let (side, bits) = Self::nearer(u);
-        let a = f32::from_bits(bits);
-        if a > 0.0 && !self.is_direct(u) {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR).evaluations
-        } else {
+        if self.is_direct(u) {
             0
+        } else {
+            self.searched_moment(side, f32::from_bits(bits)).evaluations
         }
     }
 
@@ -329,7 +320,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         if least <= far { self.least_served(side, side, least) } else { least }
     }
 
-    /// The same after one ramp's octaves, if it holds above `least` without them.
+    /// What [`least_direct`](Self::least_direct) is with one ramp's octaves, if it is `least` without them.
     const fn least_served(&self, side: Side, ramp: Side, mut least: f64) -> f64 {
         let part = build::range(&self.exposure, side, ramp);
         let top = octave::top(self.tops[side as usize][ramp as usize]);
@@ -355,10 +346,9 @@ const fn in_words(bits: u32) -> u32 {
     (bits << 8 | 1 << 31) >> (shift & 31)
 }
 
-/// The upper word of a time, to be converted instead of both.
-///
-/// A small processor converts 32 bits, not 64. An `f32` keeps 24, and rounds by the next. If the upper word has 26 or
-/// more, from 2²⁵ on, all that counts of the lower one is whether it is 0: a *sticky bit*. None where it has fewer.
+/// The upper word of a time, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64.
+/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it is
+/// 0: the *sticky bit*.
 // proofs/words.py
 #[inline(always)]
 fn upper_word(time: i64) -> Option<i32> {
