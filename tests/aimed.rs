@@ -4,10 +4,12 @@
 
 mod support;
 
+use shutter_curve::CubicBezier;
 use support::aimed::{FAMILIES, aimed};
-use support::curves::Rng;
+use support::cases::shutter;
+use support::curves::{Rng, is_valid};
 use support::oracle::{Curve, Dd, Exact, exp2};
-use support::promise::Figures;
+use support::promise::{BACKWARD, Figures};
 
 const SEED: u64 = 13;
 /// Of each family; together they take half a minute on one core.
@@ -116,4 +118,60 @@ families! {
     grazing: 9,
     next_to_no_light: 10,
     anything_hard: 11,
+}
+
+/// A ramp that is darkest at its join with the plateau, or with a bright ramp, is answered by an octave only while an error
+/// next to the join cannot lead far into the light beyond. The openness at the join is the least that an octave takes.
+#[test]
+fn ramps_that_are_darkest_at_their_join() {
+    let mut rng = Rng::new(39, 0);
+    let (mut judged, mut worst) = (0, 0.0f64);
+    for i in 0..1000 {
+        // Around a curve on which the error is greatest at the join itself.
+        let mut near = |x: f64| x * rng.between(0.7, 1.3);
+        let times = [0.0705, 0.5505, 0.6501, 1.0743].map(&mut near);
+        let opennesses = [1.0 / 3.0, 1.0, 0.75].map(|f| near(f).min(1.0));
+        let with = |dark: f64| {
+            let [f1, f2, f3] = opennesses;
+            let f = [dark, f1, f2, f3];
+            let closing = std::array::from_fn(|k| (times[k] as f32, f[k] as f32));
+            // Bright until the join: a box and a plateau, or a ramp alone.
+            let opening = if i % 3 == 0 {
+                [(0.0, 1.0); 4]
+            } else {
+                CubicBezier::line((-0.5 * times[0] as f32, 1.0), (times[0] as f32, 1.0)).points()
+            };
+            Curve::shutter(opening, closing)
+        };
+        let is_direct = |dark: f64| {
+            let join = Exact::new(&with(dark)).landmarks()[1].to_f32();
+            let ours = shutter::<8>(&with(dark));
+            [1, 2, 3].iter().all(|k| ours.is_direct(f32::from_bits(join.to_bits() + k)))
+        };
+        let (mut low, mut high) = (1e-6, 0.3);
+        if !is_valid(&with(low)) || !is_valid(&with(high)) || is_direct(low) || !is_direct(high) {
+            continue;
+        }
+        for _ in 0..20 {
+            let middle = (low * high).sqrt();
+            *(if is_direct(middle) { &mut high } else { &mut low }) = middle;
+        }
+        for curve in [with(high), with(high).mirrored()] {
+            let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+            for landmark in &exact.landmarks()[..2] {
+                let mut last = f32::NEG_INFINITY;
+                let bits = landmark.to_f32().to_bits();
+                for u in (bits.saturating_sub(60)..=bits + 60).map(f32::from_bits) {
+                    let t = ours.inverse_cdf(u);
+                    let errors = exact.judge(u, t);
+                    assert!(errors.backward <= BACKWARD, "{u:e}: {errors:?}, {curve:?}");
+                    assert!(t >= last, "a step back at {u:e}, {curve:?}");
+                    (last, worst) = (t, worst.max(errors.backward));
+                }
+            }
+        }
+        judged += 1;
+    }
+    println!("{judged} ramps, at most {worst:.3} ulp");
+    assert!(judged > 100, "only {judged}");
 }
