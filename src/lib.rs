@@ -32,6 +32,7 @@
 // Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time to its
 // fraction, `trigger/ticks.rs` what makes ticks of times. Each folder needs only those above it:
 //
+// fraction  an end of the curve, and a fraction counted from it
 // number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
 // search    where a polynomial reaches a target, and the proof that it does
 // ramp      one Bezier: what makes it a ramp, its mass and time from either end, when a mass has been collected
