@@ -9,6 +9,7 @@ use support::cases::shutter;
 use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
 use support::oracle::{Curve, Exact, Points, ulp_f32};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
+use support::times;
 
 /// On typical curves, in ulp of t.
 const FORWARD: f64 = 0.69;
@@ -147,12 +148,12 @@ fn hard() {
     hard_curves::<64>();
 }
 
-/// 10⁵ fresh curves, which nothing was tuned on, with a dozen hard `u` each and a few that are random.
+/// Fresh curves, 10⁵ in CI, which nothing was tuned on, with a dozen hard `u` each and a few that are random.
 #[test]
 fn random_hard_curves() {
     let mut worst = Worst::default();
     let mut histogram = [0u64; MAX_EVALUATIONS as usize + 1];
-    for i in 0..100_000 {
+    for i in 0..25_000 * times() {
         let exact = Exact::new(&random_hard(2026, i));
         let mut rng = Rng::new(11, i);
         let all = hard_us(&exact, i, 8);

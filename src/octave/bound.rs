@@ -1,36 +1,28 @@
-//! A bound of a polynomial's error over all of an octave, not at samples alone.
+//! The greatest error of a polynomial on a stretch, bounded from samples.
 //!
-//! Along a stretch of a ramp the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of the place `s`, from -1 to
-//! 1: the offset `x` has degree 6, `Q` has degree 8 in that, and the time `t` has degree 3. With the openness `f`
-//! beside it, `R f` is the error in exposure, of degree 51. Nothing is inverted for it, and where time has a kink over
-//! exposure, these polynomials have none.
+//! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`:
+//! the offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. With
+//! the openness `f` beside it, `R f` is the error in exposure, of degree 51, but with little above degree 12.
 //!
-//! **The bound** (Ehlich and Zeller 1964). A polynomial of degree `n` is nowhere on [-1, 1] greater than `1 / cos(n π /
-//! 2N)` times its greatest value at the N + 1 Chebyshev-Lobatto points. What `R` has beyond degree `n` is at most `2 M
-//! ρ⁻ⁿ / (ρ - 1)`, where `M` bounds it on the ellipse with the foci -1 and 1 and the half axes `(ρ ± 1/ρ) / 2`. What
-//! has a degree of at most `n` may be taken away first: `t`, `c₁ x`, and `Q(x₀ + x₁ s)`. So with `Y₁ =
-//! |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`, where `A` is the greater half axis, `M = Σ |c_k| (Y^k - Y₁^k)` from `k = 2`
-//! on is enough, and for `R f` that times `Σ |f_k| A^k`.
+//! A polynomial of degree `n` is nowhere greater than its greatest value at the N + 1 points `cos(k π / N)`, over
+//! `cos(n π / 2N)` (Ehlich and Zeller 1964). For `n = 12` that is 1.41 times the greatest of 25 samples, or 1.02 times
+//! that of 97. What `R` has above degree `n` is at most a *tail*, by a bound on an ellipse around [-1, 1] ([`bends`]).
+//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/proofs.md, "An octave's certificate", 3 and 4.
 //!
-//! Each sample goes the answer's own way, from the position of a fraction to the polynomial's value in 32 bits, so that
-//! nothing is certified but what is served. Its rounding is known and is counted twice, in the samples and between
-//! them. All else may be in `f32`, whose rounding [`SLACK`] makes up for, or in integers.
-//!
-//! docs/proofs.md leads from this to what an answer is off by.
+//! Samples go the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
 use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
 
-/// The greatest N: there is one point more. And the cosine of π/N.
+/// The greatest N, and `cos(π / N)`.
 const POINTS: usize = 96;
 const COSINE: f64 = 0.9994645874763657;
 
-/// A bound is tried with so many efforts, the cheapest first: with every fourth point, every second, and all.
+/// The number of efforts: with every fourth point, every second, and all.
 pub(crate) const EFFORTS: usize = 3;
 
-/// The cosines of i π/N, from 1 down to 0. Each follows from the two before it. They count 2⁻³⁰, as samples' places do.
-// proofs/certificate.py
+/// `cos(i π / 96)` for `i` from 0 to 48, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
 const COSINES: &[i32; POINTS / 2 + 1] = &{
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() {
@@ -40,11 +32,11 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
     }
     cosines
 };
-/// The place 1.
+/// The place 1: the place of a sample, an `s`, counts 2⁻³⁰.
 const PLACE: f32 = (1 << 30) as f32;
 
-/// For each ellipse `A`, `1/ρ²` and `2 ρ⁻¹² / (ρ - 1)`, where 12 is the least degree that is tried: `Q(x₀ + x₁ s) f`
-/// has degree 11, so it may be taken away first. The ellipses, and the degrees below, were found by trial: any would do.
+/// `[A, 1/ρ², 2 ρ⁻¹² / (ρ - 1)]`: an ellipse's greater half axis; a tail's factor for two degrees more; the tail for
+/// degree 12 and a bound of 1. Ellipses and degrees were found by trial: any would do.
 const ELLIPSES: [[f32; 3]; 6] =
     [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 
@@ -54,7 +46,7 @@ const fn ellipse(rho: f32) -> [f32; 3] {
     [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)]
 }
 
-/// Half of the least degree, and how many degrees are tried, each greater by 2.
+/// Half of the least degree, and the number of degrees, two apart.
 const HALF_DEGREE: usize = 6;
 const DEGREES: usize = 7;
 
@@ -62,33 +54,30 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The products of the error with cubics: with 1, which is the error itself, with the openness, and with a bound of the
-/// time's reciprocal.
+/// The errors that are bounded: `R` times three *weights*, cubics of `s`. They are 1, for the error in time, the
+/// openness, for that in exposure, and a bound of 1 / size, for that relative to the time.
 pub(crate) const KINDS: usize = 3;
 
-/// The greatest errors: what they are at least, by the samples, and at most.
+/// The greatest errors: at least, by the samples, and at most.
 pub(crate) struct Errors {
     pub(crate) least: [f32; KINDS],
     pub(crate) most: [f32; KINDS],
 }
 
-/// A sample's fraction counts 2⁻²⁰ of a position, and its time 2⁻²⁴ of a coefficient's 1.
+/// A sample's fraction counts 2⁻²⁰ of a position, its time 2⁻²⁴ of the coefficients' unit.
 const FRACTION_BITS: i32 = 20;
 const TIME_BITS: i32 = 24;
-/// What the time of a sample loses at most, in the unit of the coefficients, by three products and by four numbers cut.
-// proofs/certificate.py
+/// What a sample's time loses at most, by three products and four numbers that are cut (`proofs/certificate.py`).
 pub(crate) const SAMPLE_OFF: f32 = 7.0 / (1 << TIME_BITS) as f32;
 
-/// A stretch as samples are taken from it: in integers, because a processor without doubles takes ten times as long for
-/// those.
+/// A stretch in integers, which take a tenth of the time where doubles are emulated.
 pub(crate) struct Sampled {
     fraction: [i64; 7],
     time: [i64; 4],
 }
 
 impl Sampled {
-    /// A stretch whose fraction counts as a position does, and whose time in the unit of the coefficients. None if it
-    /// has greater numbers than any that is served, or a NaN.
+    /// Of a stretch as a certificate has it. None for a NaN, and for numbers greater than those of any served stretch.
     pub(crate) const fn new(along: &Path) -> Option<Self> {
         let (mut fraction, mut time) = ([0; 7], [0; 4]);
         let is_sampled = count(&along.fraction, FRACTION_BITS, &mut fraction)
@@ -97,7 +86,7 @@ impl Sampled {
     }
 }
 
-/// Coefficients in units of `2^-bits`. Are all below 2⁶⁰ units, so that no value on the stretch is beyond 2⁶³?
+/// Counts coefficients in units of `2^-bits`. Are all below 2⁶⁰ units, so that no value on the stretch is beyond 2⁶³?
 #[inline(never)]
 const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     let (mut are_counted, mut k) = (true, 0);
@@ -109,7 +98,7 @@ const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     are_counted
 }
 
-/// The value at a place, in 2⁻³⁰. Each step rounds down, and as no place is beyond ±1, nothing that is lost grows.
+/// The value at a place, in 2⁻³⁰. Each product is rounded down; as |place| <= 1, a loss does not grow.
 #[inline(never)]
 pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     let (mut value, mut c) = (0, c);
@@ -122,8 +111,8 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// The errors of an octave's polynomial along a stretch. Samples are wrong by at most `noise`. For the tails, `x` has
-/// the coefficients of the offset by powers of `s`, in single precision.
+/// The greatest errors along a stretch: `R`, in the unit of the coefficients, times each weight. `x` is the offset in
+/// widths. Samples are off by at most `noise`. The effort counts from 0.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -136,9 +125,9 @@ pub(crate) const fn errors(
     let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
-        // At this cosine and at its negative.
+        // At the cosine and at its negative.
         loop {
-            // The nearest position, in 2⁻³² throughout, as if doubled where it has to be. It wraps as positions do.
+            // The nearest position; it wraps.
             let half = 1 << (FRACTION_BITS - 1);
             let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
             let value = octave.polynomial(octave.ahead_of_center(position));
@@ -175,7 +164,7 @@ pub(crate) const fn errors(
     found
 }
 
-/// The bound that follows from the greatest sample, by the best ellipse and degree.
+/// The bound that follows from the greatest sample `seen`, of every `step`-th point, by the best ellipse and degree.
 #[inline(never)]
 const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step: usize) -> f32 {
     let (mut least, mut i) = (f32::INFINITY, 0);
@@ -184,10 +173,9 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
         let mut tail = tails[i] * absolute(weight, axis);
         let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
         while degrees > 0 && k < COSINES.len() {
-            // The cosine of π/2N times the degree: 0, and no bound, where the degree is N.
+            // COSINES[k] is cos(n π / 2N) for N = 96 / step, n = 2 k / step; 0, and no bound, for n = N.
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
-            // It is convex in the degree: once it is no less than the one before, so are the next ones. (A bound that is
-            // too great would only refuse more.)
+            // The bound is convex in `n`: once it does not fall, no further one is less.
             degrees = if bound < last { degrees - 1 } else { 0 };
             least = if bound < least { bound } else { least };
             (last, tail) = (bound, tail * square);
@@ -198,12 +186,13 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
     least
 }
 
-/// `Σ |c_k| (Y^k - Y₁^k)`: how far `Q(x)` may be from `Q(x₀ + x₁ s)` on an ellipse, but for the term `c₁ x`.
+/// `Σ |c_k| (Y^k - Y₁^k)` from `k = 2` on, where `Y₁ = |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`. On the ellipse, `R`
+/// is within this of a polynomial of a degree below 12.
 #[inline(never)]
 const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
     let linear = x0.abs() + x1.abs() * axis;
     let curve = absolute(curved, axis) * axis * axis;
-    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), without a difference; from c[6], that of x², down.
+    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), from k = 2 up.
     let (mut power, mut more, mut sum) = (linear, curve, 0.0);
     let [above @ .., _] = &octave.c;
     let mut c: &[i32] = above;
@@ -216,7 +205,7 @@ const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> 
     sum
 }
 
-/// The value at `x` of a cubic by its coefficients, from the constant one up.
+/// `Σ c[k] x^k`
 const fn single(&[c0, c1, c2, c3]: &[f32; 4], x: f32) -> f32 {
     c0 + x * (c1 + x * (c2 + x * c3))
 }

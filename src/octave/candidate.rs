@@ -1,11 +1,11 @@
-//! A candidate for an octave: the polynomial through the exact times at a few nodes, in the integers of the answer.
+//! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
 use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
 use crate::octave::path::{Path, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
-/// Chebyshev's nodes: interpolating there comes within a small factor of the best polynomial.
+/// Chebyshev's nodes on [-1, 1]: interpolating there comes within a small factor of the best polynomial.
 pub(crate) const NODES: [f32; DEGREE + 1] = [
     -0.984_807_7,
     -0.8660254,
@@ -18,33 +18,33 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
     0.984_807_7,
 ];
 
-/// What the rounding of Horner's products adds, in the unit of the coefficients: from -1.992 to 0.664
-/// (`proofs/octaves.py`), half of that range, and its mean, which a polynomial's middle makes up for.
+/// What rounding adds to `P(x)`, in the unit of the coefficients: from -1.992 to 0.664 (`proofs/octaves.py`). Half of
+/// that range, and its mean, for which the octave's middle makes up.
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
-/// A polynomial as it is held against the exact time.
+/// An octave, and how its polynomial is held against the exact time.
 pub(crate) struct Candidate {
     pub(crate) octave: Octave,
-    /// The time from the outer end that its value is added to.
+    /// The octave's middle as a time since the side's end.
     pub(crate) middle: f64,
-    /// The time of a coefficient's 1.
+    /// The unit of the coefficients, as a time: `2^unit` times the factor's size.
     pub(crate) step: f64,
-    /// A bound of its slope, in the unit of the coefficients over a width of the span.
+    /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) steep: f32,
-    /// What rounding adds to it, in the unit of the coefficients: Horner's, and less than a unit of time where the
-    /// outer end is cut to such units.
+    /// What rounding adds to its time, in steps: Horner's, and a unit of time to which the side's end is cut.
     pub(crate) truncated: f32,
 }
 
 impl View<'_> {
-    /// The polynomial along a stretch, in the unit in which its coefficients fill their words.
+    /// The polynomial along a stretch, in the least step, from the plan's unit on, in which Horner's sums fit 32 bits.
+    /// None if its numbers are out of range.
     #[inline(always)]
     pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
         let c = span.interpolated(stretch);
-        // How far x reaches, with room for the center's lowest bits. Horner's rule by absolute values, for the value
-        // and the slope: the largest value that it meets fills 31 bits, and rounding may not bring it beyond.
+        // |x| <= reach, with room for a center's rounding.
         let reach = span.half / span.width + 0.01;
+        // Horner's rule without signs, for the values and the slope.
         let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
         while k > 0 {
             steep = steep * reach + bound;
@@ -54,6 +54,7 @@ impl View<'_> {
             k = k - 1;
         }
         steep = steep * reach + bound;
+        // All of Horner's sums are at most `most`, with what rounding adds.
         most *= 1.0 + 1.0 / (1 << 16) as f32;
         if !(most > 0.0 && most < f32::MAX) {
             return None;
@@ -72,7 +73,7 @@ impl View<'_> {
             k = k - 1;
         }
         let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
-        // The middle lies between nodes, so this is nearly a time of the ramp, and the sum below fits.
+        // Nearly a time of the ramp. Where it is at most 2⁶², as `start` is, the sum below fits.
         if middle.unsigned_abs() > 1 << 62 {
             return None;
         }
@@ -90,19 +91,17 @@ impl View<'_> {
 }
 
 impl Span {
-    /// The coefficients, from `x⁰` up, of the polynomial through the times at the nodes.
+    /// The time since the side's end as a polynomial of `x` in widths, coefficients from the constant up.
     #[inline(never)]
     const fn interpolated(&self, along: &Path) -> [f64; DEGREE + 1] {
         let (center, per_position) = self.offsets();
         let mut offset = singles(&along.fraction, center, per_position);
         let [x0, x1, x2, x3, x4, x5, x6] = offset;
-        // Its values at ±1 are even ± odd, so that `even + odd n` is the node `n` between them.
+        // x(±1) = even ± odd: the node `n` is at x = even + odd n.
         let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
-        // Divided differences ...
         let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0);
         while i <= DEGREE {
-            // A polynomial interpolates wherever its nodes are. They need only be near Chebyshev's, from one end to the
-            // other, for its error to be small; so single precision is enough.
+            // Single precision is enough: any nodes interpolate, and near Chebyshev's the error is small.
             offset[0] = x0 - (even + odd * NODES[i]);
             let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
             let place = place as f64;
@@ -115,7 +114,7 @@ impl Span {
             divided_differences(&mut d, &x, order);
             order += 1;
         }
-        // ... multiplied out into powers of x, from the highest order on.
+        // Newton's form, multiplied out: c = d[0] + (x - x[0]) (d[1] + (x - x[1]) (d[2] + ...)).
         let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
         while i > 0 {
             i -= 1;
@@ -125,8 +124,8 @@ impl Span {
     }
 }
 
-/// The divided differences of the next order, in the places from it on. Out of line, as the next function: unrolled in
-/// each place, such loops cost kilobytes.
+/// From one order of divided differences to the next: `d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order])`.
+// Out of line, like `multiply`: unrolled copies cost kilobytes.
 #[inline(never)]
 const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], order: usize) {
     let (mut i, mut last) = (0, 0.0);
@@ -140,7 +139,7 @@ const fn divided_differences(d: &mut [f64; DEGREE + 1], x: &[f64; DEGREE + 1], o
     }
 }
 
-/// A polynomial times `x - root`, and a constant added; its last coefficient is 0.
+/// `c = c (x - root) + constant`, for a `c` whose highest coefficient is 0.
 #[inline(never)]
 const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
     let (mut k, mut below) = (0, constant);
@@ -152,7 +151,7 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
     }
 }
 
-/// The nearest number of units of `2^e`; of two that are as near, the one away from 0.
+/// `x` in units of `2^e`, to the nearest; halves away from 0.
 const fn rounded(x: f64, e: i32) -> i32 {
     let halves = fixed_f64(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32

@@ -1,17 +1,27 @@
-//! The direct way: an octave of `u` as a polynomial that gives the time without a search.
+//! Octaves: polynomials that give the time of a fraction without a search. [`build`] makes them, by way of [`path`],
+//! [`span`], [`candidate`], [`certificate`] and [`bound`].
 //!
-//! Let `a` be the exposure's fraction from the nearer end of the curve: `u` or `1 - u`. Octaves of `a` become narrower
-//! towards the end as fast as the density may fall, so a polynomial of the same degree is as exact, relatively, in
-//! each. Each ramp has octaves of its own. The first one ends at the ramp's *top*, which is the fraction at which the
-//! ramp ends, or somewhat more; each further one ends at half of the one before. So no octave holds parts of two ramps,
-//! unless their join is so near to 1/2 that it counts as that. The plateau between the ramps is answered by its line.
+//! Let `a` be the fraction from the nearer end of the curve, its side. An octave holds the `a` above half of its *top*,
+//! up to the top. A ramp's first top is at or above its greatest `a`; each further one is half of the one before. So
+//! octaves narrow as fast as the density may fall, and one degree is about as exact, relatively, in each.
 //!
-//! The bits of the top less the bits of `a`, shifted right by 23, are the index of the octave that holds `a`, since the
-//! exponent is the upper part of the bits of an `f32`.
+//! A side's array has the far ramp's `k` octaves, then the near ramp's. The near ramp's stored top is its first top,
+//! times `2^k`: so `(bits(stored top) - bits(a)) >> 23` is an index of the array for either ramp.
 //!
-//! An octave holds the end of one binade and the start of the next one. A *position* in it is `a` less the power of two
-//! between them. Above, it counts 2⁻³¹ of that power, from 0 to 2³¹, and has to be doubled; below, it counts 2⁻³² of
-//! it, from -2³¹ up to 0. The offset from the middle of what the polynomial serves is exact.
+//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it. The
+//! one exception is `Plan::look_up`: it returns the significand as it stands, which above the power counts 2⁻³¹, and
+//! [`doubled`] makes a position of that.
+//!
+//! ```text
+//! a             0     0.023   0.047   0.09375   0.125   0.25    0.5
+//! index          ... 4  |   3   |   2   |         |   1   |   0   |
+//! serves        near ramp, up to 0.09             far ramp, from 0.2
+//! stored top    0.09375 · 2² = 0.375              0.5
+//!
+//! octave (0.1875, 0.375], power 0.25:       bits          look_up       position      (a - power) / power
+//!               a = 0.3125  = 1.25 · 2⁻²    0x3EA0_0000   0x2000_0000   0x4000_0000    1/4
+//!               a = 0.21875 = 1.75 · 2⁻³    0x3E60_0000   0xE000_0000   0xE000_0000   -1/8
+//! ```
 
 pub(crate) mod bound;
 pub(crate) mod build;
@@ -22,17 +32,16 @@ pub(crate) mod span;
 
 use crate::number::units::{LEAST_TOP, TOP_STEP};
 
-/// One octave's polynomial: the time is `middle + factor · P(x)` in the plan's unit, `x` from -1/2 to 1/2 across
-/// the part of the octave that it serves, or a narrower interval.
+/// One octave's polynomial: the time is `middle + factor · P(x)`, in the plan's unit of time. The *offset* `x`, from
+/// -1/2 to 1/2 in units of 2⁻³², is `(position - center) << shift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
     pub(crate) middle: i64,
-    /// A power of two, or minus that from the later side; 0 where there is no polynomial.
+    /// A power of two, at most 2³⁰, or minus that from the later side; 0 where there is no polynomial.
     pub(crate) factor: i32,
-    /// The position, doubled where it has to be, from which `x` is counted. Its lowest 5 bits are a shift, too: `x` is
-    /// the difference times 2 to that.
+    /// A position. Its lowest 5 bits are the shift as well.
     pub(crate) center: u32,
-    /// `P(x) = c[7] x + c[6] x² + ...`: in the order in which Horner's rule needs them.
+    /// The coefficients from the highest down: `P(x) = c[0] x⁸ + ... + c[6] x² + c[7] x`.
     pub(crate) c: [i32; DEGREE],
 }
 
@@ -41,18 +50,18 @@ pub(crate) const DEGREE: usize = 8;
 /// The bits of a center that are its shift.
 pub(crate) const FINER: u32 = 31;
 
-/// The bits of a top.
+/// The bits of a top that is `steps` [`TOP_STEP`]s above [`LEAST_TOP`].
 #[inline(always)]
 pub(crate) const fn top(steps: u8) -> u32 {
     (steps as u32 + LEAST_TOP / TOP_STEP) * TOP_STEP
 }
 
-/// The bits of the top that is so many octaves below another one.
+/// The bits of `top / 2^octaves`, for the bits of `top`.
 pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 
-/// A position in 2⁻³² of the power of two throughout: one above the power counts 2⁻³¹, and is doubled.
+/// The position, wrapping, for what `Plan::look_up` returns.
 #[inline(always)]
 pub(crate) const fn doubled(position: i32) -> i32 {
     position.wrapping_add(position & !(position >> 31))
@@ -61,35 +70,31 @@ pub(crate) const fn doubled(position: i32) -> i32 {
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, center: 0, c: [0; DEGREE] };
 
-    /// Is there a polynomial?
     #[inline(always)]
     pub(crate) const fn exists(&self) -> bool {
         self.factor != 0
     }
 
-    /// The `x` of a position, in 2⁻³².
+    /// The offset, for what `Plan::look_up` returns.
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         self.ahead_of_center(doubled(position))
     }
 
-    /// The `x` of a position that is [`doubled`] where it has to be.
-    ///
-    /// The difference and its multiple fit the word, even if one of the numbers does not: a span leaves room for that
-    /// (`FILLED` in [`span`](crate::octave::span)).
+    /// The offset of a position. It fits the word although position and center may wrap: a span leaves room for that
+    /// (`FILLED` in [`span`]).
     #[inline(always)]
     pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
         doubled.wrapping_sub(self.center as i32) << (self.center & FINER)
     }
 
-    /// The time, in the plan's unit, at an `x` that counts 2⁻³², by Horner's rule: each step is one
-    /// multiply-and-add of 32 bits, and the last one of 64, on a microcontroller that has them.
+    /// The time, in the plan's unit, at an offset.
     #[inline(always)]
     pub(crate) const fn time(&self, x: i32) -> i64 {
         self.middle.wrapping_add(self.factor as i64 * self.polynomial(x) as i64)
     }
 
-    /// `P(x)`, written out, because firmware is often built for size, which would keep it a loop.
+    /// `P(x)`, each product rounded down. Written out, or firmware that is built for size would keep a loop.
     #[inline(always)]
     pub(crate) const fn polynomial(&self, x: i32) -> i32 {
         let [c8, c7, c6, c5, c4, c3, c2, c1] = self.c;
@@ -104,19 +109,19 @@ impl Octave {
     }
 }
 
-/// Has the processor no instruction for the upper word of a product? Armv6-M has none, and no compare-and-swap, of
-/// which a stable compiler tells. Where this is wrong, the bits are the same, only later.
+/// Is this Armv6-M, which lacks an instruction for the upper word of a product, and compare-and-swap, by which stable
+/// Rust can tell? A wrong answer costs time and changes no bits.
 const HALVES: bool =
     cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
 
-/// `a x`, in 32 bits, where `x` counts 2⁻³².
+/// `floor(a x / 2³²)`
 // proofs/octaves.py
 #[inline(always)]
 pub(crate) const fn times_high(a: i32, x: i32) -> i32 {
     if HALVES { times_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 }
 }
 
-/// The same by products of halves, of 16 bits each: a third of what a product of 64 bits costs where that is a call.
+/// `floor(a x / 2³²)` by products of 16-bit halves: a third of the cost where a product of 64 bits is a call.
 // proofs/octaves.py
 #[inline(always)]
 pub(crate) const fn times_high_by_halves(a: i32, x: i32) -> i32 {

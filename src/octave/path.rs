@@ -1,29 +1,26 @@
-//! A ramp as the octaves of one side see it: openness, time and fraction of the exposure as polynomials of the Bezier's
-//! parameter, in `f64`.
+//! A ramp in `f64`, seen from a side: openness, time and fraction as polynomials of a *place*, the Bezier's parameter.
 //!
-//! Seen so, an error is judged without inverting anything: each place on the path has its time and its fraction, and
-//! what a polynomial of the fraction is off by is itself a polynomial of the place
-//! ([`certificate`](crate::octave::certificate)). Only ends and nodes are inverted, and those need not be exact.
+//! So an error is judged without an inverse: each place has its time and its fraction. Only nodes and the ends of
+//! stretches are found by an inverse, and neither has to be exact.
 
 use crate::exposure::Exposure;
 use crate::fraction::Side;
 use crate::ramp::cubic::Cubic;
 use crate::ramp::shape::Shape;
 
-/// As close as single precision comes: a step of Newton's below this share of its place is the last one.
+/// [`root`] ends with a step below this share of `x`, which is about as close as an `f32` comes.
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
-/// So many bisections alone would come as close to places from 2⁻²⁰ on. What is not as close takes more steps outwards,
-/// or costs a certificate.
+/// 40 bisections resolve a place above 2⁻²⁰. A worse place only widens the stretch, and may cost the polynomial.
 const MOST_STEPS: usize = 40;
-/// The first step outwards from a place that one more step of Newton's, in `f64`, has brought closer, as a share of it.
+/// The first step outwards of [`Path::place`], as a share of the place.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// A side of the curve, as its octaves are built.
+/// A side of the curve, for which octaves are built.
 pub(crate) struct View<'a> {
     pub(crate) exposure: &'a Exposure,
     pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
-    /// The exponent of the unit of time.
+    /// The plan's unit of time is `2^unit`.
     pub(crate) unit: i32,
 }
 
@@ -33,43 +30,43 @@ impl View<'_> {
     }
 }
 
-/// A ramp, or a stretch of one, by powers of a place on it. A ramp has fractions of the exposure and times of the curve;
-/// the stretch of an octave has positions ([`Span::counted`](crate::octave::span::Span::counted)), and for its certificate the
-/// unit of time in which the polynomial has its coefficients.
+/// A ramp, by powers of a place from 0, at the end that faces the side, to 1. Or a *stretch* of it, by powers of an `s`
+/// from -1 to 1. Coefficients from the constant up.
 #[derive(Clone, Copy)]
 pub(crate) struct Path {
     pub(crate) openness: [f64; 4],
-    /// The time since the outer end.
+    /// The time since the side's end; in a certificate, less the octave's middle, in the unit of its coefficients.
     pub(crate) time: [f64; 4],
-    /// The fraction collected since then.
+    /// The fraction from the side; after [`Span::counted`](crate::octave::span::Span::counted), a position.
     pub(crate) fraction: [f64; 7],
 }
 
 impl Path {
-    /// The ramp with this shape and index: places count from 0 at the end that faces a side to 1 at the other one.
+    /// The `ramp`, which has this `shape`, seen from `side`.
     pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: Side, ramp: Side) -> Self {
         let shape = shape.from(side);
         let way = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
+        // At place 0: the side's end, or the far ramp's join.
         let (t0, u0) =
             if ramp.is(side) { (0.0, 0.0) } else { (way.abs(), exposure.joins(side)[1]) };
         let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
         let Cubic { c: [t1, t2, t3], .. } = shape.time();
         let [u1, u2, u3, u4, u5, u6] = shape.mass();
-        // All by one scale, the first there and back, so that one loop does it.
+        // Masses over the area; `u0` is a fraction already.
         let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
         Self { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
     }
 
-    /// A place in [0, 1] at which the fraction is `u` at most or, if `up`, at least; 0 or 1 where none is found. Close,
-    /// but not the closest: farther out, a certificate is only stricter.
+    /// A place of the ramp with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is
+    /// near, not the nearest: farther out, a certificate is only stricter.
     #[inline(never)]
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
         let [p, slope] = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
         p += (u - value(&self.fraction, p)) / slope;
-        // Outwards until it is certain.
+        // Outwards, each step twice the one before, until the fraction is past `u`.
         let mut step = if up { p * OUTWARDS } else { -p * OUTWARDS };
         loop {
             p += step;
@@ -84,7 +81,7 @@ impl Path {
         }
     }
 
-    /// The stretch between two places, by powers of a place that runs from -1 to 1 on it.
+    /// The stretch between two places of the ramp: `s` is -1 at the first, 1 at the last.
     #[inline(never)]
     pub(crate) const fn stretch(&self, [first, last]: [f64; 2]) -> Self {
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
@@ -96,7 +93,7 @@ impl Path {
     }
 }
 
-/// The coefficients of a polynomial by powers of `x` as those by powers of `x / unit`, times `factor`.
+/// `c[k] *= factor · unit^k`: the polynomial times `factor`, by powers of `x / unit`.
 #[inline(never)]
 pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
     let (mut factor, mut k) = (factor, 0);
@@ -107,8 +104,7 @@ pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
     }
 }
 
-/// The coefficients by powers of `(x - middle) / unit`: synthetic division, whose k-th pass leaves the k-th Taylor
-/// coefficient.
+/// By powers of `(x - middle) / unit`: the k-th pass of synthetic division leaves the k-th Taylor coefficient.
 #[inline(never)]
 const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
     let mut pass: &mut [f64] = c;
@@ -120,7 +116,7 @@ const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
     scale(c, 1.0, unit);
 }
 
-/// One pass: each coefficient, from the highest down, plus `x` times the sum above it.
+/// One pass: `c[k] += x c[k + 1]`, from the highest down.
 #[inline(never)]
 const fn sum_down(mut c: &mut [f64], x: f64) {
     let mut above = 0.0;
@@ -131,7 +127,7 @@ const fn sum_down(mut c: &mut [f64], x: f64) {
     }
 }
 
-/// The value at `x` of a polynomial by its coefficients, from the constant one up.
+/// `Σ c[k] x^k`
 #[inline(never)]
 pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
     let (mut value, mut c) = (0.0, c);
@@ -142,8 +138,7 @@ pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
     value
 }
 
-/// In single precision, less `shift` and times `factor`. It takes up to seven coefficients, and those that are not there
-/// are 0.
+/// The polynomial less `shift`, times `factor`, in single precision; zeros fill the seven coefficients.
 #[inline(never)]
 pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
     let (mut single, mut k) = ([0.0; 7], 0);
@@ -155,8 +150,8 @@ pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
     single
 }
 
-/// Where a polynomial that increases is nearly 0, between two places, and its slope about there: Newton's steps inside
-/// a bracket, which a step that leaves it halves.
+/// `[x, slope]` where an increasing polynomial is nearly 0, in `[low, high]`: by Newton's method, or by bisection where
+/// that would leave the bracket.
 #[inline(never)]
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
@@ -177,7 +172,7 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
     [x, last]
 }
 
-/// A bound of all values within `x` of 0, by the coefficients without their signs.
+/// `Σ |c[k]| x^k`, which bounds the polynomial on [-x, x].
 #[inline(never)]
 pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {
     let (mut value, mut c) = (0.0, c);

@@ -14,6 +14,7 @@ use crate::ramp::shape::Shape;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, hard_openness, hard_times, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
+use crate::support::times;
 
 /// Chebyshev's polynomial of degree `DEGREE + 1`, by its recurrence.
 fn chebyshev(x: f64) -> f64 {
@@ -132,10 +133,10 @@ impl View<'_> {
 }
 
 /// A certificate is never below the truth: on typical curves, hard ones, and those that are aimed at a difficulty.
-/// `OCTAVES=30` before the command judges 30 times as many octaves, some 300 000.
+/// `TIMES=30` before the command judges 30 times as many octaves, some 300 000.
 #[test]
 fn a_certificate_is_never_below_the_truth() {
-    let times = std::env::var("OCTAVES").map_or(1, |times| times.parse().expect("a number"));
+    let times = times();
     let mut all = 0;
     let mut judge = |name: &str, curves: &mut dyn Iterator<Item = Curve>| {
         let mut truth = Truth::default();

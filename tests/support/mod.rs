@@ -9,3 +9,8 @@ pub mod oracle;
 pub mod peers;
 pub mod promise;
 pub mod rendering;
+
+/// How many times as many random curves are tried: `TIMES=4` before a command, as CI has it.
+pub fn times() -> u64 {
+    std::env::var("TIMES").map_or(1, |times| times.parse().expect("a whole number"))
+}
