@@ -5,8 +5,11 @@
 mod support;
 
 use shutter_curve::{CubicBezier, CurveError, MAX_EVALUATIONS, ShutterCurve};
+use support::aimed::aimed;
 use support::cases::shutter;
-use support::curves::{Kind, Rng, hard_us, named, random_hard, random_single, random_typical};
+use support::curves::{
+    Kind, Rng, hard_us, is_valid, named, random_hard, random_single, random_typical,
+};
 use support::oracle::{Curve, Exact, Points, ulp_f32};
 use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
 use support::times;
@@ -420,6 +423,49 @@ fn the_cdf_never_steps_back_where_terms_cancel() {
         last = cdf;
     }
     assert!(steps == 1, "from {first:e} to {last:e}: not the middle of two f32");
+}
+
+/// The same on many ramps that are dark inside: the shutter closes at once, at the time, of thousands, that brings the mass at
+/// the darkest place nearest to the middle of two `f32`.
+#[test]
+fn the_cdf_never_steps_back_in_the_dark() {
+    let (mut walked, mut stepped) = (0, 0);
+    for (family, index) in [0, 1, 4, 6].into_iter().flat_map(|f| (0..60).map(move |i| (f, i))) {
+        let ramp = aimed(family, 41, index).opening;
+        let [(start, _), .., (open, _)] = ramp;
+        let closes = |end: f32| Curve::shutter(ramp, [(end, 1.0); 4]);
+        if open <= start || !is_valid(&closes(open + (open - start))) {
+            continue;
+        }
+        let exact = Exact::new(&closes(open + (open - start)));
+        let area = exact.area().hi - f64::from((open + (open - start)) - open);
+        let (us, ts) = (exact.landmarks(), exact.landmark_times());
+        for (u, t) in us[2..].iter().zip(&ts[4..]) {
+            let (mass, t) = (u.hi * exact.area().hi, t.to_f32());
+            if !(t > start && t < open && mass > 0.0 && mass < area) {
+                continue;
+            }
+            let from_middle = |end: f32| {
+                let u = mass / (area + f64::from(end - open));
+                ((u / ulp_f32(u)).fract() - 0.5).abs()
+            };
+            let step = (open - start) / 3000.0;
+            let ends = (0..9000).map(|i| open + step * i as f32);
+            let end = ends.min_by(|a, b| from_middle(*a).total_cmp(&from_middle(*b))).unwrap();
+            let ours = shutter::<8>(&closes(end));
+            let mut t = t;
+            (0..1500).for_each(|_| t = t.next_down());
+            let (first, mut last) = (ours.cdf(t), 0.0);
+            for _ in 0..3000 {
+                let cdf = ours.cdf(t);
+                assert!(cdf >= last, "{cdf:e} after {last:e} at {t:e} of {:?}", closes(end));
+                (t, last) = (t.next_up(), cdf);
+            }
+            (walked, stepped) = (walked + 1, stepped + u32::from(last > first));
+        }
+    }
+    println!("{walked} walks, a step on {stepped}");
+    assert!(stepped > 100, "a step on {stepped} of {walked}");
 }
 
 /// Around time 0 neighbours on a plateau are closer than two `f32` tell fractions apart. In each of these boxes the middle of two
