@@ -512,3 +512,26 @@ fn a_closing_ramp_with_two_bends_has_direct_triggers() {
     let curve = ShutterCurve::shutteropening([0.0, 0.0003, 0.003, 0.008], inner).unwrap();
     assert!(curve.direct_triggers() >= 255, "{}", curve.direct_triggers());
 }
+
+/// On a plateau that ends next to the curve's end, ticks from there count the line by the rest to 1, whose ulp is down to
+/// 2⁻³².
+#[test]
+fn the_line_counted_from_either_end() {
+    for [open, close] in [[0.001, 0.9995], [0.3, 0.999], [0.0, 1.0], [0.002, 0.6]] {
+        let lines = [
+            CubicBezier::line((0.0, 0.0), (open, 1.0)),
+            CubicBezier::line((close, 1.0), (1.0, 0.0)),
+        ];
+        let curve = Curve::shutter(lines[0].points(), lines[1].points());
+        for curve in [curve, curve.mirrored()] {
+            let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+            for n in (65..600).step_by(7) {
+                let ticks = ours.trigger_ticks(n, (1 << 31) - 1).unwrap();
+                for (i, tick) in (0..n).zip(ticks) {
+                    let error = tick_error(&exact, tick, [i, n], (1 << 31) - 1);
+                    assert!(error <= TICK, "{i} of {n}: {error} ticks, {curve:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,4 +1,4 @@
-//! Numbers: the units that things are counted in, pairs of `f32`, polynomials of pairs, and times before they are rounded.
+//! Numbers: units, pairs of `f32`, polynomials of pairs, and times before they are rounded.
 
 pub(crate) mod moment;
 pub(crate) mod pair;

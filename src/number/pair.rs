@@ -1,11 +1,9 @@
-//! Pairs: unevaluated sums of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
+//! Pairs: unevaluated sums `hi + lo` of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
-//! The second number is at most half an ulp of the first after `sum`, `plus` and `minus`, and a few ulp after the other
-//! functions. Only `minus_loose` may leave the greater number second, if its operands nearly cancel. What each loses is
-//! said for operands with half an ulp, and proven, also for more (`proofs/pairs.py`). Plain sums and products without
-//! fused operations, and what these lose (Knuth's sum, 1969, and Dekker's product, 1971), so that the bits are the same on every machine.
-//! They are exact, or as good as each says, as long as nothing overflows or becomes subnormal; who calls them scales by
-//! powers of two to see to that.
+//! Every machine computes the same bits: plain sums and products, none fused, and what each loses (Knuth 1969, Dekker
+//! 1971). Each function states its error for operands whose `lo` is at most half an ulp of `hi`; `proofs/pairs.py`
+//! proves it, and more for a greater `lo`. Answers of `sum`, `plus` and `minus` have such a `lo`, other ones a few ulp.
+//! Nothing may overflow or become subnormal: callers scale by powers of two.
 
 use crate::number::units::power_of_two;
 
@@ -19,12 +17,11 @@ pub(crate) struct Pair {
 impl Pair {
     pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
 
-    /// `x`, exactly.
     pub(crate) const fn new(x: f32) -> Self {
         Self { hi: x, lo: 0.0 }
     }
 
-    /// The nearest pair, to 2⁻⁴⁹.
+    /// `x`, to 2⁻⁴⁹.
     // proofs/pairs.py: from_f64
     pub(crate) const fn from_f64(x: f64) -> Self {
         let hi = x as f32;
@@ -57,14 +54,14 @@ impl Pair {
         self.plus(other.negated())
     }
 
-    /// `self - other`, whose second number may be the greater one if the two are nearly equal.
+    /// `self - other`, as exact as [`minus`](Self::minus); `lo` may exceed `hi` where the two nearly cancel.
     #[inline(always)]
     pub(crate) const fn minus_loose(self, other: Self) -> Self {
         let Self { hi, lo } = Self::sum(self.hi, -other.hi);
         Self { hi, lo: lo + (self.lo - other.lo) }
     }
 
-    /// `self - other` in single precision, which keeps its relative accuracy where the two are near.
+    /// `self - other` in single precision: one rounding and 2⁻⁴⁸ of the greater one, if within a factor of two.
     #[inline(always)]
     pub(crate) const fn difference(self, other: Self) -> f32 {
         (self.hi - other.hi) + (self.lo - other.lo)
@@ -81,7 +78,7 @@ impl Pair {
         Self { hi: -self.hi, lo: -self.lo }
     }
 
-    /// The same with its sign changed, if `sign` is the sign bit and not 0.
+    /// `-self` if `sign` is the sign bit, `self` if it is 0.
     #[inline(always)]
     pub(crate) const fn flipped(self, sign: u32) -> Self {
         Self { hi: flipped(self.hi, sign), lo: flipped(self.lo, sign) }
@@ -93,7 +90,7 @@ impl Pair {
         Self { hi: self.hi * x, lo: self.lo * x }
     }
 
-    /// `self · 2ⁿ`: by halves, because the power of two may not be a normal number itself.
+    /// `self · 2ⁿ`, where 2ⁿ may not be a normal number itself.
     #[inline(always)]
     pub(crate) const fn shifted(self, n: i32) -> Self {
         let half = n >> 1;
@@ -108,8 +105,7 @@ impl Pair {
         Self { hi, lo: lost_by_product(hi, self.hi, x.hi) + (self.hi * x.lo + self.lo * x.hi) }
     }
 
-    /// `self / x`, to 2⁻⁴³, also if the second number of `x` is an ulp. The second number is what the first leaves,
-    /// `(self - hi x) / x`.
+    /// `self / x`, to 2⁻⁴³, even if the `lo` of `x` is an ulp.
     // proofs/pairs.py: over
     #[inline(always)]
     pub(crate) const fn over(self, x: Self) -> Self {
@@ -117,6 +113,7 @@ impl Pair {
         let hi = self.hi * inverse;
         let product = hi * x.hi;
         let lacks = (self.hi - product) - lost_by_product(product, hi, x.hi);
+        // lo = (self - hi x) / x
         Self { hi, lo: (lacks + (self.lo - hi * x.lo)) * inverse }
     }
 
@@ -127,14 +124,14 @@ impl Pair {
     }
 }
 
-/// `-x` if `sign` is the sign bit, `x` if it is 0: without a branch, which would double the code that follows, and
-/// without a product, which is slow without an FPU.
+/// `-x` if `sign` is the sign bit, `x` if it is 0. (A branch doubles the code behind it; without FPU a product is
+/// slow.)
 #[inline(always)]
 pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {
     f32::from_bits(x.to_bits() ^ sign)
 }
 
-/// A normal `x` above 0 as a number in [1, 2), to 47 bits, and the exponent of its unit.
+/// `(m, e)` of a normal `x = m 2ᵉ` above 0, with `m` in [1, 2) cut to 47 fraction bits.
 // proofs/words.py: significand
 #[inline(always)]
 pub(crate) const fn significand(x: f64) -> (Pair, i32) {
@@ -145,14 +142,14 @@ pub(crate) const fn significand(x: f64) -> (Pair, i32) {
     (Pair { hi, lo }, (bits >> 52) as i32 - 1023)
 }
 
-/// `a + b - sum`, exactly, for the rounded `sum` of both (Knuth).
+/// `a + b - sum`, exactly, where `sum` is `a + b` rounded (Knuth).
 #[inline(always)]
 const fn lost_by_sum(sum: f32, a: f32, b: f32) -> f32 {
     let added = sum - a;
     (a - (sum - added)) + (b - added)
 }
 
-/// `a b - product`, exactly, for the rounded `product` of both (Dekker).
+/// `a b - product`, exactly, where `product` is `a b` rounded (Dekker).
 #[inline(always)]
 pub(crate) const fn lost_by_product(product: f32, a: f32, b: f32) -> f32 {
     let (a_high, b_high) = (upper(a), upper(b));
@@ -160,14 +157,14 @@ pub(crate) const fn lost_by_product(product: f32, a: f32, b: f32) -> f32 {
     ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 }
 
-/// The same for an `x` of 12 bits.
+/// `a x - product`, exactly, where `product` is `a x` rounded, for an `x` of 12 bits.
 #[inline(always)]
 pub(crate) const fn lost_by_short_product(product: f32, a: f32, x: f32) -> f32 {
     let high = upper(a);
     (high * x - product) + (a - high) * x
 }
 
-/// The upper 12 of 24 bits. The product of two such halves is exact.
+/// The upper 12 of 24 bits. The product of two such numbers is exact.
 // proofs/words.py: upper
 #[inline(always)]
 pub(crate) const fn upper(x: f32) -> f32 {

@@ -1,10 +1,9 @@
-//! A polynomial by its coefficients in pairs, and its value at an `f32`: how mass, time and openness are measured.
+//! A polynomial with coefficients in pairs, and its value: how mass, time and openness are measured.
 
 use crate::number::pair::{Pair, lost_by_product};
 
-/// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients.
-///
-/// The last one stands apart because the series from both ends of a ramp share it.
+/// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients. The last
+/// one stands apart because the series from both ends of a ramp share it.
 #[derive(Clone, Copy)]
 pub(crate) struct Series<'a> {
     pub(crate) c: &'a [Pair],
@@ -12,13 +11,12 @@ pub(crate) struct Series<'a> {
 }
 
 impl Series<'_> {
-    /// The value at `x`, by Horner's rule with what each sum and each product loses carried along.
-    ///
-    /// It is within 2⁻⁴¹ Σ |c_k| |x|^k (Graillat, Langlois and Louvet 2005).
+    /// The value at `x`. It is within 2⁻⁴¹ Σ |c_k| |x|^k: Horner's rule in `hi`, while `lo` collects what its sums and
+    /// products lose (Graillat, Langlois and Louvet 2005).
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at(self, x: f32) -> Pair {
-        // A loop that the compiler would unroll: hidden from it, a search takes 500 bytes less.
+        // Hidden from the compiler, which would unroll the loop: 500 bytes less in a search.
         self.value(x, core::hint::black_box(self.c))
     }
 
@@ -36,21 +34,21 @@ impl Series<'_> {
         }
     }
 
-    /// The value at a place. The place's second number adds itself times the slope. That is at most N · 2⁻²⁴ of Σ |c_k|
-    /// |x|^k, so single precision is enough for it: the value is within 2⁻⁴⁰ of that sum.
+    /// The value at a place, within 2⁻⁴⁰ Σ |c_k| |x|^k. Of `S(hi + lo) = S(hi) + S'(hi) lo` the second term is at most
+    /// N · 2⁻²⁴ of that sum, so single precision is enough for it.
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at_pair(self, place: Pair) -> Pair {
         self.moved(self.at(place.hi), place)
     }
 
-    /// The same with its loop unrolled: faster, and more bytes.
+    /// [`at_pair`](Self::at_pair) with its loop unrolled: faster, and more bytes.
     #[inline(always)]
     pub(crate) const fn at_pair_unrolled(self, place: Pair) -> Pair {
         self.moved(self.value(place.hi, self.c), place)
     }
 
-    /// The value at a place from that at its first number.
+    /// `S(place)` from `S(place.hi)`.
     #[inline(always)]
     const fn moved(self, Pair { hi, lo }: Pair, place: Pair) -> Pair {
         Pair { hi, lo: lo + self.slope(place.hi) * place.lo }

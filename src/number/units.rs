@@ -1,57 +1,45 @@
-//! The scales on which the inside counts, and the steps from one to another. All are powers of two, so that no step
-//! rounds. The rows name things that their files introduce. A *fraction* is of the whole exposure; a *mass* is what is
-//! collected on one ramp, a fraction too; only `Shape::mass` is not yet divided by the whole. Other
-//! scales stand elsewhere: an openness has its own in [`by_time`](crate::ramp::by_time), a tiny sum in
-//! [`moment`](crate::number::moment), and, while a curve is built, places in [`path`](crate::octave::path), samples in
-//! [`bound`](crate::octave::bound), and a polynomial's coefficients in [`candidate`](crate::octave::candidate).
+//! The units that several files share. All are powers of two, so changing from one to another never rounds.
 //!
-//! | what is counted | from | to | in |
+//! | counted | from 0 at | to | as |
 //! |---|---|---|---|
-//! | a place along a ramp | 0 at one of its ends | [`LAST_PLACE`] at the other | `f32`, [`Pair`](crate::number::pair::Pair) |
-//! | a fraction of the exposure that is searched for | 0 | [`WHOLE`] | pairs |
-//! | a mass on a ramp | 0 | 2⁸⁰ to 2⁸¹, all of the ramp: [`mass_per_fraction`] | pairs |
-//! | a time on a ramp | 0 at its end | 2⁶⁴ to 2⁶⁵, all of the ramp: [`ramp_unit`] | pairs |
-//! | a time on the curve | time 0 | at most 2⁶² either way: [`time_unit`] | `i64` |
-//! | a fraction of the exposure on the plateau's line ([`plan`](crate::answer::plan)) | 0 | 2³² | `u32` |
-//! | a fraction `(2i + 1) / 2n` | 0 | 2⁶⁴, its rest to 2⁹⁶ | `u64` and `u32` |
-//! | a position in an [`octave`](crate::octave), in 2⁻³² of its power or, above, 2⁻³¹ | that power of two | ±2³¹ | `i32` |
-//! | the `x` of its polynomial | the middle of what it serves | at most 2³¹ either way | `i32` |
-//! | the top of an octave | [`LEAST_TOP`] | 255 [`TOP_STEP`]s above that | `u8`, or the bits of an `f32` |
-//! | `TickScale::factor` in [`ticks`](crate::trigger::ticks), in 2⁻⁶⁴ of a tick | 0 | 2⁵⁸ | `u64` |
+//! | a place along a ramp | one of its ends | [`LAST_PLACE`], 2³⁰, at the other | `f32`, pair |
+//! | a fraction of the exposure, *in [`WHOLE`]* | either end of the curve | 2¹⁰⁴ | pair |
+//! | a mass, the fraction collected on one ramp | one of its ends | 2⁸⁰ to 2⁸¹, by [`mass_per_fraction`] | pair |
+//! | a time on a ramp | one of its ends | 2⁶⁴ to 2⁶⁵, by [`ramp_unit`] | pair |
+//! | a time on the curve | time 0 | ±2⁶², by [`time_unit`] | `i64` |
 
-/// How far a ramp goes: places along it count from 0 at one end to this at the other.
+/// Places along a ramp count from 0 at one end to this at the other.
 ///
-/// The least `f32` u then still leads to a place that is a normal number. And so is the second number of the pair that
-/// is a mass's last coefficient, that of the sixth power: 2⁸⁰ / (2³⁰)⁶ and 24 bits less.
+/// Even the least `f32` u then leads to a normal place. And a mass's last coefficient, of the sixth power, has a normal
+/// second number: 2⁸⁰ / (2³⁰)⁶ · 2⁻²⁴ = 2⁻¹²⁴.
 pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 
-/// The whole exposure; a fraction *in WHOLE* is counted so that all of it is this. The least `f32`, and what rounding
-/// makes of it, are then normal numbers.
+/// The whole exposure. A fraction *in WHOLE* is the fraction times 2¹⁰⁴: 2⁻⁴⁵ for the least `f32`, so that its
+/// roundings are normal numbers, too.
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
-/// How many units of a word there are in what the word can count: 2³², and of a double word, 2⁶⁴.
+/// How many values a `u32` has, and a `u64`.
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
-/// An `f32` from here on has no bit below 2⁻³², which is the unit of the plateau's line.
+/// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`plan`](crate::answer::plan)).
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
-/// The bits of 2⁻²⁸, the least top of an octave. There are no octaves below it, so a fraction of 0 falls into none. (One
-/// more would be of no use: what a fraction may be off by, `OFF` in [`certificate`](crate::octave::certificate), would leave its
-/// polynomial no error.)
+/// The bits of 2⁻²⁸, the least top of an octave; a fraction of 0 is below all octaves. One more octave would never get
+/// a polynomial: [`OFF`](crate::octave::certificate::OFF) alone would use up its error.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
-/// Tops are multiples of so many bits, eight to a power of two. So each fits a byte.
+/// The bits of tops are multiples of this, eight to a power of two, so that each top fits a `u8`.
 pub(crate) const TOP_STEP: u32 = 1 << 20;
 
-/// The factor from [`WHOLE`] to a ramp's own unit of mass, for a ramp with this share of the exposure: in it the ramp
-/// has from 2⁸⁰ to 2⁸¹ (0 if it is dark), so that all coefficients keep their bits.
+/// The factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰ to 2⁸¹ of mass
+/// (0 if it is dark), so that all coefficients keep their bits.
 #[inline(always)]
 pub(crate) const fn mass_per_fraction(share: f32) -> f32 {
     power_of_two(up_of_mass(share))
 }
 
-/// The factor back.
+/// `1 / mass_per_fraction(share)`
 #[inline(always)]
 pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
     power_of_two(-up_of_mass(share))
@@ -59,22 +47,22 @@ pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
 
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
-    // The exponent of 2⁻¹⁵⁰ of the exposure in WHOLE: a ramp with less is dark. There the factor is 2¹²⁶ and the one
-    // back 2⁻¹²⁶, the last that are normal numbers: so WHOLE and the 2⁸⁰ depend on each other.
+    // A ramp with less than 2⁻¹⁵⁰ of the exposure is dark. At 2⁻¹⁵⁰ the factor is 2¹²⁶ and its inverse 2⁻¹²⁶, the least
+    // normal number: so WHOLE may not be less, and the 80 not greater.
     const DARK: i32 = WHOLE_EXPONENT - 150;
     let exponent = exponent(share);
     80 - if exponent < DARK { DARK } else { exponent }
 }
 
-/// The exponent of a ramp's own unit of time: in it the ramp is [`LENGTH`] long, or up to twice that (or less, if its
-/// length is subnormal), so that the second number of its last coefficient, for the cube of a place, is normal.
+/// The exponent of a ramp's unit of time. The ramp is one to two [`LENGTH`]s long (less if its length is subnormal), so
+/// that its last coefficient, of the third power of a place, has a normal second number.
 #[inline(always)]
 pub(crate) const fn ramp_unit(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
 pub(crate) const LENGTH: f32 = power_of_two(64);
 
-/// The exponent of a curve's unit of time, in which its times and their differences count at most 2⁶².
+/// The exponent of a curve's unit of time: its times and their differences are at most 2⁶² units.
 pub(crate) const fn time_unit(start: f32, end: f32) -> i32 {
     let (start, end) = (start as f64, end as f64);
     let most = if start.abs() > end.abs() { start.abs() } else { end.abs() };
@@ -82,7 +70,7 @@ pub(crate) const fn time_unit(start: f32, end: f32) -> i32 {
     (most.to_bits() >> 52) as i32 - 1023 - 61
 }
 
-/// `x` in units of `2^e`, rounded towards 0; below 2⁶³ of them.
+/// `x / 2^e`, which has to be below 2⁶³, rounded towards 0.
 // proofs/words.py: fixed
 pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     let (bits, exponent) = (x.to_bits(), exponent(x));
@@ -100,7 +88,7 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     if x < 0.0 { -units } else { units }
 }
 
-/// The same for an `f64`: `i64::MAX` in size from 2⁶³ on, and for NaN.
+/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.
 #[inline(never)]
 pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {
     let bits = x.to_bits();
@@ -118,7 +106,7 @@ pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {
     if (bits as i64) < 0 { -units } else { units }
 }
 
-/// The bits of the greatest `f32` at or below a non-negative `x` that is at most about 1.
+/// The bits of the greatest `f32` at or below `x`, which is from 0 to about 1.
 // proofs/words.py: floor_bits
 pub(crate) const fn floor_bits(x: f64) -> u32 {
     let rounded = x as f32;
@@ -136,7 +124,7 @@ pub(crate) const fn power_of_two_f64(n: i32) -> f64 {
     f64::from_bits(((1023 + n) as u64) << 52)
 }
 
-/// The exponent of the power of two at or below a normal `x`; -127 for what is less.
+/// `floor(log2 |x|)` of a normal `x`; -127 of a subnormal one or 0.
 #[inline(always)]
 pub(crate) const fn exponent(x: f32) -> i32 {
     (x.to_bits() >> 23 & 0xFF) as i32 - 127

@@ -9,8 +9,8 @@ pub struct CubicBezier {
 }
 
 impl CubicBezier {
-    /// The curve with control points `P0..P3`, each as (t, f): a time in any unit, and the openness
-    /// there. Nothing is checked here; the curves built from it check.
+    /// The curve with control points `P0..P3`, each as (t, f): a time in any unit, and the openness there.
+    /// [`ShutterCurve::new`](crate::ShutterCurve::new) validates it.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -45,7 +45,7 @@ impl CubicBezier {
         ])
     }
 
-    /// The same curve with its openness, or density, times `factor`: exactly, if that is a power of two and no number
+    /// The curve with its openness, or density, times `factor`: exactly, if that is a power of two and no number
     /// becomes subnormal.
     ///
     /// ```
@@ -60,7 +60,7 @@ impl CubicBezier {
     }
 
     /// The opening and the closing ramp of RenderMan's `shutteropening`; see
-    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). Nothing is checked here, either.
+    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). That validates them.
     ///
     /// ```
     /// use shutter_curve::CubicBezier;
@@ -75,8 +75,8 @@ impl CubicBezier {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
         let (start, end) = (open_start as f64, close_end as f64);
-        // An inner point at its ramp's inner end, as a fraction in decimals, comes out beyond it by what rounding makes
-        // of the fraction, of start and end, and of that inner end: 2^-24 of each at most. It is meant to be there.
+        // Rounding may put an inner point beyond its ramp's join where it is meant to be at it: the fraction, start and
+        // end, and the join are each rounded by 2⁻²⁴ at most.
         let trace = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;
         let at = [
             snapped(start + (end - start) * t1 as f64, open_end as f64, trace),
@@ -115,7 +115,7 @@ impl From<[(f32, f32); 4]> for CubicBezier {
     }
 }
 
-/// A time, or a bound that it passes by no more than a trace.
+/// The time, or the bound if it is passed by `trace` at most.
 const fn snapped(time: f64, bound: f64, trace: f64) -> f32 {
     (if time > bound && time <= bound + trace { bound } else { time }) as f32
 }

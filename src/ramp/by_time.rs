@@ -1,25 +1,23 @@
-//! A ramp by time: the place at which a time is reached, and mass and openness there.
+//! A ramp by time: the place at a time, and the mass and the openness there.
 
 use crate::fraction::Side::{self, End, Start};
-use crate::number::pair::{Pair, flipped};
+use crate::number::pair::{Pair, flipped, lost_by_short_product, upper};
 use crate::number::series::Series;
 use crate::number::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
-use crate::ramp::quick::quick_place;
 use crate::ramp::{BACK, Ramp};
 use crate::search::guess::guess;
-use crate::search::{Anchor, ROUNDING, solve};
+use crate::search::{Anchor, ROUNDING, Taylor, left, solve};
 
-/// The error of a search for a time, relative to the way from the ramp's nearer end. The way is at most as long as the time
-/// itself, so neighbouring `f32` are at least 2⁻²⁴ of the way apart. Only on a ramp across time 0 may it be longer, up
-/// to about the time of the farther end. But there [`on_grid`] leaves multiples of a quarter of that end's ulp, which
-/// are about 2⁻²⁶ of the way apart, or more. The error is a quarter of this distance, so neighbours keep their order.
+/// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
+/// times, so that they keep their order. Neighbouring `f32` are at least 2⁻²⁴ of that time apart, since it is at most
+/// `|t|`. It may be longer across time 0, and there [`on_grid`] leaves times about 2⁻²⁶ of it apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
-/// From an eighth to a quarter of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is
-/// below, a time may be searched for from there.
+/// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
+/// search may start from there.
 const SLOW: f32 = 0.25 * LENGTH / LAST_PLACE;
 
-/// A point of a ramp, found by its time: its place from the end that faces a side.
+/// A point of a ramp, by its place from the end that faces a side.
 pub(crate) struct RampPoint<'a> {
     ramp: &'a Ramp,
     side: Side,
@@ -27,7 +25,7 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl Ramp {
-    /// Where the ramp is at `t`, which lies on it and [`on_grid`](Self::on_grid).
+    /// The point at `t`, which lies on the ramp and [`on_grid`](Self::on_grid).
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
         let (side, way) = self.since(t);
@@ -47,21 +45,21 @@ impl Ramp {
         (side, way.shifted(-self.unit()))
     }
 
-    /// The place at which a time has passed since the end that faces a side, if a few steps lead there.
+    /// The place at which `target` has passed since the end that faces a side, if a few steps lead there.
     #[inline(always)]
     const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {
         let Series { c, last } = self.time_since(side);
         quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)
     }
 
-    /// From which side a time is counted, and whether a few steps lead to its place.
+    /// The side from which `t` is counted, and whether a few steps lead to its place.
     #[cfg(test)]
     pub(crate) fn way(&self, t: f32) -> (Side, bool) {
         let (side, target) = self.since(self.on_grid(t));
         (side, self.quick_place(side, target).is_some())
     }
 
-    /// The same by a search.
+    /// The place at which `target` has passed, by a search.
     #[cold]
     #[inline(never)]
     const fn searched_place(&self, side: Side, target: Pair) -> Pair {
@@ -69,7 +67,7 @@ impl Ramp {
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor =
             Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
-        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if time is slow there and the target near.
+        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if that is below SLOW and the target nearer than the end.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
             let slowest = -c2 / thrice;
@@ -78,7 +76,7 @@ impl Ramp {
                 let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest);
                 let (back, sought) = (sought.to_bits() & BACK, sought.abs());
                 let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
-                // A cubic loses less than a mass, so this is enough around any place (proofs/solve.py).
+                // A time's cubic loses less than a mass: no more rounding than from an end (proofs/solve.py).
                 anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
             }
         }
@@ -86,19 +84,19 @@ impl Ramp {
         solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0
     }
 
-    /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
+    /// The openness `f 2^unit` at `t`, at least 0, as `(f, unit)`.
     #[inline(never)]
     pub(crate) fn openness_at(&self, t: f32) -> (Pair, i32) {
         let RampPoint { side, place, .. } = self.at_time(self.on_grid(t));
         let [f0, f1, f2, f3] = self.openness;
         let f = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
-        // Scaled so that the second halves of all coefficients that count, and their products with the least place,
-        // keep their bits.
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
+        // The greatest f is about 2⁶⁰, so second numbers and products with the least place are normal where they count.
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
         let bend = d[1].minus_loose(d[0]);
         let c = [d[0].thrice(), bend.thrice()];
+        // f[0] + c[0] p + c[1] p² + last p³
         let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend) };
         let value = Pair::new(f[0]).plus(series.at_pair_unrolled(place.scaled(1.0 / LAST_PLACE)));
         (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
@@ -106,7 +104,7 @@ impl Ramp {
 }
 
 impl RampPoint<'_> {
-    /// The place from the ramp's start. (A time nearer to the end is at least an eighteenth of the ramp from there.)
+    /// The place from the ramp's start. Little cancels, as a time nearer to the end lies beyond 1/18 of the ramp.
     #[inline(always)]
     const fn place_from_start(&self) -> Pair {
         let Pair { hi, lo } = self.place;
@@ -117,15 +115,15 @@ impl RampPoint<'_> {
         Pair::sum(rest.hi, rest.lo - lo)
     }
 
-    /// The fraction collected from the ramp's start until here, in [`WHOLE`](crate::number::units::WHOLE).
+    /// The mass from the ramp's start to here, as a fraction in [`WHOLE`](crate::number::units::WHOLE).
     #[inline(always)]
     pub(crate) const fn mass(&self) -> Pair {
         let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.place_from_start());
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the rounding error of [`mass`](Self::mass), and of that of a search from a side for a mass that is
-    /// next to it: what [`Series::at_pair`] loses of the terms from either end, twice, for the step of the search.
+    /// A bound of the rounding errors of [`mass`](Self::mass) and of a search from a side for a mass next to it: 2⁻⁴⁰
+    /// of the terms ([`Series::at_pair`]), and as much for the step of the search.
     // proofs/series.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
@@ -140,8 +138,8 @@ impl RampPoint<'_> {
 }
 
 impl Ramp {
-    /// A time on a ramp. If that runs across time 0, where `f32` are denser than a search is exact, it is moved by at most
-    /// half an ulp of the farther end, onto a multiple of a quarter, a half or all of that.
+    /// The time `t`. On a ramp across time 0, where `f32` are denser than a search is exact, it is rounded to a
+    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
     #[inline(always)]
     pub(crate) const fn on_grid(&self, t: f32) -> f32 {
         let [start, end] = [self.time(Start), self.time(End)];
@@ -155,7 +153,7 @@ const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     if t.abs() >= near || t == start || t == end {
         return t;
     }
-    // The sum is from 0.5 to 2.5 `near`, so the bits below its last place are rounded off.
+    // The sum is 0.5 to 2.5 near, so its ulp is that of the farther end, or 1/2 or 1/4 of it.
     let t = (t + 1.5 * near) - 1.5 * near;
     if t < start {
         start
@@ -166,8 +164,7 @@ const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     }
 }
 
-/// The coefficients of a time around `x` in single precision, computed in pairs, because they may be differences of
-/// nearly equal numbers.
+/// The cubic `a, b, c` around `x`, in single precision but computed in pairs, because coefficients may nearly cancel.
 #[cold]
 #[inline(never)]
 const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
@@ -175,4 +172,49 @@ const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
     let bend = c.thrice().times(x);
     let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
     [slope.rounded(), bend.plus(b).rounded(), c.hi]
+}
+
+/// The place at which `c[0] x + c[1] x² + c[2] x³` reaches `target`, within `error`; `None` where time nearly stands
+/// still, and only a search finds it. After two of Halley's steps in single precision about a thousandth is missing.
+/// Measured in pairs, it takes a third step, which leaves the cube of that; a bound ([`left`]) accepts the place or
+/// not.
+#[inline(always)]
+pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Option<Pair> {
+    let single = [c[0].hi, c[1].hi, c[2].hi];
+    let [c1, c2, _] = single;
+    let sought = target.hi;
+    // Halley's step n / (1 + b) from the end, with n = sought / c1 and b = n c2 / c1.
+    let x = sought * c1 / (c1 * c1 + c2 * sought);
+    let local = Taylor::new(&single, x);
+    let inverse = 1.0 / local.d1;
+    let newton = (sought - local.value) * inverse;
+    let bend = local.d2 * newton * inverse;
+    // Halley's second step leads to an `x` of 12 bits: so `value` takes fewer operations.
+    let x = upper(x + newton * (1.0 - bend * (1.0 - bend)));
+    let local = Taylor::new(&single, x);
+    let missing = target.difference(value(c, x));
+    // inverse = 1 / local.d1, by a step of Newton's from the one before.
+    let inverse = inverse * (2.0 - local.d1 * inverse);
+    let newton = missing * inverse;
+    let step = newton * (1.0 - local.d2 * newton * inverse);
+    let place = Pair::sum(x, step);
+    // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
+    let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
+    let left = left(&single, [x, 0.0], &local, missing, step, ROUNDING);
+    if is_inside & (left <= 0.75 * error) { Some(place) } else { None }
+}
+
+/// The cubic's value at an `x` of 12 bits, as [`Series::at`] computes it.
+#[inline(always)]
+const fn value([c1, c2, c3]: [Pair; 3], x: f32) -> Pair {
+    let product = c3.hi * x;
+    let lo = c3.lo * x + lost_by_short_product(product, c3.hi, x);
+    let sum = Pair::sum(c2.hi, product);
+    let lo = lo + (c2.lo + sum.lo);
+    let product = sum.hi * x;
+    let lo = lo * x + lost_by_short_product(product, sum.hi, x);
+    let sum = Pair::sum(c1.hi, product);
+    let lo = lo + (c1.lo + sum.lo);
+    let product = sum.hi * x;
+    Pair { hi: product, lo: lo * x + lost_by_short_product(product, sum.hi, x) }
 }

@@ -1,20 +1,25 @@
-//! A ramp: one Bezier, seen from either end, and where on it a mass has been collected.
+//! A ramp: one Bezier, and the time by which a mass has been collected on it.
 //!
-//! From an end, the time and the mass since are polynomials without a constant term in the place, which counts from 0
-//! there to [`LAST_PLACE`] at the other end. So both tails keep their relative accuracy. A side of the curve sees every
-//! ramp from the end that faces it: side 0 from the earlier end, side 1 from the later one, back in time.
+//! From either end of the ramp, time and mass are polynomials of the place without a constant term. The place counts
+//! from 0 there to [`LAST_PLACE`] at the other end, so both tails keep their relative accuracy. A side sees every ramp
+//! from the end that faces it: [`Side::Start`] from the earlier end, [`Side::End`] from the later one, back in time.
 //!
-//! Newton's method needs a good first guess where the slope of the mass, the density `f t'`, nearly vanishes. Near a
-//! ramp's end the series is nearly its leading term, and a root of that term is such a guess. Inside the ramp the
-//! density nearly vanishes only near the minimum of `f` or of `t'`. Each has one at most, being a cubic and a parabola,
-//! and with the series expanded there, the guess is again a root of its leading term. So a search for a mass starts
-//! from one of four *anchors*, the one whose mass is nearest: the two ends and the two minima.
+//! A search starts from one of four *anchors*, the one whose mass is nearest: the two ends and the two *flat places*,
+//! the minima of `f` (a cubic) and of `t'` (a parabola) if they lie inside. There the density `f t'` may nearly vanish,
+//! so Newton's method needs a good first guess. The root of the leading term there is one. All count away from the
+//! nearer end, as here two flat places at 0.3 and 0.8 of a ramp:
+//!
+//! ```text
+//! place           0              0.3                 0.8       1
+//! anchor          end            flat place          flat place end
+//! stored place                   +0.3                -0.2               (times LAST_PLACE)
+//! powers count    -->            -->                 <--       <--
+//! ```
 
 pub(crate) mod bezier;
 pub(crate) mod by_time;
 pub(crate) mod cubic;
 pub(crate) mod lift;
-mod quick;
 pub(crate) mod shape;
 
 use crate::fraction::Side;
@@ -28,11 +33,11 @@ use crate::ramp::shape::Shape;
 use crate::search::guess::guess;
 use crate::search::{Anchor, ROUNDING, solve};
 
-/// The sign bit: the direction of what counts back.
+/// The sign bit, for what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
 
-/// The rounding of an anchor's slopes: from the other end the distance is itself rounded, from a flat place twice, and
-/// one coefficient may be a difference of greater ones.
+/// [`Anchor::rounding`] from the other end, where the distance is rounded; and from a flat place, where it is rounded
+/// twice, and one coefficient may nearly cancel.
 // proofs/solve.py
 const FROM_OTHER: f32 = 1.25 * ROUNDING;
 const FROM_FLAT: f32 = 3.0 * ROUNDING;
@@ -41,9 +46,9 @@ const FROM_FLAT: f32 = 3.0 * ROUNDING;
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct End {
     at: f32,
-    /// The time since, either way, except for its last coefficient.
+    /// The time between here and a place, without its last coefficient.
     time: [Pair; 2],
-    /// The mass in between, except for its last coefficient.
+    /// The mass between here and a place, without its last coefficient.
     mass: [Pair; 5],
 }
 
@@ -54,20 +59,20 @@ impl End {
     }
 }
 
-/// A place inside a ramp where `t'` or `f` has a minimum, and the density may nearly vanish. Place, mass and powers
-/// count away from the nearer end of the ramp. Place and mass are negative if that is the later end.
+/// A flat place: the minimum of `t'` or `f` inside a ramp. Place, mass and powers count away from the ramp's nearer
+/// end; place and mass are negative if that is the later end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// How far from the nearer end, with that sign.
+    /// From that end to here.
     place: f32,
-    /// The mass between that end and here, with that sign.
+    /// From that end to here.
     mass: Pair,
-    /// The mass from here, by powers of the distance. The last two coefficients follow from those of the end.
+    /// The mass from here by powers of the distance, without the last two coefficients, which follow from the end's.
     c: [f32; 4],
 }
 
 impl Flat {
-    /// No place: no mass is near to it.
+    /// No flat place: no mass is near to it.
     const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
 }
 
@@ -78,23 +83,23 @@ pub(crate) struct Ramp {
     ends: [End; 2],
     /// The last coefficient of both ends' time.
     last_of_time: Pair,
-    /// The last coefficient of the earlier end's mass; the later end's is minus that.
+    /// The last coefficient of the earlier end's mass; the later one's is minus that.
     last_of_mass: Pair,
     /// The openness of the control points.
     pub(crate) openness: [f32; 4],
-    /// Where `t'` has its minimum, and where `f` has.
+    /// The minimum of `t'`, and that of `f`.
     flats: [Flat; 2],
     /// The ramp's fraction of the exposure, in [`WHOLE`].
     pub(crate) share: Pair,
 }
 
 impl Ramp {
-    /// A ramp of a curve whose whole area is this.
+    /// A ramp of a curve with this area.
     pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
         let [start, _, _, end] = curve.times();
         let shape = Shape::new(curve);
-        // A ramp with less than 2⁻¹⁵⁰ of the exposure is dark: no `f32` u is reached on it.
         let share = shape.area() / area;
+        // Below 2⁻¹⁵⁰ no `f32` u is reached on the ramp.
         let is_dark = share < 0.5 * f32::from_bits(1) as f64;
         let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
@@ -112,7 +117,7 @@ impl Ramp {
             let side = Side::BOTH[i];
             let seen = shape.from(side);
             let (openness, time, seen_end) = (seen.openness(), seen.time(), &mut ramp.ends[i]);
-            // Both last coefficients are the same from either side, to the bit, but for the sign of the mass.
+            // From either side both last coefficients have the same bits, but for the sign of the mass.
             ramp.last_of_time = in_places(&time.c, per_unit, &mut seen_end.time);
             let last = in_places(&seen.mass(), per_mass, &mut seen_end.mass);
             ramp.last_of_mass = seen_from(side, last);
@@ -121,7 +126,7 @@ impl Ramp {
             let mut kind = 0;
             while kind < 2 {
                 let p = minima[kind & 1];
-                // A little beyond the middle, so that rounding hides no minimum from both sides.
+                // In the half next to this side, and a little beyond: rounding hides no minimum from both sides.
                 if p > 0.0 && p <= 0.5000001 {
                     let (place, p) = (p as f32 * LAST_PLACE, p as f32 as f64);
                     let mut c = [Pair::ZERO; 4];
@@ -139,7 +144,7 @@ impl Ramp {
         ramp
     }
 
-    /// An end by the side that it faces, which is 0 or 1.
+    /// The end that faces a side.
     #[inline(always)]
     const fn end(&self, side: Side) -> &End {
         &self.ends[side as usize]
@@ -168,15 +173,15 @@ impl Ramp {
         Series { c: &self.end(side).mass, last: seen_from(side, self.last_of_mass) }
     }
 
-    /// The same in single precision.
+    /// [`mass_since`](Self::mass_since) in single precision.
     #[inline(always)]
     pub(crate) const fn mass_in_single(&self, side: Side) -> [f32; 6] {
         let Series { c, last } = self.mass_since(side);
         [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
     }
 
-    /// The moment at which the fraction `target` has been collected since the end that faces a side. Target and errors,
-    /// which are those of [`solve`], are in [`WHOLE`].
+    /// The moment by which `target` has been collected since the end that faces a side. Target and errors (those of
+    /// [`solve`]) are fractions in [`WHOLE`].
     #[inline(always)]
     pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: [f32; 2]) -> Moment {
         let factor = mass_per_fraction(self.share.hi);
@@ -187,6 +192,7 @@ impl Ramp {
         self.moment(side, solve(self.mass_since(side), target, &anchor, guess, error))
     }
 
+    /// The moment of a place, counted from the end that faces a side.
     #[inline(always)]
     const fn moment(&self, side: Side, (place, evaluations): (Pair, u32)) -> Moment {
         let way = self.time_since(side).at_pair(place);
@@ -200,15 +206,22 @@ impl Ramp {
         }
     }
 
-    /// The anchor whose mass is nearest to a target, seen from a side.
+    /// The anchor whose mass is nearest to `target`, seen from a side.
+    ///
+    /// On a ramp with a mass of 10, from each anchor to a target of 7, and negative if that lies back:
+    ///
+    /// ```text
+    /// from this end                     7
+    /// from a flat place of mass 6       7 - 6 = 1             both masses count from this end
+    /// from a flat place of mass -1      (7 - 10) + 1 = -2     both count from the other end
+    /// from the other end                7 - 10 = -3
+    /// ```
     #[inline(always)]
     const fn anchor(&self, side: Side, target: Pair) -> Anchor<6> {
-        // The other end, then the minima.
         let from_other = target.minus_loose(self.share.scaled(mass_per_fraction(self.share.hi)));
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
-            // A negative mass counts from the other end, as `from_other` does.
             let mass = seen_from(side, self.flats[i].mass);
             let from_end = if mass.hi < 0.0 { from_other } else { target };
             let from_flat = from_end.difference(mass);
@@ -217,6 +230,7 @@ impl Ramp {
             }
             i += 1;
         }
+        // |sought| is the least of the last three.
         if target.hi <= sought.abs() {
             let c = self.mass_in_single(side);
             return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
@@ -225,32 +239,32 @@ impl Ramp {
             let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
             return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER };
         }
-        // The powers count away from the flat place's nearer end. They are mirrored if the target lies the other way.
         let flat = &self.flats[nearest & 1];
         let is_other = (flat.place < 0.0) != side.is_end();
         let [.., c5, c6] = self.mass_in_single(side.other_if(is_other));
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
+        // Around `from_end` the fifth coefficient is c5 + 6 c6 from_end, and the sixth c6.
         let c5 = c5 + 6.0 * c6 * from_end;
         let (base, counts_back) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
         let place = Pair::sum(base, flipped(from_end, counts_back));
         let back = sought.to_bits() & BACK;
-        // Mirrored, both the distance and the mass count the other way, so it is the even powers that change their
-        // sign.
+        // Mirrored if the powers count away from the target: with x for -x, and the mass negated, 3x + 2x² + x³ becomes
+        // 3x - 2x² + x³.
         let mirror = counts_back ^ back;
         let c = [c1, flipped(c2, mirror), c3, flipped(c4, mirror), c5, flipped(c6, mirror)];
         Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }
     }
 }
 
-/// A number that is negative for what counts from the later end, as it is seen from a side: negative for the other end.
+/// `x`, negated for [`Side::End`]: a minus for the later end becomes one for the end that does not face the side.
 #[inline(always)]
 const fn seen_from(side: Side, x: Pair) -> Pair {
     x.flipped(side.sign())
 }
 
-/// Coefficients by powers of `p`, which runs from 0 to 1, as those by powers of the place, times `scale`, into `pairs`;
-/// the last one apart.
+/// Coefficients of powers of `p`, which is 0 to 1, become those of powers of the place, times `scale`. Fills `pairs`
+/// with the first ones, and returns the last one.
 #[inline(never)]
 const fn in_places(c: &[f64], mut scale: f64, pairs: &mut [Pair]) -> Pair {
     let (mut last, mut k) = (Pair::ZERO, 0);

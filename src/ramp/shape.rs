@@ -1,4 +1,4 @@
-//! The shape of a ramp: what makes one Bezier a ramp, and that Bezier as it is integrated, in `f64`.
+//! The shape of a ramp: the checks that make a Bezier a ramp, and that Bezier as it is integrated, in `f64`.
 
 use crate::error::{CurveError, Part};
 use crate::fraction::Side;
@@ -6,7 +6,7 @@ use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::{Cubic, cubic_range, differences, integral, quadratic_min, widened};
 use crate::ramp::lift::{forward, lifted};
 
-/// How far a quantity may pass its bound, relative to its size, by the rounding of its control points: 2⁻²².
+/// By this share of its size a quantity may pass its bound, as its control points are rounded.
 const GRAZE: f64 = 1.0 / (1 << 22) as f64;
 
 /// Is every coordinate finite?
@@ -25,14 +25,12 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
 
 /// Does time run forward, and does the openness stay in [0, 1]?
 ///
-/// A curve that touches its bound rarely has control values that are `f32` (a value of -1/3 is rounded), so both may
-/// graze their bound by [`GRAZE`] of the ramp's length or of the greatest |f|.
+/// A curve that touches its bound rarely has control values that are `f32` (such as -1/3). So both may pass their bound
+/// by [`GRAZE`] of the ramp's length, or of the greatest |f|.
 pub(crate) const fn check_ramp(curve: &CubicBezier, part: Part) -> Result<(), CurveError> {
     let t = widened(curve.times());
-    // Time may not leave the ramp, but rounding may put the first inner control time a trace before its start. If the
-    // second one is a third in, time then runs as p² - GRAZE p, in lengths of the ramp, and dips by GRAZE²/4. So much
-    // is forgiven. (Chosen: with the second one nearer the start the same trace dips more, and is refused. And t' is
-    // three times the differences.)
+    // Time may leave the ramp by GRAZE²/4 of its length. Rounding may turn t = p² (inner control times 0 and 1/3) into
+    // p² - GRAZE p, which dips by that. Steeper starts dip more, and are refused. t' is three times the differences.
     let (first, last) = cubic_range([0.0, t[1] - t[0], t[2] - t[0], t[3] - t[0]]);
     let slack = (t[3] - t[0]) * (0.25 * GRAZE * GRAZE);
     let leaves = first < -slack || last > t[3] - t[0] + slack;
@@ -50,12 +48,12 @@ pub(crate) const fn check_ramp(curve: &CubicBezier, part: Part) -> Result<(), Cu
     Ok(())
 }
 
-/// A Bezier as it is integrated: lifted where it grazes a bound, and seen from one of its ends.
+/// A Bezier as it is integrated: lifted where it passes a bound, and seen from one of its ends.
 #[derive(Clone, Copy)]
 pub(crate) struct Shape {
     /// The openness of the control points.
     pub(crate) f: [f32; 4],
-    /// The differences of their times, all counted away from the end.
+    /// The differences of their times, counted away from that end.
     d: [f64; 3],
 }
 
@@ -67,7 +65,7 @@ impl Shape {
         Self { f: lifted(curve.opennesses()), d }
     }
 
-    /// Seen from a side: from the earlier end as it is, or from the later one.
+    /// Seen from the end that faces a side; `self` is seen from the earlier one.
     pub(crate) const fn from(self, side: Side) -> Self {
         let Self { f, d } = self;
         if side.is_end() {
@@ -93,12 +91,12 @@ impl Shape {
         Cubic::new(0.0, self.d)
     }
 
-    /// The mass since the end: `∫ f t' dp`, of degree 6.
+    /// `∫ f t' dp` since the end, of degree 6: the mass times the curve's area.
     pub(crate) const fn mass(&self) -> [f64; 6] {
         integral(self.openness(), self.time())
     }
 
-    /// `∫ f dt` over the ramp, the same seen from both ends.
+    /// `∫ f dt` over the ramp, with the same bits from either end.
     pub(crate) const fn area(&self) -> f64 {
         let (m, n) = (self.mass(), self.from(Side::End).mass());
         let (mut first, mut last, mut k) = (0.0, 0.0, 0);
