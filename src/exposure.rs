@@ -1,8 +1,8 @@
 //! The exposure: two ramps and the plateau between them, one area over all three, and the moment of a fraction.
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau or on
-//! the far ramp, and the part of it that is sought there is never more than `a`. So what measuring loses of that part is as
-//! little of `a`, next to either end. A mirrored curve gives mirrored times.
+//! the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that part is no
+//! greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
 
 use crate::error::{CurveError, Part};
 use crate::fraction::Side;
@@ -16,7 +16,7 @@ use crate::ramp::shape::{Shape, check_finite, check_ramp};
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which so
 /// keep their order.
 pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
-/// The error of the inverse that decides a cdf: far below the noise of a measured mass.
+/// The error of the inverse that decides a cdf: less than the noise of a measured mass where nothing cancels.
 pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ impl Exposure {
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
-        // At most 2⁶⁴, so its reciprocal is normal if it is.
+        // The area is at most 2⁶⁴ or so: if it is normal, its reciprocal is.
         if !(area as f32).is_normal() {
             return Err(CurveError::AreaOutOfRange);
         }
@@ -99,7 +99,8 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side, within `error · a`.
+    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side, within `error · a`; after
+    /// a step below an ulp, within `INVERSE_ERROR · a`.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
@@ -120,13 +121,14 @@ impl Exposure {
         if a.difference(near) < 0.0 {
             return Section::Ramp(side, a);
         }
-        // If the two nearly cancel, the second number may be the greater one: the product below then loses 2⁻²⁴ of it,
+        // If the two nearly cancel, `lo` may be the greater number: the product below then loses 2⁻²⁴ of it,
         // some 2⁻⁴⁸ of `a`. No script proves that.
         let past_near = a.minus_loose(near);
         let past_plateau = past_near.minus(self.plateau);
         if past_plateau.rounded() > 0.0 {
             return Section::Ramp(side.other(), past_plateau);
         }
+        // At a join without a plateau: 0 of it.
         let (base, until) = (self.join(side), self.join(side.other()));
         let (area, exponent) = significand(self.area);
         let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
@@ -135,11 +137,17 @@ impl Exposure {
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two parts
     /// into which it divides the exposure. So without a plateau both are one number.
+    ///
+    /// If both are within an ulp below 1/2, they count as 1/2, as they are meant to be on a symmetric shutter: only 1/2 itself
+    /// lies between, and [`Plan`](crate::answer::plan::Plan) has its time.
     #[inline(never)]
     pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
+        if !self.has_plateau() && near < 0.5 && near > 0.5f32.next_down() as f64 {
+            return [0.5; 2];
+        }
         [
             if near < 0.5 { near } else { 1.0 - (plateau + far) },
             if near + plateau < 0.5 { near + plateau } else { 1.0 - far },

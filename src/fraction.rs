@@ -1,6 +1,6 @@
 //! Fractions of the exposure, each counted from the nearer end of the curve: so those next to either end keep their bits.
 
-/// An end of the curve, or of a ramp; and the ramp at that end, the opening one at the start.
+/// An end of the curve, or of a ramp. `ramp: Side` is the ramp at that end of the curve: the opening one at the start.
 ///
 /// Seen from a side, the ramp there is the *near* one, the other one the *far* one. A ramp meets the plateau, or the other
 /// ramp, at its *join*.
@@ -60,12 +60,12 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / 2n`, which has to be from 0 to 1: within an ulp, or the nearest `f32` if `more` is 0. Half is
-    /// counted from the start.
+    /// `(odd + more) / all`, from 0 to 1, where `all` is twice the number of triggers and `more` is ±duty for the ends of a
+    /// pulse, else 0: then it is the nearest `f32`, else within an ulp. Half is counted from the start.
     #[inline(always)]
-    pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
-        let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
-        let all = (2 * n) as f32;
+    pub(crate) const fn new(odd: u32, more: f32, all: f32) -> Self {
+        let odd = odd as f32;
+        let (part, rest) = (odd + more, (all - odd) - more);
         if part <= rest {
             Self { side: Start, a: part / all }
         } else {

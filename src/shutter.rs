@@ -17,8 +17,9 @@ use crate::ramp::bezier::CubicBezier;
 /// Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or
 /// end at 1 (a jump).
 ///
-/// `OCTAVES` is the number of octaves of `u` on either side: the upper half of what lies between the curve's end and the
-/// end of a ramp, the upper half of the rest, and so on. Each has a polynomial that answers it. A curve takes 488 bytes,
+/// `OCTAVES` is the number of octaves of `u` on either side: the fractions from a ramp's last down to half of that, then
+/// down to a quarter, and so on. Each has a polynomial that answers it, unless the curve is too difficult there. A curve
+/// takes 488 bytes,
 /// and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of a typical curve is found by a search; with
 /// 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile, and beyond 16 a constant
 /// may exceed the compiler's limit on evaluation. [`with_octaves`](Self::with_octaves) takes another number than 8.
@@ -209,11 +210,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
         let f = rounded(self.plan.exposure.openness(t));
-        // Where rounding makes the curve graze 1. `openness_pair` would give the same bits, but takes longer.
+        // Where rounding lifts the curve above 1. `openness_pair` would give the same bits, but takes longer.
         if f > 1.0 { 1.0 } else { f }
     }
 
-    /// The openness, no more than 1 where rounding makes the curve graze it.
+    /// The openness, no more than 1 where rounding lifts the curve above it.
     #[inline]
     fn openness_pair(&self, t: f32) -> (Pair, i32) {
         let (f, unit) = self.plan.exposure.openness(t);

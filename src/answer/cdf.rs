@@ -1,7 +1,7 @@
 //! From a time: the openness, the density, and the cdf.
 //!
 //! A cdf is the mass that is collected until the place at which the time is reached. It is measured from the ramp's start,
-//! so all of it are sums. Where the computed noise of that measurement reaches the middle of two `f32`, the inverse's time
+//! so its parts are only added. Where the computed noise of that measurement reaches the middle of two `f32`, the inverse's time
 //! of the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
 
 use crate::exposure::{CDF_ERROR, Exposure};
@@ -14,7 +14,7 @@ use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 enum At {
     Outside,
     Plateau,
-    /// On a ramp, by its index.
+    /// On the ramp at a side.
     Ramp(Side),
 }
 
@@ -76,6 +76,7 @@ impl Exposure {
         let (area, exponent) = significand(self.area);
         // Scaled first: a quotient of a subnormal way has too few bits.
         let way = Pair::sum(t, -self.join(Start)).shifted(WHOLE_EXPONENT - exponent);
+        // A few 2⁻⁴³, which the 2⁻³⁹ in `nearest` covers.
         self.nearest(t, self.ramps[0].share.plus(way.over(area)), |_| 0.0)
     }
 
@@ -91,7 +92,8 @@ impl Exposure {
     /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, times before
     /// the middle's get the lesser `f32`, all others the greater one. (A subnormal answer is rounded once more.)
     ///
-    /// `noise` bounds the error of the measurement and of the inverse, by the side from which that counts.
+    /// `noise` bounds the errors of a measurement on a ramp and of an inverse there, given the side from which the inverse
+    /// counts. To it come 2⁻⁴⁰ for the search, and as much for sums of pairs.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();

@@ -2,14 +2,14 @@
 //!
 //! The steps of [`Plan::inverse_cdf`], with the file of each:
 //!
-//! 1. On the plateau, from `u = 1/512` on, the time is on a line: `t = base + A u`. Go to 10.
+//! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
 //! 2. Else the fraction is counted from the nearer end of the curve, its *side*: `a = min(u, 1 - u)`.
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes a pair of `f32` ([`pair`](crate::number::pair)).
 //! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The search starts from the nearest of four places on it, the *anchors*.
-//! 8. A root of the leading term there is the first guess ([`guess`](crate::search::guess)).
+//! 8. A root of the term that reaches the target first is the first guess ([`guess`](crate::search::guess)).
 //! 9. Halley's steps, what they miss in pairs, and a last step with a bound of its error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
@@ -105,6 +105,11 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
                 plan.on_line_count[side] = last.saturating_sub(before);
                 side += 1;
             }
+        } else if plan.exposure.joins(Start)[0] == 0.5 {
+            // 1/2 may lie beyond the join, alone: a line of its own, instead of an octave that the others would lack.
+            plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 });
+            plan.last_before_far[0] = 0.5f32.to_bits();
+            plan.on_line_count[0] = 1;
         }
         let mut side = 0;
         // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
@@ -138,7 +143,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The early return keeps register saves off the plateau: 68 -> 42 cycles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        // until_far < on_line_count: on the line. Bit 31 set: on the far ramp, or 2²⁹ and more for `u < 0` and NaN.
+        // `u` is on the line if until_far < on_line_count. It has wrapped, bit 31, if `u` is beyond, on the far ramp. For
+        // u < 0 and NaN it is at least 2²⁹, more than any on_line_count.
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));
@@ -158,7 +164,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         time * scale
     }
 
-    /// A time of fewer than 26 bits in its upper word, rounded once.
+    /// A time of fewer than 26 bits in its upper word, as an `f32` in the curve's unit, rounded once.
     // proofs/words.py
     #[inline(always)]
     fn rounded_near_0(&self, time: i64) -> f32 {
@@ -167,9 +173,10 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // Then up until the upper word is full; back in two steps, since one power of two may not be a normal number.
+        // Then up until the upper word is full.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+        // Two factors: their product may not be a normal number.
         filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
     }
 
@@ -196,6 +203,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let until_far = self.last_before_far[side as usize].wrapping_sub(bits);
         if until_far < self.on_line_count[side as usize] {
             let word = in_words(bits);
+            // From the end u = 1 - a, in 2⁻³²: 2³² wraps to 0.
             Some(self.on_line(if side.is(Start) { word } else { word.wrapping_neg() }))
         } else {
             self.by_octave(side, bits, side.other_if(until_far >> 31 == 1))
@@ -234,7 +242,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The side from which `u` is counted, and the bits of `a = min(u, 1 - u)`; outside [0, 1] and for NaN, bits of no
     /// octave and of no number above 0.
     ///
-    /// Integers, since a comparison of floats waits; no branch, since the side is unpredictable.
+    /// Integers, since a comparison of floats waits for the FPU; no branch, since the side is unpredictable.
     #[inline(always)]
     pub(crate) fn nearer(u: f32) -> (Side, u32) {
         let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
@@ -278,7 +286,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     }
 
     /// [`inverse_cdf`](Self::inverse_cdf) by a search. Out of line: direct answers save no registers for it. It returns
-    /// bits: a tail call would be a second return for the ramps.
+    /// bits, not a float, so that the caller cannot tail-call it: all answers on ramps share one return.
     #[cold]
     #[inline(never)]
     fn searched(&self, u: f32) -> u32 {

@@ -3,11 +3,11 @@
 use crate::number::pair::Pair;
 use crate::number::units::{fixed, power_of_two};
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. `way` is at most 2¹⁰⁵, as on the plateau,
-/// and `unit` from -252 to 22, as for a density, or greater where `way` is 0.
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. `way` is at most 2¹⁰⁵ (a plateau's), and `unit`
+/// from -252 to 22 (those of a density), or greater where `way` is 0.
 ///
 /// If base and way nearly cancel, so that `way.lo` is more than 3/8 ulp of the sum, the error next to the middle of two
-/// `f32` may be half an ulp and 2⁻²⁴ of `rest`: no promise is that fine.
+/// `f32` may be half an ulp plus 2⁻²⁴ of what `sum.hi` lacks: no promise is that fine.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
@@ -19,7 +19,8 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let sum = Pair::sum(base, hi);
     let rest = sum.lo + way.lo * first * second;
     // base ± way = sum.hi + rest, but for the rounding of `rest`. Midway between two `f32` the rest is ±1/2 or ±1/4
-    // ulp, a power of two: its significand has no bits. And below 2⁻⁷⁸ parts may be subnormal.
+    // ulp, a power of two, so a significand without bits (as 0 has it) goes to `careful_sum`. Below 2⁻⁷⁸ parts may be
+    // subnormal.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
         return careful_sum(base, way, first, second);
     }
@@ -44,7 +45,7 @@ const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     let up = if is_small { 48 } else { 0 };
     let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    // Adding `places` rounds a sum that will be subnormal to the last place of a subnormal `f32`. It has the sum's
+    // Adding `places` rounds a sum that will be subnormal to the last place of a subnormal `f32`. `places` has the sum's
     // sign, which `lo` decides where `hi` cancels the base.
     let near = Pair::sum(base, hi);
     let (rough, least_normal) = (near.hi + (near.lo + lo), power_of_two(up - 126));

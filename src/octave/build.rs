@@ -19,7 +19,7 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     if !ramp.is(side) {
         return [far, 0.5];
     }
-    // The plateau's line begins at FINE. If the near ramp's join is below that, the look-up takes the plateau up to
+    // The plateau's line begins above FINE. If the near ramp's join is below that, the look-up takes the plateau up to
     // FINE for this ramp. So this ramp has no octaves.
     let is_hidden = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
@@ -42,9 +42,9 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = [side.other(), side][i];
         let (top, end) = view.of_ramp(ramp, octaves, first);
-        // It fits a byte: a stored top is below 8. Let the far ramp have n octaves, from a top f < 1. The last one's,
-        // 2 f / 2ⁿ, is above the near ramp's join and above LEAST_TOP / 2. The near ramp's top is below twice its join
-        // or 2 LEAST_TOP (without octaves, at most 9/8 of the far join or LEAST_TOP), so below 8 f / 2ⁿ.
+        // A stored top is below 8, so it fits a byte. Let the far ramp have n octaves, the first with a top f < 1, the last
+        // with l = 2 f / 2ⁿ. Then l is above the near ramp's join and above LEAST_TOP / 2, and the near ramp's top is below
+        // twice its join or below 2 LEAST_TOP: below 4 l, and stored, times 2ⁿ, below 8. (Without octaves it is less.)
         tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
@@ -59,8 +59,8 @@ impl View<'_> {
     const fn of_ramp(&self, ramp: Side, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // No octaves. But the plateau up to FINE may be looked up here (see `range`). A top at or above all of it
-            // keeps its index from `first` on, out of the far ramp's octaves.
+            // No octaves. But look-ups on the plateau up to FINE come here (see `range`). With a top at or above all of
+            // it their index is at least `first`, where there is nothing.
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -76,14 +76,14 @@ impl View<'_> {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-                    // One octave with a top below LEAST_TOP is counted too. Else, if the ramps join at 0.7 LEAST_TOP
+                    // One octave with a top below LEAST_TOP takes an index, though nothing is built there. Else, if the ramps join at 0.7 LEAST_TOP
                     // and a top is 7/8 LEAST_TOP, a far ramp's `a` of 0.8 LEAST_TOP finds the near ramp's first octave.
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {
                     octaves[index] = self.certified(ramp, &path, &span);
                     if !octaves[index].exists() && trial < MOVES.len() {
-                        // Try the next top.
+                        // Try the next of MOVES.
                         break;
                     }
                 }

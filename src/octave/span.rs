@@ -4,9 +4,9 @@ use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::FINER;
 use crate::octave::path::{Path, scale};
 
-/// `width` is halved while `half <= FILLED * width`; then `half <= 0.48 width` (unhalved too, as a top is at most 15/8
-/// of the power). A word of offsets ends at 0.5 width. Of the room between, a center takes 0.009: it is off by 2⁸, as
-/// its middle is rounded, and by its shift, 31 at most; both times 2¹⁷ at most.
+/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a top
+/// is at most 15/8 of the power.) A word of offsets ends at 0.5 width. The center's error takes 0.009 of the 0.02
+/// between: 2⁸ for a rounded middle and 31 for the shift in its lowest bits, both times 2¹⁷ at most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_FINER: u32 = 17;
@@ -26,7 +26,7 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// What the octave with these bits of a top has of a ramp's range of `a`; none if nothing, or below LEAST_TOP.
+    /// The part of a ramp's `range` that lies in the octave whose top has these bits; none below LEAST_TOP.
     pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {
         let high = f32::from_bits(top);
         let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };

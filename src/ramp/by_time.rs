@@ -9,8 +9,8 @@ use crate::search::guess::guess;
 use crate::search::{Anchor, ROUNDING, Taylor, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
-/// times, so that they keep their order. Neighbouring `f32` are at least 2⁻²⁴ of that time apart, since it is at most
-/// `|t|`. It may be longer across time 0, and there [`on_grid`] leaves times about 2⁻²⁶ of it apart.
+/// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at least
+/// 2⁻²⁴ of it apart. On a ramp across time 0 it may be longer; there [`on_grid`] leaves times about 2⁻²⁶ of it apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
@@ -67,7 +67,8 @@ impl Ramp {
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor =
             Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
-        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if that is below SLOW and the target nearer than the end.
+        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if that is below SLOW and nearer to the target than
+        // the end is.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
             let slowest = -c2 / thrice;
@@ -104,7 +105,8 @@ impl Ramp {
 }
 
 impl RampPoint<'_> {
-    /// The place from the ramp's start. Little cancels, as a time nearer to the end lies beyond 1/18 of the ramp.
+    /// The place from the ramp's start. Little cancels: a time nearer to the end lies beyond 1/7 of the ramp, since `t'` is
+    /// not negative.
     #[inline(always)]
     const fn place_from_start(&self) -> Pair {
         let Pair { hi, lo } = self.place;
@@ -122,8 +124,9 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the rounding errors of [`mass`](Self::mass) and of a search from a side for a mass next to it: 2⁻⁴⁰
-    /// of the terms ([`Series::at_pair`]), and as much for the step of the search.
+    /// A bound of the rounding errors of [`mass`](Self::mass) and of a search from a side for a mass next to it: 2⁻³⁹ of
+    /// the terms from the start and of those from the side. Measuring loses half of it ([`Series::at_pair`]), and the rest
+    /// is for the step of the search.
     // proofs/series.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;

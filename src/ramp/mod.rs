@@ -6,7 +6,7 @@
 //!
 //! A search starts from one of four *anchors*, the one whose mass is nearest: the two ends and the two *flat places*,
 //! the minima of `f` (a cubic) and of `t'` (a parabola) if they lie inside. There the density `f t'` may nearly vanish,
-//! so Newton's method needs a good first guess. The root of the leading term there is one. All count away from the
+//! so Newton's method needs a good first guess. The root of one term of the series there is one. All count away from the
 //! nearer end, as here two flat places at 0.3 and 0.8 of a ramp:
 //!
 //! ```text
@@ -45,6 +45,7 @@ const FROM_FLAT: f32 = 3.0 * ROUNDING;
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct End {
+    /// The time of the end.
     at: f32,
     /// The time between here and a place, without its last coefficient.
     time: [Pair; 2],
@@ -126,7 +127,7 @@ impl Ramp {
             let mut kind = 0;
             while kind < 2 {
                 let p = minima[kind & 1];
-                // In the half next to this side, and a little beyond: rounding hides no minimum from both sides.
+                // In the half next to this side, and a little beyond: rounding cannot hide one at the middle from both.
                 if p > 0.0 && p <= 0.5000001 {
                     let (place, p) = (p as f32 * LAST_PLACE, p as f32 as f64);
                     let mut c = [Pair::ZERO; 4];
@@ -230,7 +231,7 @@ impl Ramp {
             }
             i += 1;
         }
-        // |sought| is the least of the last three.
+        // |sought| is the least of the table's last three.
         if target.hi <= sought.abs() {
             let c = self.mass_in_single(side);
             return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
@@ -257,7 +258,8 @@ impl Ramp {
     }
 }
 
-/// `x`, negated for [`Side::End`]: a minus for the later end becomes one for the end that does not face the side.
+/// Stored, what counts from the ramp's later end is negative. Seen from a side, what counts from the end that does not
+/// face it is negative. This leads from either to the other.
 #[inline(always)]
 const fn seen_from(side: Side, x: Pair) -> Pair {
     x.flipped(side.sign())

@@ -9,7 +9,7 @@
 /// A logarithm has 20 fraction bits, so that the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// A logarithm is 0 to 0.086 above the linear one: the middle of that.
+/// A logarithm is 0 to 0.086 above the linear one. Less the middle of that, a root is as often too small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.
@@ -30,8 +30,9 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// Of a coefficient that is negative it is less by 256, so the root is greater by at least 2^(256/6) and never the
-/// least: no term of an increasing series is that much greater than the sum. A 0 counts as 2⁻¹²⁷, with as great a root.
+/// Of a coefficient that is negative it is less by 256, so the root is greater by a factor of at least 2^(256/6) and
+/// never the least: no term of an increasing series is that much greater than the sum. A 0 counts as 2⁻¹²⁷: its root is
+/// as great.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE

@@ -42,8 +42,8 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// A distance that is rounded by less than this share keeps its slopes. For that [`left`] adds 5 · 2⁻¹⁶ of the last
-/// step, which is 2⁻¹³: 0.63 · 2⁻²⁶, where a search for an `f32` may leave 0.75 · 2⁻²⁶.
+/// A place that is rounded by less than this share of its distance keeps the slopes from before. The last step is about
+/// 2⁻¹³ of what is sought, so [`left`] adds 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶ at most, of 0.75 · 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Neighbouring `f32` are at most this far apart, relative to them.
@@ -134,8 +134,9 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// + |s| 3.4 cubes s²             all further terms
 /// ```
 ///
-/// where `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y` and `slopes = |c_1| + bends y` bound
-/// derivatives up to `y = |x| + |s|`, and `c_j` is `c[j - 1]` (docs/proofs.md, "What a step of the search leaves").
+/// where `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y`, `slopes = |c_1| + bends y`, `c_j` is `c[j - 1]`
+/// and `y = |x| + |s|`. Up to `y`, the slope is at most `slopes`, the second derivative `5 bends`, the third `20 cubes`, as
+/// `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
@@ -161,8 +162,10 @@ pub(crate) const fn left<const N: usize>(
     first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, and the evaluations that took. The error is at most `wanted`, and what
-/// measuring adds. After a step of less than an ulp `accepted` suffices: another round would measure the same `f32`.
+/// The place where `series` reaches `target`, and the evaluations that took.
+///
+/// The last step leaves at most 3/4 of `wanted`, or of `accepted` if it is less than an ulp: another round would measure
+/// the same `f32`. The last quarter is for measuring. At the cap there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,
@@ -215,7 +218,6 @@ pub(crate) const fn solve<const N: usize>(
             local = Taylor::new(&c, x);
             evaluations += 1;
         }
-        // Its sign is certain but for the noise of measuring.
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
@@ -232,7 +234,7 @@ pub(crate) const fn solve<const N: usize>(
         if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
             return (Pair::sum(p, way), evaluations);
         }
-        // Exit: the cap, without a proof.
+        // Exit: the cap, since another round takes two evaluations. There is no proof.
         if evaluations >= MAX_EVALUATIONS - 1 {
             return (Pair::new(p), evaluations);
         }

@@ -69,8 +69,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short, and those of [`pulse_ticks`](Self::pulse_ticks). The slice then holds a part
-    /// of the schedule, and else what it held.
+    /// A pulse or a gap that is too short: then the slice holds a part of the schedule. And those of
+    /// [`pulse_ticks`](Self::pulse_ticks): then it holds what it held.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],

@@ -85,9 +85,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`, in ulp of the
-    /// lesser of the fraction and its rest to 1: half an ulp for the `f32`, half for the polynomial. On typical curves it
-    /// is within 0.75 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may be many
+    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: half an ulp for the
+    /// `f32`, half for the polynomial. (An ulp of the fraction or of its rest to 1, whichever is less.) On typical curves
+    /// it is within 0.75 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may be many
     /// ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
     ///
     /// # Errors

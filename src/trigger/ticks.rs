@@ -15,6 +15,8 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     plan: &'a Plan<OCTAVES>,
     n: u32,
+    /// `2n`.
+    all: f32,
     scale: TickScale,
 }
 
@@ -35,7 +37,8 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {
             return Err(too_high(length, ticks_per_unit, unit));
         }
-        Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
+        let all = (2 * n) as f32;
+        Ok(Self { plan, n, all, scale: TickScale::new(start, length, ticks_per_unit, unit) })
     }
 
     pub(crate) const fn n(&self) -> u32 {
@@ -48,7 +51,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         self.around(i, 0.0)
     }
 
-    /// The tick of the fraction `(2i + 1 + more) / 2n`.
+    /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
     #[inline(always)]
     pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
         self.scale.tick(self.plan.time_at(self.fraction(i, more)))
@@ -61,7 +64,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
-        Fraction::new(2 * i + 1, more, self.n)
+        Fraction::new(2 * i + 1, more, self.all)
     }
 }
 
@@ -89,11 +92,11 @@ const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError 
 #[derive(Clone)]
 pub(crate) struct TickScale {
     start: i64,
-    /// What moves the delay, the time since the start, up until the whole interval has 63 bits.
+    /// How far the delay, the time since the start, moves up, so that the interval has 62 or 63 bits: 0, or at least 2.
     up: u32,
     /// The rate, moved up until it has 32 bits.
     rate: u32,
-    /// What moves the upper 64 bits of their product down to half ticks.
+    /// What moves the upper 64 bits of delay · rate down to half ticks.
     down: u32,
 }
 
@@ -103,6 +106,7 @@ impl TickScale {
         // The length or one of the ends is at least 2⁶¹ units (`time_unit`). If an end is, the next `f32` is at least
         // 2³⁷ units away. So an interval has from 2³⁷ to 2⁶² units.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
+        // One bit is not worth a shift: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
         let down = (up + zeros) as i32 - unit - 33;
@@ -120,7 +124,7 @@ impl TickScale {
         // all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line is rounded
         // down; and `Moment::in_units` stops searches.
         let delay = if delay > 0 { delay as u64 } else { 0 };
-        // Mostly by 0 or 1.
+        // Mostly 0.
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);

@@ -1,7 +1,8 @@
 //! The scripts in `proofs/` prove what they say of transcriptions. These are the Rust functions' answers, on words that the
 //! scripts chose, held to the transcriptions' (`proofs/vectors`).
 
-use crate::number::moment::rounded_sum;
+use crate::fraction::{Fraction, Side};
+use crate::number::moment::{Moment, rounded_sum};
 use crate::number::pair::Pair;
 use crate::number::series::Series;
 use crate::search::guess::divided;
@@ -79,6 +80,29 @@ fn sums() {
         let [base, hi, lo, sum] = [base, hi, lo, sum].map(|word| f32::from_bits(word as u32));
         let found = rounded_sum(base, Pair { hi, lo }, unit as i32, back == 1);
         assert_eq!(found, sum, "{base:e} {hi:e} {lo:e} {unit} {back}");
+    }
+}
+
+/// `proofs/ticks.py`: the fractions of triggers and pulses' ends.
+#[test]
+fn fractions() {
+    for [odd, more, n, side, a] in rows(include_str!("../../proofs/vectors/fractions.csv")) {
+        let [more, a] = [more, a].map(|word| f32::from_bits(word as u32));
+        let found = Fraction::new(odd as u32, more, (2 * n) as f32);
+        assert_eq!(found, Fraction { side: Side::end_if(side == 1), a }, "{odd} {more} {n}");
+    }
+}
+
+/// `proofs/ticks.py`: times in whole units.
+#[test]
+fn units() {
+    for [base, until, hi, lo, own, unit, time] in
+        rows(include_str!("../../proofs/vectors/units.csv"))
+    {
+        let [base, until, hi, lo] = [base, until, hi, lo].map(|word| f32::from_bits(word as u32));
+        let (way, back) = (Pair { hi, lo }, until < base);
+        let moment = Moment { base, back, way, unit: own as i32, until, evaluations: 0 };
+        assert_eq!(moment.in_units(unit as i32), time as i64, "{base:e} {until:e} {hi:e} {lo:e}");
     }
 }
 
