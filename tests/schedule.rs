@@ -535,3 +535,20 @@ fn the_line_counted_from_either_end() {
         }
     }
 }
+
+/// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example leaves
+/// time for.
+#[test]
+fn one_figure_for_the_worst_direct_tick() {
+    let number = |text: &str, before: &str, after: &str| -> u32 {
+        let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?}"));
+        let (number, _) = rest.split_once(after).unwrap();
+        number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
+    };
+    let readme = number(include_str!("../README.md"), "a tick costs at most ", " cycles");
+    let example = include_str!("../examples/trigger/firmware.rs");
+    assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
+    // | a tick | soft | all ramp | box | typical | worst | direct | ...
+    let (_, row) = include_str!("../docs/cost.md").split_once("\n| a tick |").unwrap();
+    assert_eq!(row.split('|').nth(5).unwrap().trim().parse(), Ok(readme));
+}

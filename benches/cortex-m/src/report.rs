@@ -18,15 +18,14 @@ const METHOD: &str = "## How it is measured
 A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), everything inlined but the
 call itself.
 
-*Instructions* are counted in QEMU and exact. *Cycles* are modelled (`benches/cortex-m/src/model.rs`): the executed instructions
-are charged by a table of the Cortex-M4's Technical Reference Manual and by what boards show of branches and of the fetch,
-without flash wait states. Held against code whose cycles were measured on boards, the table as it was before had a mean ratio of
-1.02 over 19 programs of Embench, 0.80 to 1.20 for single ones, by errors of its classes that cancelled; these are mended.
-`cargo run --release -- --silicon` prints model against board for some public code. Take the figures to be within 10 % at zero
-wait states, probably 1 to 4 % low. Two wait states without a cache cost up to 1.4 times as much. For code of floats no
-measurement at zero wait states was found. *Worst* is the most cycles found over the hard
-curves of the tests and those found by search, and over hard inputs, some 870 a curve: the ends of sections, powers of two,
-random ones, and those of 20 000 and their neighbours that take most evaluations.
+*Instructions* are counted in QEMU and exact. *Cycles* are modelled (`benches/cortex-m/src/model.rs`): a table of the Cortex-M4's
+Technical Reference Manual, with what boards show of branches and of the fetch, charges the executed instructions, without flash
+wait states. Take the figures to be within 10 % at zero wait states, probably 1 to 4 % low. Two wait states without a cache cost
+up to 1.4 times as much. `cargo run --release -- --silicon` prints model against board for some public code; for code of floats no
+measurement at zero wait states was found. [tried.md](tried.md) tells how the model was chosen.
+
+*Worst* is the most cycles found over the hard curves of the tests and those found by search, and over hard inputs, some 870 a
+curve: the ends of sections, powers of two, random ones, and those of 20 000 and their neighbours that take most evaluations.
 
 The other columns are mean instructions: on a Cortex-M33 and a riscv32imafc, which compute in `f32` as well, and in soft float
 on a Cortex-M0+ and a riscv32imc.";
@@ -153,10 +152,9 @@ fn overview(cores: &[&Measured]) -> String {
     format!(
         "The calls with `OCTAVES = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
 over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *typical* is the mean over {TYPICAL} curves.
-*Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that is answered by a polynomial or the
-plateau's line, as all of a frame of `direct_triggers()` are. Calls are by a reference that the compiler cannot see through, but
-in the second row: there each curve is a `static`, as firmware has it, whose values the compiler puts into the code. Its worst
-are over the typical curves. A schedule is of {TRIGGERS} triggers, checked.
+*Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that needs no search, as all of a frame of
+`direct_triggers()` are. Calls go through an opaque reference, but in the second row: there each curve is a `static`, as firmware
+has it, whose values the compiler puts into the code. Its worst are over the typical curves. A schedule is of {TRIGGERS} triggers, checked.
 
 {calls}
 
@@ -214,8 +212,8 @@ fn calls(cores: &[&Measured]) -> String {
         "## Every call
 
 `openness` and the usual ways have no use for the octaves. *Hard* is the worst over the hard curves and inputs, with its curve.
-Of triggers that is over the steps of a frame of {TRIGGERS} and the first of a frame whose first share ends near a hard input, and the
-frame as a whole, on a scale of time that makes the interval one to two million ticks. A frame that is refused for its gap costs no more than one that is not.
+Of triggers it is over the steps of a frame of {TRIGGERS}, the first of a frame whose first share ends near a hard input, and the frame
+as a whole, on intervals of one to two million ticks. A frame that is refused for its gap costs no more than one that is not.
 
 {table}"
     )
@@ -243,10 +241,9 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
     format!(
         "## Building a curve at run time, flash and stack
 
-A `const` curve costs nothing: the compiler builds it. Built on the microcontroller, *soft* takes so many instructions, most of
-them in doubles, which all of these compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. Where that is too much, make the
-curve a `const`; if it is not known beforehand, build it with `OCTAVES = 0`, which fits no polynomials, and each answer is a
-search. Optimised for size (`opt-level = \"z\"`), building takes {} bytes of code on a Cortex-M4F.
+The compiler builds a `static` curve, at no cost at run time. Built on the microcontroller, *soft* takes so many instructions, most
+of them in doubles, which all of these compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. With `OCTAVES = 0` no
+polynomials are fitted, and each answer is a search. Optimised for size (`opt-level = \"z\"`), building takes {} bytes of code on a Cortex-M4F.
 
 Code, in bytes, is a call's own and all that it reaches, so calls share some. Stack is the deepest path by the compiler's
 figures. The library has no statics: `.data` and `.bss` hold {} bytes.
@@ -298,9 +295,8 @@ fn roots(m4f: &Measured) -> String {
     format!(
         "## A k-th root as a first guess
 
-A search starts from the k-th root of a quotient, here with the division; the crate's own is the least root over the coefficients
-up to the k-th. The search that follows takes as many evaluations from any of these, so the crate has its own, which costs about
-as much for every k. Relative errors over a million quotients, even on a logarithmic scale.
+A search starts from the k-th root of a quotient, here with the division. It takes as many evaluations from any of these, so the
+crate has its own, which costs about as much for every k. Relative errors over a million quotients, even on a logarithmic scale.
 
 {table}"
     )

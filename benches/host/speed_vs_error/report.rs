@@ -52,8 +52,8 @@ octaves, since that is where tables and absolute tolerances fail.
 
 - *forward*: |t - exact| in ulp(t);
 - *of the interval*: the same as a share of `close_end - open_start`;
-- *backward*: by how many ulp(u) must `u` move for the answer to be right, once the rounding of the exact time to
-  `t` is forgiven. It holds everywhere, however flat the curve;
+- *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, once the rounding of the exact time
+  to `t` is forgiven. It holds everywhere, however flat the curve;
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
@@ -144,7 +144,7 @@ wait states, over uniform `u`, where `cost.md` has them.
 
 {errors}
 
-Evaluations are of the mass, a polynomial of degree 6; this crate's direct polynomials and its plateau take none.
+Evaluations are of the mass, a polynomial of degree 6. This crate's polynomials of octaves and its plateau take none.
 
 ![Worst cases](worst-cases.svg)
 
@@ -220,7 +220,7 @@ fn search(measured: &Measured) -> String {
     let bred = table("aim | worst found | control points of the opening; of the closing", 1, bred);
     let columns = "what backward evaluations steps_back cdf_steps_back tick_steps_back cdf density ticks breaches";
     let aimed = aimed.into_iter().map(|row| shown(row, columns));
-    let header = "family | error in ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
+    let header = "family | backward, ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
                   | of openness and pdf | of ticks | promises broken";
     let aimed = table(header, 1, aimed);
     format!(
