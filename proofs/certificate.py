@@ -1,4 +1,4 @@
-"""src/certificate.rs and bound.rs: the numbers and inequalities of an octave's certificate, in exact rational arithmetic.
+"""The numbers and inequalities of an octave's certificate, in exact rational arithmetic.
 
 Taken as known: a polynomial of degree n < N is on [-1, 1] at most 1 / cos(n pi / 2N) times its greatest value at the points cos(i
 pi / N) (Ehlich and Zeller 1964); a function that is at most M on the ellipse with the half axes (rho +- 1/rho) / 2 is within
@@ -8,6 +8,7 @@ pi / N) (Ehlich and Zeller 1964); a function that is at most M on the ellipse wi
 import random
 from math import comb
 
+import majorant
 import z3
 
 from common import *
@@ -29,10 +30,9 @@ code("let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);", """
     let error = error / (1 << TIME_BITS) as f32;""")
 code("if place <= 0 { break; }", "place = -place; } i += step; }")
 code("counted[k] = fixed_f64(c[k], -bits);", "are_counted &= counted[k].unsigned_abs() >> 60 == 0;")
-code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut k) = (0, c.len());
-    loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; }
-    let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
-    value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + c[k]; } }""")
+code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut c) = (0, c);
+    while let [lower @ .., next] = c { let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
+    value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next; c = lower; } value }""")
 code("let noise = noise * absolute(&weights[kind], 1.0);", """found.least[kind] -= noise;
     found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
 code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * bends(octave, x, axis);")
@@ -41,15 +41,15 @@ code("let [axis, square, _] = ELLIPSES[i];", """
     let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
     while degrees > 0 && k < COSINES.len() {
     let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
-    degrees = if bound < last { unknown(degrees - 1) } else { 0 };
+    degrees = if bound < last { degrees - 1 } else { 0 };
     least = if bound < least { bound } else { least }; (last, tail) = (bound, tail * square); k += step; }""")
 code("let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
-    let (mut power, mut more, mut sum, mut k) = (linear, curve, 0.0, DEGREE - 1);
-    loop { k = unknown(k).wrapping_sub(1); if k >= DEGREE { return sum; }
-    more = (linear + curve) * more + curve * power; power *= linear;
-    sum += octave.c[k].unsigned_abs() as f32 * more; }""")
-code("pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {", """let (mut value, mut k) = (0.0, c.len());
-    loop { k = unknown(k).wrapping_sub(1); if k >= c.len() { return value; } value = value * x + c[k].abs(); }""")
+    let (mut power, mut more, mut sum) = (linear, curve, 0.0);
+    let [above @ .., _] = &octave.c; let mut c: &[i32] = above;
+    while let [higher @ .., next] = c { more = (linear + curve) * more + curve * power; power *= linear;
+    sum += next.unsigned_abs() as f32 * more; c = higher; } sum }""")
+code("pub(crate) const fn absolute(c: &[f32], x: f32) -> f32 {", """let (mut value, mut c) = (0.0, c);
+    while let [lower @ .., next] = c { value = value * x + next.abs(); c = lower; } value }""")
 
 DEGREE = int(source(r"pub\(crate\) const DEGREE: usize = (\d+);"))
 HALF_DEGREE = int(source(r"const HALF_DEGREE: usize = (\d+);"))
@@ -124,7 +124,7 @@ for step in STEPS:
         else:
             require(half * step == len(COSINES) - 1, "beyond the table")
 spoilt /= U
-places_off = int(source(r"that make a bound too small at most, and (\d+) for samples off their points"))
+stated, places_off = (int(said) for said in documented(r"too small by at most (\d+) roundings of 2⁻²⁴, and by (\d+) for samples off their points"))
 require(places_off - 1 < spoilt <= places_off, f"{float(spoilt)} roundings for samples off their points")
 proven(f"samples off their points, and cosines off theirs, make a bound too small by {float(spoilt):.1f} roundings of 2^-24 at most")
 
@@ -138,8 +138,7 @@ FRACTION_BITS, TIME_BITS = (int(source(rf"const {name}_BITS: i32 = (\d+);")) for
 sample_off = Fraction(int(source(r"const SAMPLE_OFF: f32 = ([\d]+)\.0 / \(1 << TIME_BITS\) as f32;")), 2**TIME_BITS)
 require(sample_off == Fraction(4 + 3, 2**TIME_BITS), "SAMPLE_OFF")
 position = Fraction(1, 2) + Fraction(7 + 6, 2**FRACTION_BITS)
-# `lost` is of 2 positions.
-allowed = 2 * Fraction(source(r"let noise = limits\.rounding \+ ([\d.]+) \* limits\.lost;"))
+allowed = Fraction(source(r"let noise = limits\.rounding \+ ([\d.]+) \* steep \* per_position as f32;"))
 require(Fraction(1, 2) < position <= allowed < Fraction(1, 2) * Fraction(1001, 1000), "a sample's position")
 # Up to 7 numbers below 2^60, and what is lost on the way: so a value fits, and four times a product of its upper word.
 require(7 * (2**60 + 1) < 2**63 and PLACES == 2**30, "no value beyond its words")
@@ -150,8 +149,7 @@ offset, time, weight = COEFFICIENTS - 1, 3, WEIGHT - 1
 left_out = max(DEGREE, time, offset) + weight
 require(left_out <= 2 * HALF_DEGREE, "what is left out of M")
 require(left_out > 2 * (HALF_DEGREE - 1), "a least degree less by two would not do")
-stated = [int(x) for x in (source(r"the offset `x` has degree (\d+),"), source(r"it, `R f` is the error in exposure, of degree (\d+)"))]
-require(stated == [offset, offset * DEGREE + weight], "degrees in the text")
+require([int(said) for said in documented(r"`R` has degree (\d+) and `R` times a cubic (\d+)")] == [offset * DEGREE, offset * DEGREE + weight], "degrees")
 proven(f"R has degree {offset * DEGREE}, and R times a cubic {offset * DEGREE + weight}; what M leaves out has degree {left_out}, at most the least that is tried, {2 * HALF_DEGREE}")
 
 
@@ -258,7 +256,6 @@ for rho, low in axes_low.items():
 count = max(axes_low.values())
 allowed = (SLACK - 1) / U
 most = int(count + spoilt) + 1
-stated = int(source(r"More than the (\d+) roundings of an `f32`"))
 require(stated - 1 < count <= stated, f"as many roundings as the comment says: {float(count)}")
 require((1 - U) ** most * SLACK >= 1, f"{most} roundings")
 require((1 - U) ** most * (1 + (SLACK - 1) / 2) < 1, "half of the slack would not do")
@@ -331,14 +328,14 @@ proven(f"what rounds a weight is at most {float(openness_off):.1f} roundings of 
 
 # --- What a fraction may be off by: `OFF`.
 off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
-terms, roundings = (int(x) for x in source(r"sum of terms up to (\d+) times as great, with (\d+) roundings of an `f64`"))
-require(terms == int(documented(r"without their signs are at most (\d+) times the mass")), "Markov's constant")
+roundings, time_roundings = (int(said) for said in documented(r"(\d+) roundings of a double in a fraction and (\d+) in a time"))
+terms = int(documented(r"without their signs are at most (\d+) times the mass"))
 on_path = terms * roundings * LAST_PLACE
 require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
 proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
 
 time_off = 1 / Fraction(2 ** int(source(r"const TIME_OFF: f32 = 1\.0 / \(1u64 << (\d+)\) as f32;")))
-terms, roundings = (int(x) for x in source(r"a sum of terms up to (\d+) times as great\s+/// \(`proofs/solve.py`\), with (\d+) roundings"))
+terms, roundings = int(documented(r"the terms of a time are at most (\d+) times the time")), time_roundings
 require(time_off / 2 < terms * roundings * LAST_PLACE <= time_off, "TIME_OFF")
 proven(f"{roundings} roundings of an f64, as many as were counted, in terms {terms} times as great are at most TIME_OFF = 2^{log2(time_off):g}")
 
@@ -352,7 +349,8 @@ proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a frac
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
 code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
-    let far = self.ramp(side ^ 1).share.to_f64() / WHOLE as f64;
+    let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
+    if !self.has_plateau() && near < 0.5 && near > 0.5f32.next_down() as f64 { return [0.5; 2]; }
     [ if near < 0.5 { near } else { 1.0 - (plateau + far) }, if near + plateau < 0.5 { near + plateau } else { 1.0 - far }, ]""")
 PAIR = Fraction(1, 2**49)
 
@@ -411,3 +409,66 @@ proven("a stretch of length d takes at least d times the least t', and at least 
 # So where the loop ends, any stretch of that length takes at least `error`; what rounds `slowest` is less than 2^-20 of its terms.
 require(8 * U * Fraction(1001, 1000) < Fraction(1, 2**20) < 32 * U, "slowest's rounding")
 proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below the 2^-20 that are taken from it")
+
+# --- The inner end of a ramp: is it part of the stretch, and what may be open beyond it?
+code("pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {", """let single = singles(&self.fraction, u, 1.0);
+    let [p, slope] = root(&single, [0.0, 1.0], 0.5); let (mut p, slope) = (p as f64, slope as f64);
+    p += (u - value(&self.fraction, p)) / slope; let mut step = if up { p * OUTWARDS } else { -p * OUTWARDS };
+    loop { p += step; if !(p > 0.0 && p < 1.0) { return if up { 1.0 } else { 0.0 }; } let missing = u - value(&self.fraction, p);
+    if if up { missing <= 0.0 } else { missing >= 0.0 } { return p; } step *= 2.0; } }""")
+code("let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];", "let places = [path.place(ends[0], false), path.place(ends[1], true)];")
+code("let is_joined = if ramp.is(side)", "{ last >= 1.0 } else { first <= 0.0 };")
+# Places count from the end that faces the side: of the near ramp the inner end is 1, which the last place may be, of the far ramp 0.
+place, fraction, u = z3.Reals("place fraction u")
+inside = z3.And(place > 0, place < 1)
+last, first = z3.Or(place == 1, z3.And(inside, fraction >= u)), z3.Or(place == 0, z3.And(inside, fraction <= u))
+holds(z3.Implies(z3.And(last, z3.Not(place >= 1)), fraction >= u), z3.Implies(z3.And(last, z3.Not(place > 1)), fraction >= u))
+holds(z3.Implies(z3.And(first, z3.Not(place <= 0)), fraction <= u), z3.Implies(z3.And(first, z3.Not(place < 0)), fraction <= u))
+# Where it is not, a way has to collect what the stretch has more than the part: in ulp, EPSILON of the power of two, of which the ends,
+# the middle and its sum with the half lose a half each by rounding, the half next to nothing, and `off` as much as is below.
+power = least * 2
+more = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;")) - Fraction(3, 2) - 4 * U - (off0 / power + 2 * off1) * 2**23
+require(more > 4 * ulp_error, f"{float(more)} ulp")
+proven(f"is_joined wherever a way may leave the ramp by its inner end: else it would collect {float(more):.2f} ulp until the stretch ends, and {float(ulp_error)} are allowed")
+
+code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", """
+    let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
+    let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
+    while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
+    let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * bends as f64""")
+code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(ramp, most) * per_exposure) as f32")
+# What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.
+f0, f1, f2, f3, q = z3.Reals("f0 f1 f2 f3 q")
+weights = [1 - (1 - q) * (1 - q) * (1 - q), 3 * q * q - 2 * q * q * q, q * q * q]
+gained = 3 * q * (1 - q) * (1 - q) * f1 + 3 * q * q * (1 - q) * f2 + q * q * q * f3 + (1 - q) * (1 - q) * (1 - q) * f0 - f0
+by_differences = sum(w * d for w, d in zip(weights, (f1 - f0, f2 - f1, f3 - f2)))
+time = q * (3 * f1 + q * (3 * (f2 - f1) + q * (f1 - 2 * f2 + f3)))
+by_times = sum(w * d for w, d in zip(weights, (f1, f2, f3)))
+require(all(z3.simplify(x - y, som=True).eq(z3.RealVal(0)) for x, y in ((gained, by_differences), (time, by_times))), "a cubic by differences")
+limits = lambda most: z3.Implies(z3.And(q > 0, q <= 1), z3.And(*(z3.And(w >= 0, w <= most * q) for w in weights)))
+holds(limits(3), limits(z3.Q(299, 100)))
+proven("greatest_beyond: up to the place p, where the time has passed, the openness gains at most 3 p of the differences' sizes: each has a weight from 0 to 3 p")
+# The time at p as computed, for a t' that is a square (x - s)^2 or x (1 - x), of which all are sums. Its powers of p are exact.
+d0, d1, d2 = (majorant.Number({(j, 0, 0): Fraction(1)}, {(j, 0, 0): U}) for j in range(3))
+cubes = (d0 + d1.times(k=2)) + d2
+squares = (d1 + d0).times(k=3)
+found = d0.times(k=3).times(x=1) + (squares.times(x=2) + cubes.times(x=3))
+s = z3.Real("s")
+rational = lambda x: z3.Q(x.numerator, x.denominator)
+certain = 1 / Fraction(2 ** int(source(r"const CERTAIN: f32 = 1\.0 - 1\.0 / \(1 << (\d+)\) as f32;")))
+
+
+def errs_by(most):
+    """Is the time as computed within a share `most` of the time?"""
+    for sizes, d in (((s * s, s * (1 - s), (1 - s) * (1 - s)), (s * s, -s * (1 - s), (1 - s) * (1 - s))), ((0, 1, 0), (0, 1, 0))):
+        error = z3.Sum([rational(number) * sizes[j] * q ** (a - 1) for (j, a, _), number in found.error.items()])
+        per_place = [3 - 3 * q + q * q, 3 * q - 2 * q * q, q * q]
+        solver = z3.Solver()
+        solver.add(q > 0, q <= 1, s >= 0, s <= 1, error > rational(most) * z3.Sum([w * one for w, one in zip(per_place, d)]))
+        if solver.check() != z3.unsat:
+            return False
+    return True
+
+
+require(errs_by(certain * Fraction(31, 32)) and not errs_by(certain / 4), "the time beyond a join")
+proven(f"greatest_beyond: its time is rounded by less than 2^{log2(certain):g} of it, and an error in time is certain only if it is less than it may be by as much")

@@ -30,7 +30,7 @@ fi
 export python
 
 # The slowest first.
-scripts=(rounding pairs words octaves ticks lifting certificate shares cdf series solve guess markov vectors)
+scripts=(rounding pairs ticks words lifting certificate octaves cdf series solve guess markov vectors)
 [ $# -eq 0 ] || scripts=("$@")
 
 log=$(mktemp)

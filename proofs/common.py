@@ -10,7 +10,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 # All of src/: what a script reads there is found wherever it stands.
 SOURCE = "".join(path.read_text() for path in sorted((HERE.parent / "src").rglob("*.rs")))
-DOCS = (HERE.parent / "docs" / "proofs.md").read_text()
+DOCS = " ".join((HERE.parent / "docs" / "proofs.md").read_text().split())
 
 # Half the distance between the f32 around 1, and the greatest relative error of one rounding.
 U = Fraction(1, 2**24)
@@ -25,11 +25,22 @@ def source(pattern):
 
 
 def documented(pattern):
-    """The same of docs/proofs.md: a number that it states, which a script then holds it to."""
+    """The same of docs/proofs.md, with single spaces: a number that it states, which a script then holds it to."""
     found = re.findall(pattern, DOCS)
     if len(found) != 1:
         sys.exit(f"docs/proofs.md: {len(found)} matches of {pattern!r}, not 1: see what it states now")
     return found[0]
+
+
+def number(said):
+    """A number in raised digits, as texts have exponents."""
+    return float(said.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹·", "0123456789.")))
+
+
+def promised(function):
+    """The n of the last "2⁻ⁿ" in the comment of a function that begins so: it promises an error of so much."""
+    comment = source(rf"((?: *//[^\n]*\n)+)(?: *#\[[^\n]*\n)*    pub\(crate\) const fn {re.escape(function)}")
+    return int(number(re.findall(r"2⁻([⁰¹²³⁴-⁹]+)", comment)[-1]))
 
 
 def plain(rust):

@@ -1,4 +1,4 @@
-"""src/solve.rs: the bound of what a step leaves, term by term in exact rational arithmetic; and the search's end.
+"""The bound of what a step leaves, term by term in exact rational arithmetic; and the search's end.
 
 `c` are the coefficients' numbers in single precision; the true ones differ by one rounding. The slopes on the way are
 bounded by D, the sum of j |c_j| Y^(j-1) with Y = |x| + |s|. E is the sum of j |c_j| Y^(j-3) from the third on.
@@ -27,7 +27,7 @@ code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c
     let (back, sought) = (sought.to_bits() & BACK, sought.abs());
     let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
     anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
-code("solve(series, target, &anchor, guess, [FOR_TIME * target.hi; 2]).0", "")
+code("solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0", "")
 code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
     if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {""")
 
@@ -35,17 +35,15 @@ ROUNDING = 1 / Fraction(2 ** int(source(r"const ROUNDING: f32 = 1\.0 / \(1 << (\
 MOVED = 1 / Fraction(2 ** int(source(r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
 CUBES = Fraction(source(r"moved\.abs\(\) \* bends \+ (\d\.\d) \* cubes"))
 BENDS = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
-def factor(pattern):
-    return Fraction(source(pattern))
-
-
 # By how many ROUNDINGs each kind of anchor counts.
-source(r"return Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};")
-source(r"Anchor \{ place: Pair::ZERO, back: 0, c, sought: target\.hi, (rounding: ROUNDING) \};\n        // From where `t'")
-source(r"(Anchor \{ place, back: BACK, c, sought: -sought, rounding: FROM_OTHER \})")
-OTHER_END = factor(r"const FROM_OTHER: f32 = ([\d.]+) \* ROUNDING;")
-source(r"(Anchor \{ place, back, c, sought: sought\.abs\(\), rounding: FROM_FLAT \})")
-INSIDE = factor(r"const FROM_FLAT: f32 = ([\d.]+) \* ROUNDING;")
+code("let mut anchor =", "Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };")
+code("if target.hi <= sought.abs() {", """let c = self.mass_in_single(side);
+    return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING }; }""")
+code("if nearest == 2 {", """let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
+    return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER }; }""")
+code("Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }", "")
+OTHER_END = Fraction(source(r"const FROM_OTHER: f32 = ([\d.]+) \* ROUNDING;"))
+INSIDE = Fraction(source(r"const FROM_FLAT: f32 = ([\d.]+) \* ROUNDING;"))
 
 
 class Degree:
@@ -167,8 +165,8 @@ proven(f"a time's search takes {float(time.near):.3f} roundings from an end and 
 # there is t = m P + c P^3, so T P <= 12 t; and the target is at least t / 2. For Y <= P the step's error, |s| (1 + 2) of it
 # with |s| <= Y, is then a small part of the error asked for. For Y >= P it is one of D, since D >= m + 3 c Y^2 >= T / 4.
 PAIRS = 6 + 11 + 16 + 11 + 16
-FOR_TIME = Fraction(1, 1 << int(source(r"const FOR_TIME: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-part = 3 * PAIRS * U * U * 12 * 2 / FOR_TIME
+TIME_ERROR = Fraction(1, 1 << int(source(r"const TIME_ERROR: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
+part = 3 * PAIRS * U * U * 12 * 2 / TIME_ERROR
 m, c, y = z3.Reals("m c y")
 solver = z3.Solver()
 solver.add(m >= 0, c >= 0, y >= 1, m + 12 * c > 4 * (m + 3 * c * y * y))
@@ -190,38 +188,37 @@ code("pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) ->
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
     let left = left(&single, [x, 0.0], &local, missing, step, ROUNDING);
     if is_inside & (left <= 0.75 * error) { Some(place) } else { None } }""")
-code("quick_place([c[0], c[1], last], target, FOR_TIME * target.hi)", "}")
+code("quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)", "}")
 # Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most
-# 14 times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
-TERMS = 14
+# TERMS times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
+TERMS = int(documented(r"the terms of a time are at most (\d+) times the time"))
 half_gap = lambda terms: (terms + 1) ** 2 - 4 * (terms - 1) * Fraction(terms - 1, 3)
 require(half_gap(TERMS) < 0 < half_gap(TERMS - Fraction(1, 8)), "the terms of a time")
 # What is missing is at most this share of the target, or `size * rounding * slopes` alone would refuse: |s| D is at least what the
 # first two terms come to. So target and value are within a factor of two, and `difference` rounds once more than their rests.
-missing = Fraction(3, 4) * FOR_TIME * (1 / ROUNDING + 1) / time.deep
+missing = Fraction(3, 4) * TIME_ERROR * (1 / ROUNDING + 1) / time.deep
 measured = U * missing + TERMS * (Fraction(31) + 1 + 6) * U * U * 2 + 2 * U * U
-require(missing < Fraction(1, 2) and measured < FOR_TIME / 4 and TERMS * 2**9 * U * U * 2 < FOR_TIME / 4, "measuring")
+require(missing < Fraction(1, 2) and measured < TIME_ERROR / 4 and TERMS * 2**9 * U * U * 2 < TIME_ERROR / 4, "measuring")
 require(time.holds(time.near, Fraction(1)), "a quick place")
 proven(f"a quick place: the terms of a time are at most {TERMS} times the time; at most 2^{log2(missing):.1f} of the target is missing, and measured to 2^{log2(measured):.1f}; what is left is at most 2^-28")
 
 # The end of the search: neighbours are 2^-23 of a place p apart, and p D <= 6 * 1083 times what is collected up to p. From the other
 # end D is at most that of all of the ramp, which has at most twice the target; from inside the factor is 2 by cases.
 markov = int(documented(r"without their signs are at most (\d+) times the mass"))
-DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹·", "0123456789.")
 for name, rounding, times, pattern in (
     ("the end that faces the side", Fraction(1), 1, r"2⁻(\S+) from the end that faces the side, where"),
     ("the other end", OTHER_END, 2, r"2⁻(\S+) from the other end and"),
-    ("a minimum inside", INSIDE, 2, r"2⁻(\S+) from a\s+minimum inside, where"),
+    ("a minimum inside", INSIDE, 2, r"2⁻(\S+) from a minimum inside, where"),
 ):
     ends = times * rounding * ROUNDING * Fraction(1, 2**23) * N * markov * Fraction(1001, 1000)
-    said = float(documented(pattern).translate(DIGITS))
+    said = number(documented(pattern))
     require(abs(said + log2(ends)) <= 0.05, f"docs/proofs.md has 2^-{said} for 2^{log2(ends)}: {name}")
     require(ends < Fraction(3, 4) * Fraction(1, 2**26), "the end")
     proven(f"between neighbours the bound's terms without r are at most 2^{log2(ends):.2f} of the target from {name}")
 # The same for a time, of which the terms are a cubic's: on any part of a ramp t' is a sum of such squares and products.
 ends = 2 * ROUNDING * Fraction(1, 2**23) * 3 * TERMS * Fraction(1001, 1000)
-said = float(documented(r"the same\s+is at most 2⁻(\S+) of the time, as its").translate(DIGITS))
-require(abs(said + log2(ends)) <= 0.05 and ends < Fraction(3, 4) * FOR_TIME, f"the end for a time: 2^{log2(ends)}")
+said = number(documented(r"the same is at most 2⁻(\S+) of the time"))
+require(abs(said + log2(ends)) <= 0.05 and ends < Fraction(3, 4) * TIME_ERROR, f"the end for a time: 2^{log2(ends)}")
 proven(f"and at most 2^{log2(ends):.2f} of a time")
 open_point("that the last step stays in the bracket where the density nearly vanishes is measured, not proven")
 # Measuring r: within a sixteenth of what is asked for.

@@ -10,7 +10,6 @@ import sys
 import numpy as np
 
 from common import *
-from transcribed import Fractions, cases
 
 f = np.float32
 random.seed(7)
@@ -193,36 +192,43 @@ def rounded():
     yield [bits(f(-10445573 / 4)), bits(f(11000001)), bits(f(-(2**24 - 1) / 2**25)), "0", "0", bits(f(8388607))]
 
 
+def fractions():
+    for _ in range(60):
+        n = random.choice([1, 2, 3, 1026, 2**22, random.randint(1, 2**22)])
+        odd = 2 * random.choice([0, n // 2, n - 1, random.randrange(n)]) + 1
+        more = f(random.choice([-1, 1]) * random.choice([0, 1, 1 - 2.0**-24, random.random()]))
+        part, rest, whole = f(odd) + more, f(2 * n - odd) - more, f(2 * n)
+        a = part / whole if part <= rest else rest / whole
+        yield [word(odd), bits(more), word(n), word(int(part > rest)), bits(a)]
+
+
+def units():
+    """A way that is rounded down in units, from either end, and stops at the other one."""
+    cut = lambda x: int(Fraction(float(x)) / Fraction(2) ** unit)
+    for _ in range(60):
+        unit, up = random.randint(-80, 0), random.choice([0, 3, 20, 23, 24, 40, 60])
+        base, until = (number(unit + random.choice([0, 10, 22, 40, 61])) for _ in range(2))
+        hi, lo = pair(up, 0, 60)
+        hi, back = abs(hi), until < base
+        whole = int(hi)
+        rest = f(hi - f(whole)) + lo
+        way = whole + int(np.floor(rest))
+        time = cut(base) - way if back else cut(base) + way
+        time = max(time, cut(until)) if back else min(time, cut(until))
+        own = unit + random.randint(-30, 30)
+        yield [bits(v) for v in (base, until, f(hi * 2.0 ** (unit - own)), f(lo * 2.0 ** (unit - own)))] + [word(own), word(unit), word(time)]
+
+
 def ticks():
     for _ in range(80):
         length = random.getrandbits(random.randint(38, 62)) | 2**37
         start = random.randint(-(2**62), 2**62 - length)
         hz = random.choice([1, 1000, random.getrandbits(32) | 1])
-        # So that the interval has at most 2^24 ticks.
-        unit = random.randint(-60, 24) - (length * hz).bit_length()
-        unit = max(min(unit, 2), -125)
-        if length * hz * Fraction(2) ** unit > 2**24:
-            continue
+        # So that the interval has at most 2^31 ticks.
+        unit = min(random.randint(-60, 31) - (length * hz).bit_length(), 2)
         time = start + random.choice([0, -3, length, random.randint(0, length)])
-        up = 64 - length.bit_length() - 1
-        down = unit + 96 - up
-        factor = hz >> -down if down < 0 else hz << down
-        delay = max(((time - start) << up) >> 32, 0)
-        yield [word(start), word(length), word(hz), word(unit), word(time), word((delay * factor + 2**63) >> 64)]
-
-
-def shares():
-    for n, odd, duty, is_off in list(cases())[::11]:
-        if odd >= 2**32:
-            continue
-        share = Fractions(n)
-        half = share.edges(duty) if duty else 0
-        if duty is None:
-            continue
-        side, hi, lo, unit = share.exactly(odd, half, is_off)
-        hi, lo = (bits(f(v * 2.0 ** (unit + shift))) for v, shift in ((hi, 104), (lo, 80)))
-        width = bits(f(duty[0] * 2.0 ** (duty[1] - 150)))
-        yield [word(n), word(odd), width, word(int(is_off)), word(share.in_u64(odd, half, is_off)), word(side), hi, lo]
+        tick = max(time - start, 0) * hz * Fraction(2) ** unit + Fraction(1, 2)
+        yield [word(start), word(length), word(hz), word(unit), word(time), word(int(tick))]
 
 
 def guess():
@@ -233,7 +239,7 @@ def guess():
 
 
 if __name__ == "__main__":
-    for name, rows in (("pairs", pairs), ("series", series), ("left", left), ("rounded", rounded), ("ticks", ticks), ("shares", shares), ("guess", guess)):
+    for name, rows in (("pairs", pairs), ("series", series), ("left", left), ("rounded", rounded), ("fractions", fractions), ("units", units), ("ticks", ticks), ("guess", guess)):
         path = HERE / "vectors" / f"{name}.csv"
         with np.errstate(all="raise", under="ignore"):
             text = "".join(",".join(row) + "\n" for row in rows())

@@ -1,9 +1,9 @@
-"""src/plan.rs, pair.rs, octave.rs: integers and bits, for all values of the words, by z3."""
+"""The plateau's line, the rounding of a time, and bits of numbers: for all values of the words, by z3."""
 
 from solver import *
 
 # The plateau's line.
-code("fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
+code("const fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
     let way = high * u as u64 + ((low * u as u64) >> 32); self.base.wrapping_add(way as i64) }""")
 # The two products, of 32 bits by 32, are exact in 64; here they are any numbers that such products may be.
 p, q = Ints("p q")
@@ -14,9 +14,10 @@ valid(
     Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**63)),
     Implies(products, q + p / 2**32 < 2**62),
 )
-code("fn by_line(&self, bits: u32) -> i64 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-    self.on_line((bits << 8 | 1 << 31) >> (shift & 31)) }""")
-code("let before = if from < FINE.to_bits()", "{ FINE.to_bits() } else { from };")
+code("const fn in_words(bits: u32) -> u32 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+    (bits << 8 | 1 << 31) >> (shift & 31) }""")
+code("let before = if near < FINE.to_bits()", """{ FINE.to_bits() } else { near };
+    plan.last_before_far[side] = last; plan.on_line_count[side] = last.saturating_sub(before);""")
 FINE = 127 - (int(source(r"const FINE: f32 = 1\.0 / (\d+)\.0;")).bit_length() - 1)
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
@@ -28,7 +29,7 @@ def line(first):
     return Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)), And(ULE(shift, 31), back == whole))
 
 
-valid("by_line: a u from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
+valid("in_words: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
@@ -84,13 +85,13 @@ for is_word in (True, False):
     for up in range(32):
         solver = Solver()
         solver.add(Not(carefully(is_word, up)))
-        require(solver.check() == unsat, f"rounded_with_care, moved up by {up}: {solver.check()}")
+        require(solver.check() == unsat, f"rounded_near_0, moved up by {up}: {solver.check()}")
 solver = Solver()
 solver.add(Not(carefully(True, 3, (1 << 30) + 1)))
 require(solver.check() == sat, "a word is not fuller than full")
-proven("rounded_with_care: the word is full, and rounds as the exact time rounds; for every time but 0")
+proven("rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0")
 
-# src/pair.rs: bits of f32.
+# Bits of f32.
 x = BitVec("x", 32)
 code("const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
 significand = (x & 0x7FFFFF) | (1 << 23)
@@ -100,52 +101,6 @@ valid(
     "upper: both halves of a normal number have at most 12 bits, so products of halves are exact",
     Implies(is_normal, And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(significand - high, 1 << 12), ULT(LShR(high, 12), 1 << 12))),
     Implies(is_normal, ULT(significand - high, (1 << 12) - 1)),
-)
-# src/exact.rs: what is lost, in words that wrap. A nearest number is as near as any other: the greater one for a sum; and for a
-# product, half of the unit of its last place, which is 2^23 or 2^24 of those of the exact product.
-code("pub(crate) const fn sum_by_integers(sum: f32, a: f32, b: f32) -> f32 {", """let (a_bits, b_bits) = (a.to_bits(), b.to_bits());
-    let (greater, lesser) = if a_bits << 1 > b_bits << 1 { (a_bits, b_bits) } else { (b_bits, a_bits) };
-    if lesser << 1 == 0 { return 0.0; } let (exponent, less) = parts(lesser); let (exponent_of_sum, rounded) = parts(sum.to_bits());
-    if exponent < LEAST || exponent_of_sum == 0xFF { return sum_by_floats(sum, a, b); }
-    let (greatest, great) = parts(greater); let up = greatest - exponent; if up > 25 { return f32::from_bits(lesser); }
-    if exponent_of_sum < exponent { return 0.0; } let up_of_sum = exponent_of_sum - exponent;
-    let less = if (greater ^ lesser) >> 31 == 0 { less } else { less.wrapping_neg() };
-    let lost = (great << up).wrapping_add(less).wrapping_sub(rounded << (up_of_sum & 31));
-    counted(lost as i32, exponent as i32, greater) }""")
-code("pub(crate) const fn product_by_integers(product: f32, a: f32, b: f32) -> f32 {", """let (a_bits, b_bits) = (a.to_bits(), b.to_bits());
-    let [(a_exponent, a_significand), (b_exponent, b_significand)] = [parts(a_bits), parts(b_bits)];
-    let (exponent, rounded) = parts(product.to_bits()); if a_bits << 1 == 0 || b_bits << 1 == 0 { return 0.0; }
-    if exponent < LEAST + 24 || exponent == 0xFF || a_exponent == 0 || b_exponent == 0 { return product_by_floats(product, a, b); }
-    let unit = (a_exponent + b_exponent) as i32 - 150; let up = (exponent as i32 - unit) as u32;
-    let exact = a_significand.wrapping_mul(b_significand);
-    counted(exact.wrapping_sub(rounded << (up & 31)) as i32, unit, a_bits ^ b_bits) }""")
-code("const fn counted(count: i32, exponent: i32, sign: u32) -> f32 {", """if count == 0 { return 0.0; }
-    let bits = (count as f32).to_bits().wrapping_add_signed((exponent - 150) << 23); f32::from_bits(bits ^ sign & 1 << 31) }""")
-great, less, rounded, up, up_of_sum = BitVecs("great less rounded up up_of_sum", 64)
-is_significand = lambda x: And(x >= 1 << 23, x < 1 << 24)
-words = And(is_significand(great), is_significand(rounded), ULE(up_of_sum, 26))
-for sign in (1, -1):
-    lost = (great << up) + sign * less - (rounded << up_of_sum)
-    known = And(words, is_significand(less), ULE(up, 25), lost <= less, -lost <= less)
-    low = lambda bits: SignExt(64 - bits, Extract(bits - 1, 0, lost))
-    valid(
-        f"sum_by_integers: the low word has all that is lost, {'one sign' if sign == 1 else 'two signs'}",
-        Implies(known, low(32) == lost),
-        Implies(known, low(24) == lost),
-    )
-exact = BitVec("exact", 64)
-lost = exact - (rounded << up)
-known = And(words, ULT(exact, 1 << 48), ULE(up, 24), lost <= 1 << 23, -lost <= 1 << 23)
-valid(
-    "product_by_integers: the low word has all that is lost",
-    Implies(known, SignExt(32, Extract(31, 0, lost)) == lost),
-    Implies(known, SignExt(41, Extract(22, 0, lost)) == lost),
-)
-# 26 places apart the lesser number is below half of the last place of a number just below a power of two.
-valid(
-    "sum_by_integers: from 26 places on the sum is the greater number",
-    Implies(And(is_significand(less), up == 26), 2 * less < 1 << (up - 1)),
-    Implies(And(is_significand(less), up == 25), 2 * less < 1 << (up - 1)),
 )
 code("pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {", "f32::from_bits(x.to_bits() ^ sign) }")
 valid(
@@ -196,13 +151,6 @@ valid(
     Implies(units >= 0, (ToInt(2 * units) + 1) / 2 == ToInt(units + Q(1, 2))),
     Implies(units >= 0, ToInt(2 * units) / 2 == ToInt(units + Q(1, 2))),
 )
-code("pub(crate) const fn from_u32(x: u32) -> Self {", "Self::sum((x & !0xFF) as f32, (x & 0xFF) as f32) }")
-valid(
-    "from_u32: both parts have at most 24 bits, so they and their sum are exact",
-    And(ULT(LShR(x & 0xFFFFFF00, 8), 1 << 24), ULT(x & 0xFF, 1 << 24), (x & 0xFFFFFF00) + (x & 0xFF) == x),
-    ULT(LShR(x & 0xFFFFFF00, 8), (1 << 24) - 1),
-)
-
 # `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
 # has one less, also across a power of two.
 code("pub(crate) const fn floor_bits(x: f64) -> u32 {", "let rounded = x as f32; let bits = rounded.to_bits(); if rounded as f64 > x { bits - 1 } else { bits } }")
