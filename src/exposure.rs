@@ -57,6 +57,7 @@ impl Exposure {
             return Err(CurveError::IntervalUnresolved);
         }
         let length = end as f64 - start as f64;
+        // The bounds are 2⁻⁶⁴ and 2⁶⁴.
         if !(length >= 1.0 / DOUBLE_WORD && length <= DOUBLE_WORD) {
             return Err(CurveError::IntervalOutOfRange);
         }
@@ -99,8 +100,8 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side, within `error · a`; after
-    /// a step below an ulp, within `INVERSE_ERROR · a`.
+    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. It is within
+    /// `error · a`, or within `INVERSE_ERROR · a` if the last step of the search is less than an ulp.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {
@@ -108,7 +109,6 @@ impl Exposure {
             Section::Ramp(ramp, target) => {
                 // One address, or the search keeps the curve's and an index on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
-                // The error that is wanted, and the one that is accepted once a step is below an ulp.
                 ramp.at_mass(side, target, [error * a.hi, INVERSE_ERROR * a.hi])
             }
         }
@@ -128,7 +128,7 @@ impl Exposure {
         if past_plateau.rounded() > 0.0 {
             return Section::Ramp(side.other(), past_plateau);
         }
-        // At a join without a plateau: 0 of it.
+        // Or, without a plateau, exactly at the join of the ramps: then the way is 0.
         let (base, until) = (self.join(side), self.join(side.other()));
         let (area, exponent) = significand(self.area);
         let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
@@ -138,8 +138,8 @@ impl Exposure {
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two parts
     /// into which it divides the exposure. So without a plateau both are one number.
     ///
-    /// If both are within an ulp below 1/2, they count as 1/2, as they are meant to be on a symmetric shutter: only 1/2 itself
-    /// lies between, and [`Plan`](crate::answer::plan::Plan) has its time.
+    /// Without a plateau, a join within an ulp below 1/2 counts as 1/2, as it is meant to be on a symmetric shutter. Of all
+    /// `f32` only 1/2 itself may then be on the wrong side, and [`Plan`](crate::answer::plan::Plan) has its time.
     #[inline(never)]
     pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;

@@ -60,8 +60,9 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / all`, from 0 to 1, where `all` is twice the number of triggers and `more` is ±duty for the ends of a
-    /// pulse, else 0: then it is the nearest `f32`, else within an ulp. Half is counted from the start.
+    /// `(odd + more) / all`, from 0 to 1, where `all` is twice the number of triggers. For a trigger `more` is 0, and this is
+    /// the nearest `f32`. For an end of a pulse it is ±duty, and this is within one and a half ulp (proofs/ticks.py). Half
+    /// is counted from the start.
     #[inline(always)]
     pub(crate) const fn new(odd: u32, more: f32, all: f32) -> Self {
         let odd = odd as f32;

@@ -30,7 +30,8 @@
 #![forbid(unsafe_code)]
 
 // Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time to its
-// fraction, `trigger/ticks.rs` what makes ticks of times. Each needs only those above it, and `error`.
+// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`; only
+// `trigger` also needs `shutter`, to which it adds methods.
 // Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
 //
 // fraction  an end of the curve, and a fraction counted from it

@@ -110,7 +110,7 @@ impl ShutterCurve {
     /// One Bezier `(t(p), f(p))` as a density: as a shutter that opens along it and closes at once where it ends.
     ///
     /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
-    /// not depend on it. But `f` may not exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a
+    /// not depend on it (but for the 2⁻²² by which `f` may pass 1 where control points are rounded). But `f` may not exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a
     /// power of two, which rounds nothing. Then [`normalization`](Self::normalization) is
     /// `K = 1 / ∫ f t' dp` of the scaled density.
     ///

@@ -552,3 +552,18 @@ fn one_figure_for_the_worst_direct_tick() {
     let (_, row) = include_str!("../docs/cost.md").split_once("\n| a tick |").unwrap();
     assert_eq!(row.split('|').nth(5).unwrap().trim().parse(), Ok(readme));
 }
+
+/// Fractions that lie midway between two `f32`, on a curve whose ramps are steep there: half an ulp of the fraction is a
+/// quarter of a tick, and the polynomial has its own error.
+#[test]
+fn the_worst_tick_of_a_typical_curve() {
+    let opening = [(0.0, 0.0), (0.5498377, 0.38116276), (1.9749786, 0.9056642), (3.1201088, 1.0)];
+    let closing = [(4.160642, 1.0), (6.806004, 0.6767999), (16.227335, 0.49375978), (20.833, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
+    let (n, i, hz) = (10_912, 8182, 805_319);
+    let tick = shutter::<8>(&curve).trigger_ticks(n, hz).unwrap().nth(i).unwrap();
+    let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
+    let error = ((exact.inverse_cdf_dd(u) - start) * f64::from(hz) - Dd::from(f64::from(tick))).hi;
+    assert!((0.75..=TYPICAL_TICK).contains(&error.abs()), "{error}");
+}

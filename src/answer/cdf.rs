@@ -1,8 +1,8 @@
 //! From a time: the openness, the density, and the cdf.
 //!
-//! A cdf is the mass that is collected until the place at which the time is reached. It is measured from the ramp's start,
-//! so its parts are only added. Where the computed noise of that measurement reaches the middle of two `f32`, the inverse's time
-//! of the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
+//! A cdf is the mass collected until the place at which the time is reached. It is measured from the curve's start, so masses
+//! are added and nothing cancels. Where the noise of that measurement reaches the middle of two `f32`, the inverse's time of
+//! the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
 
 use crate::exposure::{CDF_ERROR, Exposure};
 use crate::fraction::Side::{self, End, Start};
@@ -70,13 +70,13 @@ impl Exposure {
         }
     }
 
-    // Out of line: a ramp's way saves no registers for it.
+    // Out of line: the code for ramps then saves no registers for this.
     #[inline(never)]
     fn cdf_on_plateau(&self, t: f32) -> f32 {
         let (area, exponent) = significand(self.area);
         // Scaled first: a quotient of a subnormal way has too few bits.
         let way = Pair::sum(t, -self.join(Start)).shifted(WHOLE_EXPONENT - exponent);
-        // A few 2⁻⁴³, which the 2⁻³⁹ in `nearest` covers.
+        // No noise: the mass is off by a few 2⁻⁴³ of itself, and `nearest` adds 2 CDF_ERROR = 2⁻³⁹ anyway.
         self.nearest(t, self.ramps[0].share.plus(way.over(area)), |_| 0.0)
     }
 
@@ -107,6 +107,7 @@ impl Exposure {
         let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
         let side = Side::end_if(lesser >= 0.5 * WHOLE);
         let half = 0.5 * (next - nearest);
+        // Told by the measurement alone: the middle is beyond the noise. Else the inverse's time settles it.
         let is_told = (half - rest).abs() > noise(side) + 2.0 * CDF_ERROR * nearest;
         let cdf = if is_told {
             nearest

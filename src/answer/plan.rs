@@ -37,19 +37,14 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     scale: f32,
     /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
     last_before_far: [u32; 2],
-    /// By side: the number of `f32` up to that one, included, that are on the plateau's line.
+    /// By side: the number of `f32` up to that one, included, that are on the line; 0 without one.
     on_line_count: [u32; 2],
-    /// The plateau's line in units: its time continued to `u = 0`, and its slope, which is the area.
+    /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area; or,
+    /// where the ramps join at 1/2, that point alone, with a slope of 0.
     base: i64,
     slope: i64,
-    /// By side: the top of the octaves of the ramp at the start, and of the one at the end. That of the near ramp is
-    /// raised by one octave for each of the far ramp's, so that `(top - a) >> 23` indexes `octaves`:
-    ///
-    /// ```text
-    /// octaves of a side      far 0    far 1    near 0   near 1   near 2
-    /// serves (top/2, top]    0.5      0.25     0.19     0.09     0.05
-    /// stored top             far 0.5           near 0.19, times 2² = 0.75
-    /// ```
+    /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so that
+    /// `(top - a) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
     tops: [[u8; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],
@@ -106,9 +101,9 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
                 side += 1;
             }
         } else if plan.exposure.joins(Start)[0] == 0.5 {
-            // 1/2 may lie beyond the join, alone: a line of its own, instead of an octave that the others would lack.
+            // 1/2 itself may lie beyond the join, the only `f32` of the far ramp. A search finds its time now, which is kept
+            // as a line of one point: an octave for it alone would take one of `OCTAVES` from the near ramp.
             plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 });
-            plan.last_before_far[0] = 0.5f32.to_bits();
             plan.on_line_count[0] = 1;
         }
         let mut side = 0;
@@ -140,11 +135,11 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// The early return keeps register saves off the plateau: 68 -> 42 cycles.
+    /// The early return keeps register saves off the plateau, which takes a third less for it (docs/tried.md).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        // `u` is on the line if until_far < on_line_count. It has wrapped, bit 31, if `u` is beyond, on the far ramp. For
-        // u < 0 and NaN it is at least 2²⁹, more than any on_line_count.
+        // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set. Where there
+        // is a line, u < 0 and NaN make it at least 2²⁹, more than any on_line_count.
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));
@@ -203,7 +198,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let until_far = self.last_before_far[side as usize].wrapping_sub(bits);
         if until_far < self.on_line_count[side as usize] {
             let word = in_words(bits);
-            // From the end u = 1 - a, in 2⁻³²: 2³² wraps to 0.
+            // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
             Some(self.on_line(if side.is(Start) { word } else { word.wrapping_neg() }))
         } else {
             self.by_octave(side, bits, side.other_if(until_far >> 31 == 1))
@@ -267,11 +262,12 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             return None;
         }
         let octave = &self.octaves[side as usize][index];
-        // A position counts from the power of two in the octave, so its sign says whether `a` is below that. It is where
-        // `top - bits` borrows from the exponent: where bit 23 of top ^ bits ^ below is 1. In the octave (0.1875, 0.375]:
+        // Returned is the significand, with the sign of the position: negative if `a` is below the octave's power of two,
+        // that is where `top - bits` borrows from the exponent, where bit 23 of top ^ bits ^ below is 1. In the octave
+        // (0.1875, 0.375], with the power 1/4:
         //   top    0.375   0 01111101 100...
-        //   bits   0.3     0 01111101 00110...   no borrow: above 1/4, the position is 0.2 · 2³¹
-        //   bits   0.2     0 01111100 10011...   a borrow: below, the position is -0.2 · 2³²
+        //   bits   0.3     0 01111101 00110...   no borrow: returns  0.2 · 2³¹, the position is 0.2 · 2³²
+        //   bits   0.2     0 01111100 10011...   a borrow:  returns -0.2 · 2³², the position itself
         let borrowed = bits ^ (top ^ below) & 1 << 23;
         Some((octave, (borrowed << 8) as i32))
     }

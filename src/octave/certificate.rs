@@ -15,8 +15,8 @@ use crate::octave::span::Span;
 
 /// Below 0.19 ulp of a time; in an interval of 2²⁴ ticks below 0.19 tick (see [`View::size_of_time`]).
 pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
-/// Below 1/2 the times of neighbouring `u`, which are at least an ulp of the lesser one apart, keep their order, also
-/// from one octave to the next.
+/// An error below 1/2 keeps the times of neighbouring `u` in order, also from one octave to the next: neighbours are at
+/// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
 /// How far off a fraction may be: by `OFF[0]`, as joins are rounded in a look-up; and by `OFF[1]` of itself on a path, as a
@@ -30,7 +30,8 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes a weight at a sample, as a share of the openness's coefficients without signs, or of `Limits::per_size`.
+/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without signs,
+/// or of `Limits::per_size`.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 

@@ -47,7 +47,7 @@ pub(crate) struct Octave {
 
 pub(crate) const DEGREE: usize = 8;
 
-/// The bits of a center that are its shift.
+/// The bits of a center that are its shift: by how many powers of two an offset is finer than a position.
 pub(crate) const FINER: u32 = 31;
 
 /// The bits of a top that is `steps` [`TOP_STEP`]s above [`LEAST_TOP`].
@@ -61,7 +61,7 @@ pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 
-/// The position, wrapping, for what `Plan::look_up` returns.
+/// The position that belongs to what `Plan::look_up` returns: twice that if it is not negative, else that. It wraps.
 #[inline(always)]
 pub(crate) const fn doubled(position: i32) -> i32 {
     position.wrapping_add(position & !(position >> 31))

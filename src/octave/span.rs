@@ -22,6 +22,7 @@ pub(crate) struct Span {
     pub(crate) power: f32,
     /// `power / 2^finer`. An offset counts 2⁻³² of it.
     pub(crate) width: f32,
+    /// The shift from positions to offsets.
     finer: u32,
 }
 

@@ -46,7 +46,7 @@ impl CubicBezier {
     }
 
     /// The curve with its openness, or density, times `factor`: exactly, if that is a power of two and no number
-    /// becomes subnormal.
+    /// becomes subnormal or infinite.
     ///
     /// ```
     /// use shutter_curve::CubicBezier;

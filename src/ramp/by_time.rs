@@ -124,9 +124,9 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the rounding errors of [`mass`](Self::mass) and of a search from a side for a mass next to it: 2⁻³⁹ of
-    /// the terms from the start and of those from the side. Measuring loses half of it ([`Series::at_pair`]), and the rest
-    /// is for the step of the search.
+    /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a side
+    /// ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side. Measuring
+    /// takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
     // proofs/series.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
@@ -156,7 +156,7 @@ const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
     if t.abs() >= near || t == start || t == end {
         return t;
     }
-    // The sum is 0.5 to 2.5 near, so its ulp is that of the farther end, or 1/2 or 1/4 of it.
+    // The farther end is 2 to 4 near, and the sum 0.5 to 2.5 near: its ulp is 1/4, 1/2 or 1 ulp of the farther end.
     let t = (t + 1.5 * near) - 1.5 * near;
     if t < start {
         start

@@ -30,9 +30,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// Of a coefficient that is negative it is less by 256, so the root is greater by a factor of at least 2^(256/6) and
-/// never the least: no term of an increasing series is that much greater than the sum. A 0 counts as 2⁻¹²⁷: its root is
-/// as great.
+/// Negative numbers come out lower by 256, and 0 is taken for 2⁻¹²⁷. Either makes a coefficient's root so great that it is
+/// never the least.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE

@@ -24,8 +24,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// Pulses are in order, never overlap, and none is of negative length; at a duty of 1 they touch. Ticks are counted
     /// and rounded as [`trigger_ticks`](Self::trigger_ticks) does it. Each end is within 0.52 tick of the exact time of a
-    /// fraction within one and a half ulp of its own. A pulse that is shorter than a tick may have its on and its off in
-    /// the same one.
+    /// fraction within two ulp of its own: one and a half for the `f32`, half for the inverse. A pulse that is shorter
+    /// than a tick may have its on and its off in the same one.
     ///
     /// ```
     /// use shutter_curve::{Pulse, ShutterCurve, valid};

@@ -13,7 +13,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
     /// `inverse_cdf((i + 1/2) / n)`. They never step back.
     ///
-    /// Up to 2²³ triggers each fraction is the nearest `f32`, above that it is within one and a half ulp; from about 2²⁴
+    /// Up to 2²³ triggers each fraction is the nearest `f32`, above that it is within two and a half ulp; from about 2²⁴
     /// on the last time may be the end itself.
     ///
     /// ```
@@ -35,7 +35,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`trigger_times`](Self::trigger_times) and [`trigger_ticks`](Self::trigger_ticks).
     ///
     /// It is 255 or more for most shutters with 8 octaves, doubles with each octave more, and is at most 2²². It is 0 on
-    /// curves too difficult for polynomials, and with `OCTAVES = 0` unless half of the exposure lies on the plateau.
+    /// curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the plateau.
     ///
     /// As a constant it makes a deadline that the compiler checks:
     ///
@@ -59,8 +59,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     pub const fn direct_triggers(&self) -> u32 {
         let above = [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
         let above = if above[0] > above[1] { above[0] } else { above[1] };
-        // The first and the last trigger are 1/2n from the ends: 1/2n > above. In 2⁻⁶⁴, and 2⁻²⁴ more, for fractions are
-        // rounded to `f32`. Saturating shows the compiler that the divisor is not 0.
+        // The first and the last trigger are 1/2n from the ends, and 1/2n > above is needed. `above` counts 2⁻⁶⁴. A slack of
+        // 2⁻²⁴ is added, as fractions are rounded to `f32`. Saturating shows the compiler that the divisor is not 0.
         let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / above;
         if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
@@ -87,7 +87,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: half an ulp for the
     /// `f32`, half for the polynomial. (An ulp of the fraction or of its rest to 1, whichever is less.) On typical curves
-    /// it is within 0.75 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may be many
+    /// it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may be many
     /// ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
     ///
     /// # Errors

@@ -59,7 +59,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
     /// Does trigger `i` need no search?
     pub(crate) const fn is_direct(&self, i: u32) -> bool {
-        self.plan.direct(self.fraction(i, 0.0)).is_some()
+        i < self.n && self.plan.direct(self.fraction(i, 0.0)).is_some()
     }
 
     #[inline(always)]
@@ -110,7 +110,7 @@ impl TickScale {
         let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
         let down = (up + zeros) as i32 - unit - 33;
-        // An interval that is much shorter than a tick has none.
+        // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
         Self { start, up, rate: ticks_per_unit << zeros, down }
     }
@@ -124,7 +124,7 @@ impl TickScale {
         // all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line is rounded
         // down; and `Moment::in_units` stops searches.
         let delay = if delay > 0 { delay as u64 } else { 0 };
-        // Mostly 0.
+        // `up` is mostly 0, and never 1.
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
