@@ -19,14 +19,14 @@ code("pub(crate) fn noise(&self, side: Side) -> f32 {", """let place_from_start 
     let terms = terms(Start) + terms(side);
     terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32 }""")
 code("if ramp.is(Start) { part } else {", """self.ramps[0].share.plus(self.plateau).plus(part) };
-    self.nearest(t, mass, |side| point.noise(side))""")
+    self.nearest(t, mass, |side| point.noise(side)) }""")
 code("let rest = (mass.hi - nearest) + mass.lo;", """
     let next = f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
     let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
     let side = Side::end_if(lesser >= 0.5 * WHOLE); let half = 0.5 * (next - nearest);
     let is_told = (half - rest).abs() > noise(side) + 2.0 * CDF_ERROR * nearest;
     let cdf = if is_told { nearest } else if t >= self.time_of(side, Pair::sum(nearest, half)) { greater } else { lesser };""")
-code("let a = if side.is(Start) { mass }", "else { Pair::new(WHOLE).minus(mass) }; self.at_fraction(side, a, CDF_ERROR).time()")
+code("let a = if side.is(Start) { mass }", "else { Pair::new(WHOLE).minus(mass) }; self.at_fraction(side, a, CDF_ERROR).time() }")
 
 # The grid, for a farther end from P to 2 P: sums from P / 4 to 5 P / 4, so multiples of P / 2^25, which they leave exactly.
 TIME_ERROR = Fraction(1, 1 << int(source(r"const TIME_ERROR: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))

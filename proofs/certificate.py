@@ -272,7 +272,7 @@ code("let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);", """
     let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];""")
 code("let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];", "")
 code("let error = time + self.rounding;", "let rounding = self.rounding + error * WEIGHT_OFF;")
-code("relative + rounding * self.per_size,", "exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,")
+code("relative + rounding * self.per_size,", "exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends, error * self.beyond, ]")
 weight_off = 1 / Fraction(2 ** int(source(r"const WEIGHT_OFF: f32 = 1\.0 / \(1 << (\d+)\) as f32;"))) / U
 # Makes up for roundings of roundings, and for those of doubles.
 MORE = Fraction(1001, 1000)
@@ -351,7 +351,7 @@ proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a frac
 code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
     let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
     if !self.has_plateau() && near < 0.5 && near > 0.5f32.next_down() as f64 { return [0.5; 2]; }
-    [ if near < 0.5 { near } else { 1.0 - (plateau + far) }, if near + plateau < 0.5 { near + plateau } else { 1.0 - far }, ]""")
+    [ if near < 0.5 { near } else { 1.0 - (plateau + far) }, if near + plateau < 0.5 { near + plateau } else { 1.0 - far }, ] }""")
 PAIR = Fraction(1, 2**49)
 
 
@@ -435,8 +435,8 @@ code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", "
     let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
     while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
-    let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * bends as f64""")
-code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(ramp, most) * per_exposure) as f32")
+    let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * bends as f64 }""")
+code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(ramp, most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.
 f0, f1, f2, f3, q = z3.Reals("f0 f1 f2 f3 q")
 weights = [1 - (1 - q) * (1 - q) * (1 - q), 3 * q * q - 2 * q * q * q, q * q * q]

@@ -114,9 +114,8 @@ def gappa(script):
     return run.returncode == 0
 
 
-def gappa_claim(claim, script, bound, slack=Fraction(1, 50), tight=True):
+def gappa_claim(claim, script, bound, slack=Fraction(1, 50)):
     """Gappa proves `script(bound)`, and does not prove it for a bound that is less by the share `slack`."""
     require(gappa(script(Fraction(bound))), claim)
-    if tight:
-        require(not gappa(script(Fraction(bound) * (1 - slack))), f"{claim}: a tighter bound is proven, too: say that one")
+    require(not gappa(script(Fraction(bound) * (1 - slack))), f"{claim}: a tighter bound is proven, too: say that one")
     proven(claim)

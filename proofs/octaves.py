@@ -10,7 +10,7 @@ code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
     doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
 code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usize; if index >= OCTAVES { return None; }
     let octave = &self.octaves[side as usize][index];
-    let borrowed = bits ^ (top ^ below) & 1 << 23; Some((octave, (borrowed << 8) as i32))""")
+    let borrowed = bits ^ (top ^ below) & 1 << 23; Some((octave, (borrowed << 8) as i32)) }""")
 code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(FINER as i64) | self.finer as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
@@ -42,8 +42,7 @@ code("pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {", """let until_far = sel
     if until_far < self.on_line_count[0] { let time = self.on_line(in_words(u.to_bits()));""")
 code("let (time, scale) = match self.by_octave(side, bits, Side::end_if(until_far >> 31 == 1)) {", "")
 # A join within an ulp below 1/2 counts as 1/2, so that 1/2 alone may lie beyond it: it has a line, of one fraction and no slope.
-code("} else if plan.exposure.joins(Start)[0] == 0.5 {", """plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 });
-    plan.last_before_far[0] = 0.5f32.to_bits(); plan.on_line_count[0] = 1; }""")
+code("} else if plan.exposure.joins(Start)[0] == 0.5 {", """plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 }); plan.on_line_count[0] = 1; }""")
 code("pub(crate) fn nearer(u: f32) -> (Side, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits)) }""")

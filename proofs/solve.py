@@ -27,7 +27,7 @@ code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c
     let (back, sought) = (sought.to_bits() & BACK, sought.abs());
     let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
     anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
-code("solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0", "")
+code("solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0", "}")
 code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
     if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {""")
 

@@ -7,7 +7,7 @@ code("pub(crate) const fn new(odd: u32, more: f32, all: f32) -> Self {", """let 
     let (part, rest) = (odd + more, (all - odd) - more);
     if part <= rest { Self { side: Start, a: part / all } } else { Self { side: End, a: rest / all } }""")
 code("let all = (2 * n) as f32;", "")
-code("Fraction::new(2 * i + 1, more, self.all)", "")
+code("Fraction::new(2 * i + 1, more, self.all)", "}")
 code("Pulse { on: self.ticks.around(i, -self.duty),", "off: self.ticks.around(i, self.duty) }")
 code("if n > MOST_TRIGGERS {", "return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS }); }")
 MOST_TRIGGERS = 1 << int(source(r"const MOST_TRIGGERS: u32 = 1 << (\d+);"))
@@ -93,10 +93,10 @@ code("let up = length.leading_zeros().wrapping_sub(1) & 31;", """let up = if up 
 code("let delay = time.wrapping_sub(self.start);", """let delay = if delay > 0 { delay as u64 } else { 0 };
     let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
     let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF); let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
-    (((product >> (self.down & 63)) + 1) >> 1) as u32""")
-code("let ticks = length as u128 * ticks_per_unit as u128;", "u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit")
+    (((product >> (self.down & 63)) + 1) >> 1) as u32 }""")
+code("let ticks = length as u128 * ticks_per_unit as u128;", "u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }")
 code("if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {", "return Err(too_high(length, ticks_per_unit, unit)); }")
-code("let most = if end - start > most { end - start } else { most };", "(most.to_bits() >> 52) as i32 - 1023 - 61")
+code("let most = if end - start > most { end - start } else { most };", "(most.to_bits() >> 52) as i32 - 1023 - 61 }")
 MOST_TICKS = int(source(r"const MOST_TICKS: i32 = (\d+);"))
 SHORTEST, LONGEST = 61 - 24, 62
 ticks = BitVec("ticks", 128)

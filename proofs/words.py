@@ -39,7 +39,7 @@ code("let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == 
     let (high, low) = ((time >> 32) as i32, time as u32);
     let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
     let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
-    filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale""")
+    filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale }""")
 LEAST_BITS = int(source(r"high\.wrapping_add\(1 << (\d+)\) as u32 >= 1 << 26"))
 
 time, even = BitVec("time", 64), BitVec("even", 72)

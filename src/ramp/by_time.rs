@@ -127,7 +127,7 @@ impl RampPoint<'_> {
     /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a side
     /// ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side. Measuring
     /// takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
-    // proofs/series.py
+    // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
         let terms = |side: Side| {
