@@ -42,7 +42,7 @@ code("pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {", """let until_far = sel
     if until_far < self.on_line_count[0] { let time = self.on_line(in_words(u.to_bits()));""")
 code("let (time, scale) = match self.by_octave(side, bits, Side::end_if(until_far >> 31 == 1)) {", "")
 # A join within an ulp below 1/2 counts as 1/2, so that 1/2 alone may lie beyond it: it has a line, of one fraction and no slope.
-code("} else if plan.exposure.joins(Start)[0] == 0.5 {", """plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 }); plan.on_line_count[0] = 1; }""")
+code("} else if plan.exposure.half_is_beyond_join() {", """plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 }); plan.on_line_count[0] = 1; }""")
 code("pub(crate) fn nearer(u: f32) -> (Side, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
     let is_late = bits as i32 > 0.5f32.to_bits() as i32;
     (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits)) }""")

@@ -145,7 +145,7 @@ impl Exposure {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
-        if !self.has_plateau() && near < 0.5 && near > 0.5f32.next_down() as f64 {
+        if !self.has_plateau() && is_next_to_half(near) {
             return [0.5; 2];
         }
         [
@@ -153,4 +153,14 @@ impl Exposure {
             if near + plateau < 0.5 { near + plateau } else { 1.0 - far },
         ]
     }
+
+    /// Does 1/2 lie beyond the join of both ramps, seen from the start, though the join counts as 1/2?
+    pub(crate) const fn half_is_beyond_join(&self) -> bool {
+        !self.has_plateau() && is_next_to_half(self.ramps[0].share.to_f64() / WHOLE as f64)
+    }
+}
+
+/// Is a fraction within an ulp below 1/2?
+const fn is_next_to_half(a: f64) -> bool {
+    a < 0.5 && a > 0.5f32.next_down() as f64
 }

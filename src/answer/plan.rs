@@ -100,8 +100,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
                 plan.on_line_count[side] = last.saturating_sub(before);
                 side += 1;
             }
-        } else if plan.exposure.joins(Start)[0] == 0.5 {
-            // 1/2 itself may lie beyond the join, the only `f32` of the far ramp. A search finds its time now, which is kept
+        } else if plan.exposure.half_is_beyond_join() {
+            // Of all `f32` of its side only 1/2 itself lies on the far ramp. A search finds its time now, which is kept
             // as a line of one point: an octave for it alone would take one of `OCTAVES` from the near ramp.
             plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 });
             plan.on_line_count[0] = 1;

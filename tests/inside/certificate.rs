@@ -99,7 +99,7 @@ impl View<'_> {
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
             let a = f64::from(a as f32);
             // Where the ramps join at 1/2, that has a line of its own.
-            let is_on_line = a == 0.5 && self.exposure.joins(self.side)[0] == 0.5;
+            let is_on_line = a == 0.5 && self.exposure.half_is_beyond_join();
             if a < span.from || a > end || is_on_line {
                 continue;
             }
