@@ -348,7 +348,7 @@ proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a frac
 
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
 # (pairs.py), and their sum; or by 1 less a share of at most 1/2, which is rounded by half of 2^-53 at most.
-code("const fn is_next_to_half(a: f64) -> bool {", "a < 0.5 && a > 0.5f32.next_down() as f64 }")
+code("const fn is_next_to_half(a: f64) -> bool {", "floor_bits(a) == 0.5f32.to_bits() - 1 }")
 code("!self.has_plateau() && is_next_to_half(self.ramps[0].share.to_f64() / WHOLE as f64)", "")
 code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau = self.plateau.to_f64() / WHOLE as f64;
     let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;

@@ -3,11 +3,11 @@
 from solver import *
 
 # --- Fractions. R rounds to an f32, D divides by 2n and rounds. Both keep order, R keeps n, and D makes 1/2 of that.
-code("pub(crate) const fn new(odd: u32, more: f32, all: f32) -> Self {", """let odd = odd as f32;
-    let (part, rest) = (odd + more, (all - odd) - more);
+code("pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {", """
+    let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
+    let all = (2 * n) as f32;
     if part <= rest { Self { side: Start, a: part / all } } else { Self { side: End, a: rest / all } }""")
-code("let all = (2 * n) as f32;", "")
-code("Fraction::new(2 * i + 1, more, self.all)", "}")
+code("Fraction::new(2 * i + 1, more, self.n)", "}")
 code("Pulse { on: self.ticks.around(i, -self.duty),", "off: self.ticks.around(i, self.duty) }")
 code("if n > MOST_TRIGGERS {", "return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS }); }")
 MOST_TRIGGERS = 1 << int(source(r"const MOST_TRIGGERS: u32 = 1 << (\d+);"))

@@ -8,7 +8,7 @@ use crate::error::{CurveError, Part};
 use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
-use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT};
+use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT, floor_bits};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::{Shape, check_finite, check_ramp};
@@ -160,7 +160,7 @@ impl Exposure {
     }
 }
 
-/// Is a fraction within an ulp below 1/2?
+/// Is a fraction below 1/2, by an ulp at most?
 const fn is_next_to_half(a: f64) -> bool {
-    a < 0.5 && a > 0.5f32.next_down() as f64
+    floor_bits(a) == 0.5f32.to_bits() - 1
 }

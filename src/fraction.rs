@@ -60,13 +60,13 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / all`, from 0 to 1, where `all` is twice the number of triggers. For a trigger `more` is 0, and this is
+    /// `(odd + more) / 2n`, from 0 to 1, of `n` triggers. For a trigger `more` is 0, and this is
     /// the nearest `f32`. For an end of a pulse it is ±duty, and this is within one and a half ulp (proofs/ticks.py). Half
     /// is counted from the start.
     #[inline(always)]
-    pub(crate) const fn new(odd: u32, more: f32, all: f32) -> Self {
-        let odd = odd as f32;
-        let (part, rest) = (odd + more, (all - odd) - more);
+    pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
+        let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
+        let all = (2 * n) as f32;
         if part <= rest {
             Self { side: Start, a: part / all }
         } else {

@@ -108,6 +108,7 @@ pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {
 
 /// The bits of the greatest `f32` at or below `x`, which is from 0 to about 1.
 // proofs/words.py: floor_bits
+#[inline(never)]
 pub(crate) const fn floor_bits(x: f64) -> u32 {
     let rounded = x as f32;
     let bits = rounded.to_bits();

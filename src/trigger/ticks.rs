@@ -15,8 +15,6 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     plan: &'a Plan<OCTAVES>,
     n: u32,
-    /// `2n`.
-    all: f32,
     scale: TickScale,
 }
 
@@ -37,8 +35,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {
             return Err(too_high(length, ticks_per_unit, unit));
         }
-        let all = (2 * n) as f32;
-        Ok(Self { plan, n, all, scale: TickScale::new(start, length, ticks_per_unit, unit) })
+        Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
     }
 
     pub(crate) const fn n(&self) -> u32 {
@@ -64,7 +61,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
-        Fraction::new(2 * i + 1, more, self.all)
+        Fraction::new(2 * i + 1, more, self.n)
     }
 }
 

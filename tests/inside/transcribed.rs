@@ -88,7 +88,7 @@ fn sums() {
 fn fractions() {
     for [odd, more, n, side, a] in rows(include_str!("../../proofs/vectors/fractions.csv")) {
         let [more, a] = [more, a].map(|word| f32::from_bits(word as u32));
-        let found = Fraction::new(odd as u32, more, (2 * n) as f32);
+        let found = Fraction::new(odd as u32, more, n as u32);
         assert_eq!(found, Fraction { side: Side::end_if(side == 1), a }, "{odd} {more} {n}");
     }
 }

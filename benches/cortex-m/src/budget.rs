@@ -37,7 +37,7 @@ const SOFT_FLOAT: [(Function, usize, f64); 5] = [
     (InverseCdf, 0, 39_000.0),
     (Cdf, DEFAULT, 34_500.0),
     (Cdf, 0, 34_500.0),
-    (Schedule, DEFAULT, 48_500.0),
+    (Schedule, DEFAULT, 50_500.0),
 ];
 
 /// Where no number of octaves is said, it is the default one.
