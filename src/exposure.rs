@@ -1,8 +1,8 @@
 //! The exposure: two ramps and the plateau between them, one area over all three, and the moment of a fraction.
 //!
-//! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau or on
-//! the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that part is no
-//! greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
+//! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
+//! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
+//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
 
 use crate::error::{CurveError, Part};
 use crate::fraction::Side;
@@ -13,8 +13,8 @@ use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::{Shape, check_finite, check_ramp};
 
-/// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which so
-/// keep their order.
+/// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
+/// so keep their order.
 pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
 /// The error of the inverse that decides a cdf: less than the noise of a measured mass where nothing cancels.
 pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
@@ -135,11 +135,11 @@ impl Exposure {
         Section::Plateau(Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 })
     }
 
-    /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two parts
-    /// into which it divides the exposure. So without a plateau both are one number.
+    /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two
+    /// parts into which it divides the exposure. So without a plateau both are one number.
     ///
-    /// Without a plateau, a join within an ulp below 1/2 counts as 1/2, as it is meant to be on a symmetric shutter. Of all
-    /// `f32` only 1/2 itself may then be on the wrong side, and [`Plan`](crate::answer::plan::Plan) has its time.
+    /// Without a plateau, a join within an ulp below 1/2 counts as 1/2, as it is meant to be on a symmetric shutter. Of
+    /// all `f32` only 1/2 itself may then be on the wrong side, and [`Plan`](crate::answer::plan::Plan) has its time.
     #[inline(never)]
     pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;

@@ -1,9 +1,10 @@
-//! Fractions of the exposure, each counted from the nearer end of the curve: so those next to either end keep their bits.
+//! Fractions of the exposure, each counted from the nearer end of the curve: so those next to either end keep their
+//! bits.
 
 /// An end of the curve, or of a ramp. `ramp: Side` is the ramp at that end of the curve: the opening one at the start.
 ///
-/// Seen from a side, the ramp there is the *near* one, the other one the *far* one. A ramp meets the plateau, or the other
-/// ramp, at its *join*.
+/// Seen from a side, the ramp there is the *near* one, the other one the *far* one. A ramp meets the plateau, or the
+/// other ramp, at its *join*.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Side {
     Start,
@@ -60,9 +61,9 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / 2n`, from 0 to 1, of `n` triggers. For a trigger `more` is 0, and this is
-    /// the nearest `f32`. For an end of a pulse it is ±duty, and this is within one and a half ulp (proofs/ticks.py). Half
-    /// is counted from the start.
+    /// `(odd + more) / 2n`, from 0 to 1, of `n` triggers. For a trigger `more` is 0, and this is the nearest `f32`. For
+    /// an end of a pulse it is ±duty, and this is within one and a half ulp (proofs/ticks.py). Half is counted from the
+    /// start.
     #[inline(always)]
     pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
         let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);

@@ -29,10 +29,9 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time to its
-// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`; only
-// `trigger` also needs `shutter`, to which it adds methods.
-// Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
+// Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time
+// to its fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and
+// `error`; only `trigger` also needs `shutter`, to which it adds methods:
 //
 // fraction  an end of the curve, and a fraction counted from it
 // number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
@@ -42,6 +41,8 @@
 // octave    polynomials that answer without a search: how they are built, and their certificates
 // answer    the time of a fraction, and the fraction of a time
 // trigger   the ticks of triggers and pulses
+//
+// Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
 mod answer;
 mod error;
 mod exposure;

@@ -13,16 +13,16 @@ use crate::ramp::bezier::CubicBezier;
 /// closing cubic Bezier, taken as a probability density.
 ///
 /// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
-/// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in Hz.
-/// Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0 or
-/// end at 1 (a jump).
+/// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in
+/// Hz. Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0
+/// or end at 1 (a jump).
 ///
-/// `OCTAVES` is the number of octaves of `u` on either side: the fractions from a ramp's last down to half of that, then
-/// down to a quarter, and so on. Each has a polynomial that answers it, unless the curve is too difficult there. A curve
-/// takes 488 bytes,
-/// and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of a typical curve is found by a search; with
-/// 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile, and beyond 16 a constant
-/// may exceed the compiler's limit on evaluation. [`with_octaves`](Self::with_octaves) takes another number than 8.
+/// `OCTAVES` is the number of octaves of `u` on either side: the fractions from a ramp's last down to half of that,
+/// then down to a quarter, and so on. Each has a polynomial that answers it, unless the curve is too difficult there. A
+/// curve takes 488 bytes, and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of a typical curve is
+/// found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
+/// and beyond 16 a constant may exceed the compiler's limit on evaluation. [`with_octaves`](Self::with_octaves) takes
+/// another number than 8.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) plan: Plan<OCTAVES>,
@@ -110,9 +110,9 @@ impl ShutterCurve {
     /// One Bezier `(t(p), f(p))` as a density: as a shutter that opens along it and closes at once where it ends.
     ///
     /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
-    /// not depend on it (but for the 2⁻²² by which `f` may pass 1 where control points are rounded). But `f` may not exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a
-    /// power of two, which rounds nothing. Then [`normalization`](Self::normalization) is
-    /// `K = 1 / ∫ f t' dp` of the scaled density.
+    /// not depend on it (but for the 2⁻²² by which `f` may pass 1 where control points are rounded). But `f` may not
+    /// exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a power of two, which rounds
+    /// nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -257,8 +257,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// the ends exactly, and never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
-    /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀` equals
-    /// `open_end`.)
+    /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀`
+    /// equals `open_end`.)
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;

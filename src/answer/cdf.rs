@@ -1,8 +1,8 @@
 //! From a time: the openness, the density, and the cdf.
 //!
-//! A cdf is the mass collected until the place at which the time is reached. It is measured from the curve's start, so masses
-//! are added and nothing cancels. Where the noise of that measurement reaches the middle of two `f32`, the inverse's time of
-//! the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
+//! A cdf is the mass collected until the place at which the time is reached. It is measured from the curve's start, so
+//! masses are added and nothing cancels. Where the noise of that measurement reaches the middle of two `f32`, the
+//! inverse's time of the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
 
 use crate::exposure::{CDF_ERROR, Exposure};
 use crate::fraction::Side::{self, End, Start};
@@ -89,11 +89,11 @@ impl Exposure {
         self.nearest(t, mass, |side| point.noise(side))
     }
 
-    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, times before
-    /// the middle's get the lesser `f32`, all others the greater one. (A subnormal answer is rounded once more.)
+    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, times
+    /// before the middle's get the lesser `f32`, all others the greater one. (A subnormal answer is rounded once more.)
     ///
-    /// `noise` bounds the errors of a measurement on a ramp and of an inverse there, given the side from which the inverse
-    /// counts. To it come 2⁻⁴⁰ for the search, and as much for sums of pairs.
+    /// `noise` bounds the errors of a measurement on a ramp and of an inverse there, given the side from which the
+    /// inverse counts. To it come 2⁻⁴⁰ for the search, and as much for sums of pairs.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();

@@ -13,8 +13,8 @@
 //! 9. Halley's steps, what they miss in pairs, and a last step with a bound of its error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of the
-//! distance between neighbours, or a quarter for a search (docs/proofs.md, "An octave's certificate", 7).
+//! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of
+//! the distance between neighbours, or a quarter for a search (docs/proofs.md, "An octave's certificate", 7).
 
 use crate::error::CurveError;
 use crate::exposure::{Exposure, INVERSE_ERROR};
@@ -39,12 +39,12 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     last_before_far: [u32; 2],
     /// By side: the number of `f32` up to that one, included, that are on the line; 0 without one.
     on_line_count: [u32; 2],
-    /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area; or,
-    /// where the ramps join at 1/2, that point alone, with a slope of 0.
+    /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
+    /// or, where the ramps join at 1/2, that point alone, with a slope of 0.
     base: i64,
     slope: i64,
-    /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so that
-    /// `(top - a) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so
+    /// that `(top - a) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
     tops: [[u8; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],
@@ -117,8 +117,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         Ok(plan)
     }
 
-    /// Has a line with this slope enough bits? From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the least
-    /// `u` on the line. A curve with less is far from time 0, or dark for its length, and all of it is searched.
+    /// Has a line with this slope enough bits? From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the
+    /// least `u` on the line. A curve with less is far from time 0, or dark for its length, and all of it is searched.
     const fn is_fine(slope: i64) -> bool {
         slope >> 40 != 0
     }
@@ -138,8 +138,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The early return keeps register saves off the plateau, which takes a third less for it (docs/tried.md).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set. Where there
-        // is a line, u < 0 and NaN make it at least 2²⁹, more than any on_line_count.
+        // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set.
+        // Where there is a line, u < 0 and NaN make it at least 2²⁹, more than any on_line_count.
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));
@@ -262,9 +262,9 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             return None;
         }
         let octave = &self.octaves[side as usize][index];
-        // Returned is the significand, with the sign of the position: negative if `a` is below the octave's power of two,
-        // that is where `top - bits` borrows from the exponent, where bit 23 of top ^ bits ^ below is 1. In the octave
-        // (0.1875, 0.375], with the power 1/4:
+        // Returned is the significand, with the sign of the position: negative if `a` is below the octave's power of
+        // two, that is where `top - bits` borrows from the exponent, where bit 23 of top ^ bits ^ below is 1. In the
+        // octave (0.1875, 0.375], with the power 1/4:
         //   top    0.375   0 01111101 100...
         //   bits   0.3     0 01111101 00110...   no borrow: returns  0.2 · 2³¹, the position is 0.2 · 2³²
         //   bits   0.2     0 01111100 10011...   a borrow:  returns -0.2 · 2³², the position itself
@@ -351,8 +351,8 @@ const fn in_words(bits: u32) -> u32 {
 }
 
 /// The upper word of a time, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64.
-/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it is
-/// 0: the *sticky bit*.
+/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
+/// is 0: the *sticky bit*.
 // proofs/words.py
 #[inline(always)]
 fn upper_word(time: i64) -> Option<i32> {

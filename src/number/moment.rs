@@ -3,8 +3,8 @@
 use crate::number::pair::Pair;
 use crate::number::units::{fixed, power_of_two};
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. `way` is at most 2¹⁰⁵ (a plateau's). `unit` is at
-/// least -252, so that half of it is the exponent of a normal number, and at most 22 unless `way` is 0.
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. `way` is at most 2¹⁰⁵ (a plateau's). `unit`
+/// is at least -252, so that half of it is the exponent of a normal number, and at most 22 unless `way` is 0.
 ///
 /// If base and way nearly cancel, so that `way.lo` is more than 3/8 ulp of the sum, the error next to the middle of two
 /// `f32` may be half an ulp plus 2⁻²⁴ of what `sum.hi` lacks: no promise is that fine.
@@ -45,8 +45,8 @@ const fn careful_sum(base: f32, way: Pair, first: f32, second: f32) -> f32 {
     let up = if is_small { 48 } else { 0 };
     let (base, second) = (base * power_of_two(up), second * power_of_two(up));
     let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    // Adding `places` rounds a sum that will be subnormal to the last place of a subnormal `f32`. `places` has the sum's
-    // sign, which `lo` decides where `hi` cancels the base.
+    // Adding `places` rounds a sum that will be subnormal to the last place of a subnormal `f32`. `places` has the
+    // sum's sign, which `lo` decides where `hi` cancels the base.
     let near = Pair::sum(base, hi);
     let (rough, least_normal) = (near.hi + (near.lo + lo), power_of_two(up - 126));
     let places = if rough.abs() >= least_normal { 0.0 } else { least_normal.copysign(rough) };

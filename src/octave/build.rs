@@ -42,10 +42,10 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = [side.other(), side][i];
         let (top, end) = view.of_ramp(ramp, octaves, first);
-        // A stored top is below 8 = 2³, and so less than 31 · 8 = 248 steps above 2⁻²⁸: it fits a byte. For let the far ramp
-        // have n octaves, the first with a top f < 1, the last with l = 2 f / 2ⁿ. Then l is above the near ramp's join and
-        // above LEAST_TOP / 2. The near ramp's top is below twice its join or below 2 LEAST_TOP, so below 4 l; stored, times
-        // 2ⁿ, it is below 8 f. (Without octaves it is less.)
+        // A stored top is below 8 = 2³, and so less than 31 · 8 = 248 steps above 2⁻²⁸: it fits a byte. For let the far
+        // ramp have n octaves, the first with a top f < 1, the last with l = 2 f / 2ⁿ. Then l is above the near ramp's
+        // join and above LEAST_TOP / 2. The near ramp's top is below twice its join or below 2 LEAST_TOP, so below 4 l;
+        // stored, times 2ⁿ, it is below 8 f. (Without octaves it is less.)
         tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first = end;
         i += 1;
@@ -60,8 +60,9 @@ impl View<'_> {
     const fn of_ramp(&self, ramp: Side, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // No octaves. A far ramp is then never looked up. But for a near one that is hidden (see `range`) the plateau up
-            // to FINE is. With a top at or above all of that its index is at least `first`, and from there on all is NONE.
+            // No octaves. A far ramp is then never looked up. But for a near one that is hidden (see `range`) the
+            // plateau up to FINE is. With a top at or above all of that its index is at least `first`, and from there
+            // on all is NONE.
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -77,9 +78,9 @@ impl View<'_> {
                 octaves[index] = Octave::NONE;
                 let top = below(highest, index - first);
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-                    // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the far
-                    // ramp's `a` just below its last octave would find the near ramp's first one: as with a join at 0.7, a
-                    // top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
+                    // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the
+                    // far ramp's `a` just below its last octave would find the near ramp's first one: as with a join at
+                    // 0.7, a top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {

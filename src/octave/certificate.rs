@@ -19,8 +19,8 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be: by `OFF[0]`, as joins are rounded in a look-up; and by `OFF[1]` of itself on a path, as a
-/// sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+/// How far off a fraction may be: by `OFF[0]`, as joins are rounded in a look-up; and by `OFF[1]` of itself on a path,
+/// as a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
 /// The greatest offset, in widths; a word ends at 1/2.
@@ -30,8 +30,8 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without signs,
-/// or of `Limits::per_size`.
+/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without
+/// signs, or of `Limits::per_size`.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 

@@ -4,8 +4,8 @@ use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::FINER;
 use crate::octave::path::{Path, scale};
 
-/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a top
-/// is at most 15/8 of the power.) A word of offsets ends at 0.5 width. The center's error takes 0.009 of the 0.02
+/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a
+/// top is at most 15/8 of the power.) A word of offsets ends at 0.5 width. The center's error takes 0.009 of the 0.02
 /// between: 2⁸ for a rounded middle and 31 for the shift in its lowest bits, both times 2¹⁷ at most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;

@@ -9,8 +9,9 @@ use crate::search::guess::guess;
 use crate::search::{Anchor, ROUNDING, Taylor, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
-/// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at least
-/// 2⁻²⁴ of it apart. On a ramp across time 0 it may be longer; there [`on_grid`] leaves times about 2⁻²⁶ of it apart.
+/// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
+/// least 2⁻²⁴ of it apart. On a ramp across time 0 it may be longer; there [`on_grid`] leaves times about 2⁻²⁶ of it
+/// apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
@@ -105,8 +106,8 @@ impl Ramp {
 }
 
 impl RampPoint<'_> {
-    /// The place from the ramp's start. Little cancels: a time nearer to the end lies beyond 1/7 of the ramp, since `t'` is
-    /// not negative.
+    /// The place from the ramp's start. Little cancels: a time nearer to the end lies beyond 1/7 of the ramp, since
+    /// `t'` is not negative.
     #[inline(always)]
     const fn place_from_start(&self) -> Pair {
         let Pair { hi, lo } = self.place;
@@ -124,9 +125,9 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a side
-    /// ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side. Measuring
-    /// takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
+    /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a
+    /// side ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side.
+    /// Measuring takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;

@@ -6,8 +6,8 @@
 //!
 //! A search starts from one of four *anchors*, the one whose mass is nearest: the two ends and the two *flat places*,
 //! the minima of `f` (a cubic) and of `t'` (a parabola) if they lie inside. There the density `f t'` may nearly vanish,
-//! so Newton's method needs a good first guess. The root of one term of the series there is one. All count away from the
-//! nearer end, as here two flat places at 0.3 and 0.8 of a ramp:
+//! so Newton's method needs a good first guess. The root of one term of the series there is one. All count away from
+//! the nearer end, as here two flat places at 0.3 and 0.8 of a ramp:
 //!
 //! ```text
 //! place           0              0.3                 0.8       1

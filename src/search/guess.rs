@@ -30,8 +30,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// Negative numbers come out lower by 256, and 0 is taken for 2⁻¹²⁷. Either makes a coefficient's root so great that it is
-/// never the least.
+/// Negative numbers come out lower by 256, and 0 is taken for 2⁻¹²⁷. Either makes a coefficient's root so great that it
+/// is never the least.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE

@@ -9,9 +9,9 @@
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
 //! step between them is accepted: its bound is at most 2⁻²⁷·⁷ of a mass, 2⁻³⁶·⁶ of a time (docs/proofs.md, "The end of
-//! a search"). It is not proven that the step stays between them: where next to no light falls, noise may be all that is
-//! missing. So [`MAX_EVALUATIONS`] end a search, without a proof. No search for an `f32` is known to take so many. A cdf's
-//! search to 2⁻⁴⁰ may, since that error can be less than the noise.
+//! a search"). It is not proven that the step stays between them: where next to no light falls, noise may be all that
+//! is missing. So [`MAX_EVALUATIONS`] end a search, without a proof. No search for an `f32` is known to take so many. A
+//! cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
 
 pub(crate) mod guess;
 
@@ -134,9 +134,10 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// + |s| 3.4 cubes s²             all further terms
 /// ```
 ///
-/// where `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y`, `slopes = |c_1| + bends y`, `c_j` is `c[j - 1]`
-/// and `y = |x| + |s|`. Up to `y`, the slope is at most `slopes`, the second derivative `5 bends`, the third `20 cubes`, as
-/// `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search leaves").
+/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y`, `slopes = |c_1| + bends y`,
+/// and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second derivative `5 bends`, the third
+/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search
+/// leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
@@ -164,8 +165,8 @@ pub(crate) const fn left<const N: usize>(
 
 /// The place where `series` reaches `target`, and the evaluations that took.
 ///
-/// The last step leaves at most 3/4 of `wanted`, or of `accepted` if it is less than an ulp: another round would measure
-/// the same `f32`. The last quarter is for measuring. At the cap there is no bound.
+/// The last step leaves at most 3/4 of `wanted`, or of `accepted` if it is less than an ulp: another round would
+/// measure the same `f32`. The last quarter is for measuring. At the cap there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,

@@ -23,9 +23,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// middle of its share of the exposure, from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
     ///
     /// Pulses are in order, never overlap, and none is of negative length; at a duty of 1 they touch. Ticks are counted
-    /// and rounded as [`trigger_ticks`](Self::trigger_ticks) does it. Each end is within 0.52 tick of the exact time of a
-    /// fraction within two ulp of its own: one and a half for the `f32`, half for the inverse. A pulse that is shorter
-    /// than a tick may have its on and its off in the same one.
+    /// and rounded as [`trigger_ticks`](Self::trigger_ticks) does it. Each end is within 0.52 tick of the exact time of
+    /// a fraction within two ulp of its own: one and a half for the `f32`, half for the inverse. A pulse that is
+    /// shorter than a tick may have its on and its off in the same one.
     ///
     /// ```
     /// use shutter_curve::{Pulse, ShutterCurve, valid};

@@ -13,8 +13,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
     /// `inverse_cdf((i + 1/2) / n)`. They never step back.
     ///
-    /// Up to 2²³ triggers each fraction is the nearest `f32`, above that it is within two and a half ulp; from about 2²⁴
-    /// on the last time may be the end itself.
+    /// Up to 2²³ triggers each fraction is the nearest `f32`, above that it is within two and a half ulp; from about
+    /// 2²⁴ on the last time may be the end itself.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -30,12 +30,13 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
     }
 
-    /// No frame of up to so many triggers needs a search: the plateau's line or a polynomial places each of them. So each
-    /// costs at most the worst direct answer, which the README gives in cycles. This holds for
+    /// No frame of up to so many triggers needs a search: the plateau's line or a polynomial places each of them. So
+    /// each costs at most the worst direct answer, which the README gives in cycles. This holds for
     /// [`trigger_times`](Self::trigger_times) and [`trigger_ticks`](Self::trigger_ticks).
     ///
-    /// It is 255 or more for most shutters with 8 octaves, doubles with each octave more, and is at most 2²². It is 0 on
-    /// curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the plateau.
+    /// It is 255 or more for most shutters with 8 octaves, doubles with each octave more, and is at most 2²². It is 0
+    /// on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the
+    /// plateau.
     ///
     /// As a constant it makes a deadline that the compiler checks:
     ///
@@ -59,19 +60,20 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     pub const fn direct_triggers(&self) -> u32 {
         let above = [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
         let above = if above[0] > above[1] { above[0] } else { above[1] };
-        // The first and the last trigger are 1/2n from the ends, and 1/2n > above is needed. `above` counts 2⁻⁶⁴. A slack of
-        // 2⁻²⁴ is added, as fractions are rounded to `f32`. Saturating shows the compiler that the divisor is not 0.
+        // The first and the last trigger are 1/2n from the ends, and 1/2n > above is needed. `above` counts 2⁻⁶⁴. A
+        // slack of 2⁻²⁴ is added, as fractions are rounded to `f32`. Saturating shows the compiler that the divisor is
+        // not 0.
         let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         let most = (1 << 63) / above;
         if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
     }
 
-    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start): add the timer's own base
-    /// with `wrapping_add`. They never step back.
+    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start): add the timer's own
+    /// base with `wrapping_add`. They never step back.
     ///
     /// `ticks_per_unit` is the number of ticks in one unit of the curve's time: the timer's rate in Hz for a curve in
-    /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds are
-    /// recommended.**
+    /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds
+    /// are recommended.**
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -85,10 +87,10 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: half an ulp for the
-    /// `f32`, half for the polynomial. (An ulp of the fraction or of its rest to 1, whichever is less.) On typical curves
-    /// it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may be many
-    /// ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
+    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: half an ulp for
+    /// the `f32`, half for the polynomial. (An ulp of the fraction or of its rest to 1, whichever is less.) On typical
+    /// curves it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may
+    /// be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
@@ -209,8 +211,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// does not; at least 1, unless none are wanted. At once for a gap of 0.
     ///
     /// It tries frames, each up to where the gap is too small: the exposure over the gap first, which is next to the
-    /// answer for a shutter that opens fully, and from there by doubled steps and bisection. So it costs a few frames at
-    /// best, and `2 log2(wanted)` at worst.
+    /// answer for a shutter that opens fully, and from there by doubled steps and bisection. So it costs a few frames
+    /// at best, and `2 log2(wanted)` at worst.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
