@@ -101,7 +101,8 @@ impl Exposure {
     }
 
     /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. It is within
-    /// `error · a`, or within `INVERSE_ERROR · a` if the last step of the search is less than an ulp.
+    /// `error · a`; or within `INVERSE_ERROR · a`, if the last step of the search is at most 2⁻²³ of the place. At the
+    /// cap of a search there is no bound.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         match self.section(side, a) {

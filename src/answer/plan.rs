@@ -33,18 +33,19 @@ use crate::ramp::shape::Shape;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// The time of 2³² units. A unit is the power of two in which the curve's times are at most 2⁶².
+    /// The time of 2³² units. A unit is the power of two of which the curve's greatest time, or its length if that is
+    /// more, has 2⁶¹ to 2⁶² ([`time_unit`]).
     scale: f32,
     /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
     last_before_far: [u32; 2],
     /// By side: the number of `f32` up to that one, included, that are on the line; 0 without one.
     on_line_count: [u32; 2],
     /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
-    /// or, where the ramps join at 1/2, that point alone, with a slope of 0.
+    /// or, where the join of the ramps counts as 1/2 but lies below it, the time of 1/2 alone, with a slope of 0.
     base: i64,
     slope: i64,
     /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so
-    /// that `(top - a) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    /// that `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
     tops: [[u8; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],
@@ -135,7 +136,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// The early return keeps register saves off the plateau, which takes a third less for it (docs/tried.md).
+    /// The early return keeps register saves off the plateau, whose answers then take a third fewer cycles
+    /// (docs/tried.md).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set.
@@ -210,7 +212,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     #[inline(always)]
     const fn by_octave(&self, side: Side, bits: u32, ramp: Side) -> Option<i64> {
         match self.look_up(side, ramp, bits) {
-            // Asked for here, or the compiler saves registers to load all coefficients at once.
+            // Tested before any coefficient is loaded, or the compiler loads all at once and saves registers for them.
             Some((octave, position)) if octave.exists() => {
                 Some(octave.time(octave.offset(position)))
             }
@@ -246,8 +248,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The octave of an `a` with these bits on a ramp, and its position there ([`Octave::offset`]). None for 0, outside
-    /// [0, 1] and for NaN.
+    /// The octave of an `a` with these bits on a ramp, and from what [`Octave::offset`] makes the offset: the position,
+    /// or half of it if that is not negative. None for 0, outside [0, 1] and for NaN.
     #[inline(always)]
     pub(crate) const fn look_up(
         &self,

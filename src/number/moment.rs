@@ -97,7 +97,8 @@ impl Moment {
     /// The time in units of `2^unit`, at most 2⁶² of them.
     pub(crate) const fn in_units(self, unit: i32) -> i64 {
         let Pair { hi, lo } = self.way.shifted(self.unit - unit);
-        // way = floor(hi + lo), so that a longer way is never less. From 2²⁴ on `hi` is a whole number.
+        // way = floor(hi + lo), but for what rounds `rest`: ways of at least 2²⁴ units keep their order, since there
+        // `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
         let whole = fixed(hi, 0);
         let rest = (hi - whole as f32) + lo;
         let down = fixed(rest, 0);

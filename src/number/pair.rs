@@ -2,8 +2,9 @@
 //!
 //! Every machine computes the same bits: plain sums and products, none fused, and what each loses (Knuth 1969, Dekker
 //! 1971). Each function states its error for operands whose `lo` is at most half an ulp of `hi`; `proofs/pairs.py`
-//! proves it, and more for a greater `lo`. Answers of `sum`, `plus` and `minus` have such a `lo`, other ones a few ulp.
-//! Nothing may overflow or become subnormal: callers scale by powers of two.
+//! proves it, and more for a greater `lo`. Answers of `sum`, `plus`, `minus` and `from_f64` have such a `lo`; that of
+//! `minus_loose` may exceed `hi`; other ones are a few ulp. Nothing may overflow or become subnormal: callers scale by
+//! powers of two.
 
 use crate::number::units::power_of_two;
 

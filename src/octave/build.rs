@@ -60,9 +60,9 @@ impl View<'_> {
     const fn of_ramp(&self, ramp: Side, octaves: &mut [Octave], first: usize) -> (u32, usize) {
         let range = range(self.exposure, self.side, ramp);
         if range[0] >= range[1] {
-            // No octaves. A far ramp is then never looked up. But for a near one that is hidden (see `range`) the
-            // plateau up to FINE is. With a top at or above all of that its index is at least `first`, and from there
-            // on all is NONE.
+            // No octaves. A far ramp without any is never looked up. For a near one without any, the fractions up to
+            // FINE are, its own and the plateau's (see `range`). Its top is at or above all of these, so their index is
+            // at least `first`; from there on all is NONE, and a search answers.
             let far = self.exposure.joins(self.side)[1];
             return (
                 top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
@@ -80,7 +80,7 @@ impl View<'_> {
                 if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                     // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the
                     // far ramp's `a` just below its last octave would find the near ramp's first one: as with a join at
-                    // 0.7, a top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
+                    // 0.7, a far top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
                     end = index + 1;
                 }
                 if let Some(span) = Span::new(range, top) {

@@ -37,8 +37,8 @@ pub(crate) struct Candidate {
 }
 
 impl View<'_> {
-    /// The polynomial along a stretch, in the least step, from the plan's unit on, in which Horner's sums fit 32 bits.
-    /// None if its numbers are out of range.
+    /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which
+    /// Horner's sums fit 32 bits, but at least the plan's unit. None if its numbers are out of range.
     #[inline(always)]
     pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
         let c = span.interpolated(stretch);

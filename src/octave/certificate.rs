@@ -39,7 +39,7 @@ const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
 impl View<'_> {
-    /// The three shares on the stretch `along`, which is counted, between two places of the ramp.
+    /// The three shares on the stretch `along` between two places of the ramp, after [`Span::counted`].
     #[inline(never)]
     pub(crate) const fn certificate(
         &self,
@@ -168,7 +168,8 @@ struct Limits {
 }
 
 impl Limits {
-    /// The shares, with what rounding adds, of the three greatest errors (docs/proofs.md, "From time to exposure").
+    /// The shares in the order of [`certain`], with what rounding adds, from the three greatest errors, which come in
+    /// the order of [`KINDS`] (docs/proofs.md, "From time to exposure").
     #[inline(never)]
     const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 3] {
         let error = time + self.rounding;

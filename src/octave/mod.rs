@@ -61,7 +61,8 @@ pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 
-/// The position that belongs to what `Plan::look_up` returns: twice that if it is not negative, else that. It wraps.
+/// The position that belongs to what `Plan::look_up` returns, which is the argument: twice that if it is not negative,
+/// else that. It wraps.
 #[inline(always)]
 pub(crate) const fn doubled(position: i32) -> i32 {
     position.wrapping_add(position & !(position >> 31))
@@ -81,8 +82,8 @@ impl Octave {
         self.ahead_of_center(doubled(position))
     }
 
-    /// The offset of a position. It fits the word although position and center may wrap: a span leaves room for that
-    /// (`FILLED` in [`span`]).
+    /// The offset of a position, which [`doubled`] returns. It fits the word although position and center may wrap: a
+    /// span leaves room for that (`FILLED` in [`span`]).
     #[inline(always)]
     pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
         doubled.wrapping_sub(self.center as i32) << (self.center & FINER)

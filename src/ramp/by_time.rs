@@ -10,8 +10,8 @@ use crate::search::{Anchor, ROUNDING, Taylor, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
 /// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
-/// least 2⁻²⁴ of it apart. On a ramp across time 0 it may be longer; there [`on_grid`] leaves times about 2⁻²⁶ of it
-/// apart.
+/// least 2⁻²⁴ of it apart. Only on a ramp across time 0 may it exceed `|t|`; there [`on_grid`] leaves times about 2⁻²⁶
+/// of it apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
@@ -180,8 +180,7 @@ const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
 
 /// The place at which `c[0] x + c[1] x² + c[2] x³` reaches `target`, within `error`; `None` where time nearly stands
 /// still, and only a search finds it. After two of Halley's steps in single precision about a thousandth is missing.
-/// Measured in pairs, it takes a third step, which leaves the cube of that; a bound ([`left`]) accepts the place or
-/// not.
+/// That is measured in pairs, and a third step leaves about its cube; a bound ([`left`]) accepts the place or not.
 #[inline(always)]
 pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Option<Pair> {
     let single = [c[0].hi, c[1].hi, c[2].hi];

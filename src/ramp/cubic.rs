@@ -131,7 +131,7 @@ const fn range_from_start(f: [f64; 4]) -> (f64, f64) {
                     noise += term.abs();
                     k += 1;
                 }
-                // 32 roundings of the terms, where a term takes 5, and their sum 3.
+                // Room for 32 roundings of the terms; there are 8: at most 5 in a term, and 3 in their sum.
                 let noise = noise / (1u64 << 48) as f64;
                 let value = sums[0] + sums[1];
                 let value = if value.abs() <= noise { 0.0 } else { value };

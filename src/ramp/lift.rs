@@ -34,7 +34,8 @@ pub(crate) const fn lifted(mut v: [f32; 4]) -> [f32; 4] {
 /// A ramp's differences of control times, raised so that no slope is below 0, and scaled to keep the ramp's length.
 ///
 /// No time moves by more than 0.469 · 2⁻²² of the length (`proofs/lifting.py`). The slope, computed exactly from raised
-/// differences, is nowhere below 0. Unraised it may be, by rounding, but by less than its coefficients lose as pairs.
+/// differences, is nowhere below 0. If nothing had to be raised, it may dip below 0 by rounding, but by less than its
+/// coefficients lose as pairs.
 pub(crate) const fn forward(d: [f64; 3], length: f64) -> [f64; 3] {
     let (least, noise) = quadratic_min(d);
     if least >= 0.0 {

@@ -42,8 +42,8 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// A place that is rounded by less than this share of its distance keeps the slopes from before. The last step is about
-/// 2⁻¹³ of what is sought, so [`left`] adds 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶ at most, of 0.75 · 2⁻²⁶.
+/// A place that is rounded by less than this share of its distance keeps the slopes from before. For a last step of
+/// about 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 0.75 · 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Neighbouring `f32` are at most this far apart, relative to them.
@@ -165,8 +165,8 @@ pub(crate) const fn left<const N: usize>(
 
 /// The place where `series` reaches `target`, and the evaluations that took.
 ///
-/// The last step leaves at most 3/4 of `wanted`, or of `accepted` if it is less than an ulp: another round would
-/// measure the same `f32`. The last quarter is for measuring. At the cap there is no bound.
+/// The last step leaves at most 3/4 of `wanted`; or of `accepted`, if it is at most 2⁻²³ of the place, one to two ulp,
+/// which is as near as a bracket of neighbours comes. The last quarter is for measuring. At the cap there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,

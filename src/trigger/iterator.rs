@@ -8,7 +8,7 @@ macro_rules! iterate {
         impl<const OCTAVES: usize> Iterator for $name<'_, OCTAVES> {
             type Item = $item;
 
-            // Into the caller's loop; there is mostly one.
+            // Inlined into the caller's loop: most programs have only one, so the code is there once.
             #[inline(always)]
             fn next(&mut self) -> Option<$item> {
                 let i = self.left.next()?;

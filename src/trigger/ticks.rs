@@ -93,7 +93,7 @@ pub(crate) struct TickScale {
     up: u32,
     /// The rate, moved up until it has 32 bits.
     rate: u32,
-    /// What moves the upper 64 bits of delay · rate down to half ticks.
+    /// What moves the upper 64 of the 96 bits of delay · rate, both moved up, down to half ticks.
     down: u32,
 }
 
@@ -117,9 +117,9 @@ impl TickScale {
     #[inline(always)]
     pub(crate) const fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
-        // Not below 0, whatever the last units of a time are. No time is beyond the end: a polynomial's would be off by
-        // all of `1 - u` in exposure, and its certificate allows half an ulp of that; the plateau's line is rounded
-        // down; and `Moment::in_units` stops searches.
+        // Clamped at 0: a time's last units may be wrong, and place it before the start. No time is beyond the end: a
+        // polynomial's would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that; the
+        // plateau's line is rounded down; and `Moment::in_units` stops searches.
         let delay = if delay > 0 { delay as u64 } else { 0 };
         // `up` is mostly 0, and never 1.
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };

@@ -98,9 +98,9 @@ impl View<'_> {
             // Evenly, and so also next to both ends.
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
             let a = f64::from(a as f32);
-            // Where the ramps join at 1/2, that has a line of its own.
-            let is_on_line = a == 0.5 && self.exposure.half_is_beyond_join();
-            if a < span.from || a > end || is_on_line {
+            // 1/2 is counted from the start, and has a line of its own where it lies beyond the join.
+            let is_beyond = self.side == Side::End || self.exposure.half_is_beyond_join();
+            if a < span.from || a > end || a == 0.5 && is_beyond {
                 continue;
             }
             {
