@@ -2,8 +2,6 @@
 
 use core::fmt;
 
-use crate::shutter::ShutterCurve;
-
 /// The part of a curve that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -103,32 +101,6 @@ impl fmt::Display for CurveError {
 }
 
 impl core::error::Error for CurveError {}
-
-/// The curve of a constructor, or a panic with the reason: in a `const` or `static`, a compile error.
-///
-/// ```
-/// use shutter_curve::{valid, ShutterCurve};
-/// static CURVE: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.25, 0.75, 1.0));
-/// assert_eq!(CURVE.exposure(), 0.75);
-/// ```
-///
-/// ```compile_fail
-/// use shutter_curve::{valid, ShutterCurve};
-/// // error[E0080]: evaluation panicked: times out of order: ...
-/// static CURVE: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.75, 0.25, 1.0));
-/// ```
-///
-/// # Panics
-/// If `curve` is an error; meant for constants, where that stops the build.
-#[track_caller]
-pub const fn valid<const OCTAVES: usize>(
-    curve: Result<ShutterCurve<OCTAVES>, CurveError>,
-) -> ShutterCurve<OCTAVES> {
-    match curve {
-        Ok(curve) => curve,
-        Err(error) => panic!("{}", error.message()),
-    }
-}
 
 /// Why triggers cannot be scheduled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

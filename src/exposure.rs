@@ -140,7 +140,7 @@ impl Exposure {
     /// parts into which it divides the exposure. So without a plateau both are one number.
     ///
     /// Without a plateau, a join within an ulp below 1/2 counts as 1/2, as it is meant to be on a symmetric shutter. Of
-    /// all `f32` only 1/2 itself may then be on the wrong side, and [`Plan`](crate::answer::plan::Plan) has its time.
+    /// all `f32` only 1/2 itself may then be on the wrong side, and `Plan` has its time.
     #[inline(never)]
     pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;

@@ -31,7 +31,7 @@
 
 // Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time
 // to its fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and
-// `error`; only `trigger` also needs `shutter`, to which it adds methods:
+// `error`; `shutter` is built on `answer`, and `trigger` adds methods to it:
 //
 // fraction  an end of the curve, and a fraction counted from it
 // number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
@@ -55,11 +55,11 @@ mod search;
 mod shutter;
 mod trigger;
 
-pub use error::{CurveError, Part, ScheduleError, valid};
+pub use error::{CurveError, Part, ScheduleError};
 #[doc(hidden)]
 pub use measure::MAX_EVALUATIONS;
 pub use ramp::bezier::CubicBezier;
-pub use shutter::ShutterCurve;
+pub use shutter::{ShutterCurve, valid};
 pub use trigger::{Pulse, PulseTicks, TriggerTicks, TriggerTimes};
 
 #[cfg(test)]
