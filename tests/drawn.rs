@@ -25,20 +25,20 @@ fn indices(designs: u64) -> std::ops::Range<u64> {
 
 /// Which octaves a design is built with.
 #[derive(Clone, Copy, PartialEq)]
-enum Cells {
+enum Octaves {
     /// The usual number, none, and another one in turn.
     Few,
     /// From none to the most.
     All,
 }
 
-fn ask(figures: &mut Figures, curve: &Curve, cells: Cells, reach: Reach) {
+fn ask(figures: &mut Figures, curve: &Curve, octaves: Octaves, reach: Reach) {
     let exact = Exact::new(curve);
     let questions = Questions::new(&exact, reach);
     figures.curves += 1;
     figures.asked::<8>(&exact, &questions);
     figures.asked::<0>(&exact, &questions);
-    let all = cells == Cells::All;
+    let all = octaves == Octaves::All;
     if all || reach.turn.is_multiple_of(6) {
         figures.asked::<1>(&exact, &questions);
     }
@@ -84,7 +84,7 @@ fn is_typical(curve: &Curve) -> bool {
 fn keeps_every_promise(
     name: &str,
     designs: u64,
-    cells: Cells,
+    octaves: Octaves,
     reach: Reach,
     draw: impl Fn(&mut Rng) -> Curve,
 ) {
@@ -96,7 +96,7 @@ fn keeps_every_promise(
         if is_valid(&curve) {
             let is_typical = is_typical(&curve);
             let reach = Reach { turn: index as usize, is_typical, ..reach };
-            ask(&mut figures, &curve, cells, reach);
+            ask(&mut figures, &curve, octaves, reach);
         }
     }
     println!("{name}: {figures}");
@@ -197,7 +197,7 @@ const QUICK: Reach = Reach { denominator: 16, frame: 16, turn: 0, is_typical: fa
 
 #[test]
 fn whole_milliseconds() {
-    keeps_every_promise("ms", 350, Cells::Few, ALL, |rng| {
+    keeps_every_promise("ms", 350, Octaves::Few, ALL, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1.0)
     });
@@ -205,7 +205,7 @@ fn whole_milliseconds() {
 
 #[test]
 fn milliseconds_in_seconds() {
-    keeps_every_promise("s", 300, Cells::Few, ALL, |rng| {
+    keeps_every_promise("s", 300, Octaves::Few, ALL, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1000.0)
     });
@@ -213,7 +213,7 @@ fn milliseconds_in_seconds() {
 
 #[test]
 fn decimal_fractions_of_the_interval() {
-    keeps_every_promise("shutteropening", 300, Cells::Few, ALL, |rng| {
+    keeps_every_promise("shutteropening", 300, Octaves::Few, ALL, |rng| {
         // In twentieths or hundredths of the interval.
         let parts = [20.0, 100.0][rng.below(2) as usize];
         let mut inner = [0, 1].map(|_| whole(rng, 0, parts as u64));
@@ -257,7 +257,7 @@ fn lengths(rng: &mut Rng, part: f64, all: f64) -> [f64; 3] {
 /// A join at a plain fraction of the exposure, from either side.
 #[test]
 fn joins_at_plain_fractions() {
-    keeps_every_promise("joins at k/2^m", 450, Cells::Few, ALL, |rng| {
+    keeps_every_promise("joins at k/2^m", 450, Octaves::Few, ALL, |rng| {
         let all = exp2(1 + rng.below(6) as i32);
         let part = whole(rng, 1, all as u64 - 1);
         let lengths = lengths(rng, part, all);
@@ -268,7 +268,7 @@ fn joins_at_plain_fractions() {
 
 #[test]
 fn joins_at_thirds_fifths_and_tenths() {
-    keeps_every_promise("joins at k/3, k/5, k/10", 350, Cells::Few, ALL, |rng| {
+    keeps_every_promise("joins at k/3, k/5, k/10", 350, Octaves::Few, ALL, |rng| {
         let all = [3.0, 5.0, 10.0, 6.0, 7.0, 9.0, 12.0, 20.0, 100.0][rng.below(9) as usize];
         let part = whole(rng, 1, all as u64 - 1);
         let lengths = lengths(rng, part, all);
@@ -286,7 +286,7 @@ fn plain_symmetric(rng: &mut Rng, length: f64) -> Shape {
 /// With every number of octaves, and handles up to the whole length, so that time stands still.
 #[test]
 fn plain_joins_with_any_number_of_octaves() {
-    keeps_every_promise("any octaves", 60, Cells::All, ALL, |rng| {
+    keeps_every_promise("any octaves", 60, Octaves::All, ALL, |rng| {
         let all = [2.0, 4.0, 8.0, 16.0, 32.0, 3.0, 5.0, 10.0][rng.below(8) as usize];
         let part = whole(rng, 1, all as u64 - 1);
         let lengths = lengths(rng, part, all);
@@ -298,7 +298,7 @@ fn plain_joins_with_any_number_of_octaves() {
 /// short as it likes. Tops of octaves are at these fractions, so that a join is next to one.
 #[test]
 fn joins_next_to_plain_fractions() {
-    keeps_every_promise("joins next to k/2^m", 500, Cells::Few, QUICK, |rng| {
+    keeps_every_promise("joins next to k/2^m", 500, Octaves::Few, QUICK, |rng| {
         let all = exp2(1 + rng.below(5) as i32);
         let part = if rng.chance(0.3) { all / 2.0 } else { whole(rng, 1, all as u64 - 1) };
         let near = exp2(-(20 + rng.below(31) as i32));
@@ -328,7 +328,7 @@ fn joins_next_to_plain_fractions() {
 /// next to where the plateau's line begins to serve.
 #[test]
 fn least_shares() {
-    keeps_every_promise("least shares", 250, Cells::All, QUICK, |rng| {
+    keeps_every_promise("least shares", 250, Octaves::All, QUICK, |rng| {
         let off = rng.between(-1.0, 1.0) * exp2(-(rng.below(28) as i32));
         let edge = match rng.below(4) {
             0 => exp2(-9) * (1.0 + off),
@@ -415,7 +415,7 @@ fn kinks_inside_an_octave() {
 /// Other units of time, far from time 0, and shutters that are never dark or never fully open, in tenths.
 #[test]
 fn other_units_and_levels() {
-    keeps_every_promise("other units and levels", 250, Cells::Few, ALL, |rng| {
+    keeps_every_promise("other units and levels", 250, Octaves::Few, ALL, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         let units = [1e-3, 1e-6, 1e-9, 1e6, 60.0, 3600.0, 3.0, 7.0][rng.below(8) as usize];
         let shapes: fn(&mut Rng, f64) -> Shape = if rng.chance(0.5) { ramp } else { symmetric };

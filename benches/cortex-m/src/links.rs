@@ -9,7 +9,7 @@ const MISSING: &str = "undefined symbol: a_panic_can_be_reached";
 pub fn run() -> Result {
     let mut reached = 0;
     // A check that one level proves needless may stay at another. Most of what a level changes is the same for every
-    // processor, so one without an FPU and one with 64 bits, on which a slice takes a way of its own, have two.
+    // processor, so one without an FPU and one with 64 bits have two.
     let all: &[_] = &["3", "2", "1", "s", "z"];
     for (core, levels) in [(M4F, all), (M0, &["3", "z"]), (S390X, &["3", "z"])] {
         for &level in levels {
