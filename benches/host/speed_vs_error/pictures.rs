@@ -12,6 +12,7 @@ use crate::report::{Measured, cycles, name};
 use crate::support::cases::{judge, shutter};
 use crate::support::curves::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
+use crate::support::promise::BACKWARD;
 use crate::support::rendering::{PIXELS, PULSES, Picture};
 
 /// Drawn at twice the size, since the pen moves by whole units.
@@ -186,8 +187,8 @@ pub fn worst_cases(path: &str, curves: u64) {
             }
         };
         let y = Axis {
-            name: "greatest error in ulp(u)",
-            range: 0.0..1.05,
+            name: "greatest backward error, ulp(u)",
+            range: 0.0..0.55,
             label: |y| format!("{y:.1}"),
             labels: 6,
         };
@@ -213,15 +214,18 @@ pub fn worst_cases(path: &str, curves: u64) {
             });
             // One dot where many would lie on each other.
             let mut seen = HashSet::new();
-            let cell = |(x, y): (f64, f64)| ((4.0 * x) as u32, (75.0 * y) as u32);
+            let cell = |(x, y): (f64, f64)| ((4.0 * x) as u32, (150.0 * y) as u32);
             let dots = points.filter(|at| seen.insert(cell(*at)));
             draw(&mut graph, dots.map(|at| Circle::new(at, 4, color.mix(0.5).filled())));
         }
-        draw(&mut graph, [PathElement::new([(0.0, 1.0), (56.0, 1.0)], INK.stroke_width(2))]);
+        draw(
+            &mut graph,
+            [PathElement::new([(0.0, BACKWARD), (56.0, BACKWARD)], INK.stroke_width(2))],
+        );
         let keys = [
             ("hard curves", VERMILION.filled()),
             ("typical curves", BLUE.filled()),
-            ("promised: 1", INK.filled()),
+            (&format!("promised: {BACKWARD}"), INK.filled()),
         ];
         legend(&mut graph, &keys, SeriesLabelPosition::MiddleRight);
     });
