@@ -1,15 +1,16 @@
-//! Takes the figures that the page shows out of docs/cost.md, so that they are written in one place.
+//! Takes the figures that the page shows out of docs/internals/cost.md, so that they are written in one place.
 
 use std::path::Path;
 use std::{env, fs};
 
-const COST: &str = "../docs/cost.md";
+const COST: &str = "../docs/internals/cost.md";
 
 fn main() {
     println!("cargo::rerun-if-changed={COST}");
-    let cost = fs::read_to_string(COST).expect("docs/cost.md is there");
-    let (_, calls) =
-        cost.split_once("The calls with `OCTAVES = 8`").expect("docs/cost.md: the table of calls");
+    let cost = fs::read_to_string(COST).expect("docs/internals/cost.md is there");
+    let (_, calls) = cost
+        .split_once("The calls with `OCTAVES = 8`")
+        .expect("docs/internals/cost.md: the table of calls");
     let call = |name: &str| row(calls, name, 5);
     // Of a call: typical, worst, code.
     let rows = [
@@ -36,11 +37,13 @@ fn main() {
 /// The numbers of a table's row.
 fn row(table: &str, name: &str, at_least: usize) -> Vec<u32> {
     let start = format!("| {name} |");
-    let line =
-        table.lines().find_map(|line| line.strip_prefix(&start)).expect("docs/cost.md: a row");
+    let line = table
+        .lines()
+        .find_map(|line| line.strip_prefix(&start))
+        .expect("docs/internals/cost.md: a row");
     let cells: Vec<u32> =
         line.split('|').map(|cell| cell.trim().parse().unwrap_or_default()).collect();
     let good = cells.len() > at_least && cells[..at_least].iter().all(|cell| *cell > 0);
-    assert!(good, "docs/cost.md: the row of {name} is not as it was");
+    assert!(good, "docs/internals/cost.md: the row of {name} is not as it was");
     cells
 }

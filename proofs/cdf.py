@@ -1,4 +1,4 @@
-"""That the cdf never steps back: the numbers and the cases of docs/proofs.md, by exact fractions and z3."""
+"""That the cdf never steps back: the numbers and the cases of docs/internals/proofs.md, by exact fractions and z3."""
 
 from solver import *
 

@@ -10,7 +10,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 # All of src/: what a script reads there is found wherever it stands.
 SOURCE = "".join(path.read_text() for path in sorted((HERE.parent / "src").rglob("*.rs")))
-DOCS = " ".join((HERE.parent / "docs" / "proofs.md").read_text().split())
+DOCS = " ".join((HERE.parent / "docs" / "internals" / "proofs.md").read_text().split())
 
 # Half the distance between the f32 around 1, and the greatest relative error of one rounding.
 U = Fraction(1, 2**24)
@@ -25,10 +25,10 @@ def source(pattern):
 
 
 def documented(pattern):
-    """The same of docs/proofs.md, with single spaces: a number that it states, which a script then holds it to."""
+    """The same of docs/internals/proofs.md, with single spaces: a number that it states, which a script then holds it to."""
     found = re.findall(pattern, DOCS)
     if len(found) != 1:
-        sys.exit(f"docs/proofs.md: {len(found)} matches of {pattern!r}, not 1: see what it states now")
+        sys.exit(f"docs/internals/proofs.md: {len(found)} matches of {pattern!r}, not 1: see what it states now")
     return found[0]
 
 

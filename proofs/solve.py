@@ -119,8 +119,8 @@ for which, needed, factor in (
     ("time | where time is slowest", slow, 1),
 ):
     said, bound = documented(rf"\| {re.escape(which)}[^|]*\| ([\d.]+) \| (\d+) \|")
-    require(0 <= Fraction(said) - needed < Fraction(1, 100), f"docs/proofs.md has {said} roundings for {float(needed)}: {which}")
-    require(Fraction(bound) == factor * ROUNDING / U, f"docs/proofs.md has a bound of {bound} roundings: {which}")
+    require(0 <= Fraction(said) - needed < Fraction(1, 100), f"docs/internals/proofs.md has {said} roundings for {float(needed)}: {which}")
+    require(Fraction(bound) == factor * ROUNDING / U, f"docs/internals/proofs.md has a bound of {bound} roundings: {which}")
 for name, needed, rounding, less in (
     ("the end that faces the side", mass.near, Fraction(1), Fraction(3, 4)),
     ("the other end", far, OTHER_END, OTHER_END - Fraction(1, 8)),
@@ -212,7 +212,7 @@ for name, rounding, times, pattern in (
 ):
     ends = times * rounding * ROUNDING * Fraction(1, 2**23) * N * markov * Fraction(1001, 1000)
     said = number(documented(pattern))
-    require(abs(said + log2(ends)) <= 0.05, f"docs/proofs.md has 2^-{said} for 2^{log2(ends)}: {name}")
+    require(abs(said + log2(ends)) <= 0.05, f"docs/internals/proofs.md has 2^-{said} for 2^{log2(ends)}: {name}")
     require(ends < Fraction(3, 4) * Fraction(1, 2**26), "the end")
     proven(f"between neighbours the bound's terms without r are at most 2^{log2(ends):.2f} of the target from {name}")
 # The same for a time, of which the terms are a cubic's: on any part of a ramp t' is a sum of such squares and products.

@@ -549,7 +549,7 @@ fn one_figure_for_the_worst_direct_tick() {
     let example = include_str!("../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | box | typical | worst | direct | ...
-    let (_, row) = include_str!("../docs/cost.md").split_once("\n| a tick |").unwrap();
+    let (_, row) = include_str!("../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
     assert_eq!(row.split('|').nth(5).unwrap().trim().parse(), Ok(readme));
 }
 

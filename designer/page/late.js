@@ -67,7 +67,7 @@ function cost(plan) {
       row.append(element('th', call.replaceAll('`', ''), { scope: 'row' }), element('td', String(typical)), element('td', String(worst)), element('td', String(code)));
       table.tBodies[0].append(row);
     }
-    const note = `Cycles of a Cortex-M4F, modelled, and bytes of code: of the shutters measured in docs/cost.md, not of this one. A curve built by the compiler takes ${plan.bytes} bytes of flash.`;
+    const note = `Cycles of a Cortex-M4F, modelled, and bytes of code: of the shutters measured in docs/internals/cost.md, not of this one. A curve built by the compiler takes ${plan.bytes} bytes of flash.`;
     box.append(element('p', undefined, { class: 'direct' }), table, element('p', note, { class: 'note' }));
   }
   const n = plan.ticks.length;

@@ -1,4 +1,4 @@
-//! What the crate costs on a microcontroller: figures of docs/cost.md.
+//! What the crate costs on a microcontroller: figures of docs/internals/cost.md.
 
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 //!
 //! A cdf is the mass collected until the place at which the time is reached. It is measured from the curve's start, so
 //! masses are added and nothing cancels. Where the noise of that measurement reaches the middle of two `f32`, the
-//! inverse's time of the middle decides. So the cdf never steps back: docs/proofs.md has the argument.
+//! inverse's time of the middle decides. So the cdf never steps back: docs/internals/proofs.md has the argument.
 
 use crate::exposure::{CDF_ERROR, Exposure};
 use crate::fraction::Side::{self, End, Start};

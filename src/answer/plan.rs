@@ -14,7 +14,7 @@
 //! 10. One rounding to `f32`.
 //!
 //! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of
-//! the distance between neighbours, or a quarter for a search (docs/proofs.md, "An octave's certificate", 7).
+//! the distance between neighbours, or a quarter for a search (docs/internals/proofs.md, "An octave's certificate", 7).
 
 use crate::error::CurveError;
 use crate::exposure::{Exposure, INVERSE_ERROR};
@@ -137,7 +137,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
     /// The early return keeps register saves off the plateau, whose answers then take a third fewer cycles
-    /// (docs/tried.md).
+    /// (docs/internals/tried.md).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set.

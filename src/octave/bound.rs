@@ -7,7 +7,7 @@
 //! A polynomial of degree `n` is nowhere greater than its greatest value at the N + 1 points `cos(k π / N)`, over
 //! `cos(n π / 2N)` (Ehlich and Zeller 1964). For `n = 12` that is 1.41 times the greatest of 25 samples, or 1.02 times
 //! that of 97. What `R` has above degree `n` is at most a *tail*, by a bound on an ellipse around [-1, 1] ([`bends`]).
-//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/proofs.md, "An octave's certificate", 3 and 4.
+//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/internals/proofs.md, "An octave's certificate", 3 and 4.
 //!
 //! Samples go the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 

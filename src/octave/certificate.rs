@@ -4,7 +4,7 @@
 //! - `[1]`: the error in exposure, the backward error. It may be [`ULP_ERROR`] ulp of where the span begins.
 //! - `[2]`: the same beyond the ramp's join.
 //!
-//! docs/proofs.md, "An octave's certificate", proves that shares below 1 are enough.
+//! docs/internals/proofs.md, "An octave's certificate", proves that shares below 1 are enough.
 
 use crate::fraction::Side::{self, End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
@@ -169,7 +169,7 @@ struct Limits {
 
 impl Limits {
     /// The shares in the order of [`certain`], with what rounding adds, from the three greatest errors, which come in
-    /// the order of [`KINDS`] (docs/proofs.md, "From time to exposure").
+    /// the order of [`KINDS`] (docs/internals/proofs.md, "From time to exposure").
     #[inline(never)]
     const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 3] {
         let error = time + self.rounding;

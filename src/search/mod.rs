@@ -8,7 +8,7 @@
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
-//! step between them is accepted: its bound is at most 2⁻²⁷·⁷ of a mass, 2⁻³⁶·⁶ of a time (docs/proofs.md, "The end of
+//! step between them is accepted: its bound is at most 2⁻²⁷·⁷ of a mass, 2⁻³⁶·⁶ of a time (docs/internals/proofs.md, "The end of
 //! a search"). It is not proven that the step stays between them: where next to no light falls, noise may be all that
 //! is missing. So [`MAX_EVALUATIONS`] end a search, without a proof. No search for an `f32` is known to take so many. A
 //! cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
@@ -136,7 +136,7 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 ///
 /// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y`, `slopes = |c_1| + bends y`,
 /// and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second derivative `5 bends`, the third
-/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search
+/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/internals/proofs.md, "What a step of the search
 /// leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]

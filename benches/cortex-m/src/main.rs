@@ -1,7 +1,7 @@
 //! What the crate costs on a microcontroller: instructions, cycles, bytes and stack, in tables.
 //!
 //! ```text
-//! cargo run --release              # prints the report and writes ../../docs/cost.md; some minutes
+//! cargo run --release              # prints the report and writes ../../docs/internals/cost.md; some minutes
 //! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level

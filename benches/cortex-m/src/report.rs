@@ -1,4 +1,4 @@
-//! The whole report, as Markdown: printed, and written to `docs/cost.md`. First what most readers want.
+//! The whole report, as Markdown: printed, and written to `docs/internals/cost.md`. First what most readers want.
 
 use measured::baseline::{InverseTable, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
@@ -73,7 +73,7 @@ pub fn run() -> Result {
     ];
     let report = format!("# What it costs on a microcontroller\n\n{}\n", report.join("\n\n"));
     print!("{report}");
-    Ok(std::fs::write(folder().join("../../docs/cost.md"), report)?)
+    Ok(std::fs::write(folder().join("../../docs/internals/cost.md"), report)?)
 }
 
 /// A table, its columns' names between bars: so many columns of text, the others of figures.

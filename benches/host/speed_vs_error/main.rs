@@ -1,4 +1,4 @@
-//! Speed against error: the report `docs/speed-vs-error.md` and its pictures, from one run.
+//! Speed against error: the report `docs/internals/speed-vs-error.md` and its pictures, from one run.
 //!
 //! `cargo bench -p benches --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
 //! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every
@@ -32,11 +32,11 @@ fn main() -> Result {
     rayon::ThreadPoolBuilder::new().num_threads(2).build_global()?;
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => report("docs", 200, 4000, 101),
+        [] => report("docs/internals", 200, 4000, 101),
         // Rough figures are to be looked at, not to be kept.
         ["--quick"] => report("target/speed-vs-error", 20, 500, 5),
-        ["--search", curves] => save("docs/search.csv", &search::search(curves.parse()?)),
-        ["--every-f32"] => every_f32::every_f32(|rows| save("docs/every-f32.csv", rows)),
+        ["--search", curves] => save("docs/internals/search.csv", &search::search(curves.parse()?)),
+        ["--every-f32"] => every_f32::every_f32(|rows| save("docs/internals/every-f32.csv", rows)),
         _ => Err("usage: see speed_vs_error/main.rs".into()),
     }
 }
@@ -52,10 +52,10 @@ fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
         samples,
         figures: accuracy::measure(&curves, samples),
         times: CURVES.map(|(_, curve)| timing::times(&curve, repeats)),
-        cost: std::fs::read_to_string("docs/cost.md")?,
+        cost: std::fs::read_to_string("docs/internals/cost.md")?,
         rendering: rendering.collect(),
-        search: table::read("docs/search.csv")?,
-        every_f32: table::read("docs/every-f32.csv")?,
+        search: table::read("docs/internals/search.csv")?,
+        every_f32: table::read("docs/internals/every-f32.csv")?,
     };
     pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
     pictures::rendering(&format!("{folder}/rendering.svg"));

@@ -69,7 +69,7 @@ impl<F: Fn(f32) -> (f32, u32)> Inverse for F {
 
 pub struct Method {
     pub name: &'static str,
-    /// Its call and number of octaves in `docs/cost.md`, the table of cycles.
+    /// Its call and number of octaves in `docs/internals/cost.md`, the table of cycles.
     pub cost: [&'static str; 2],
     pub is_ours: bool,
     pub bytes: usize,

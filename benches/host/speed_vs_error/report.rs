@@ -17,7 +17,7 @@ pub struct Measured {
     pub figures: Vec<Figures>,
     /// By curve.
     pub times: [Times; 3],
-    /// The text of `docs/cost.md`.
+    /// The text of `docs/internals/cost.md`.
     pub cost: String,
     /// The error of the pictures in so many pulses.
     pub rendering: Vec<(u32, [f64; 3])>,
@@ -83,7 +83,7 @@ pub fn ratios(measured: &Measured) -> String {
     table(&format!("| {} | {}", CURVES[0].0, CURVES[1].0), 1, rows)
 }
 
-/// A method's mean and greatest cycles on the soft curve, where `docs/cost.md` has them.
+/// A method's mean and greatest cycles on the soft curve, where `docs/internals/cost.md` has them.
 pub fn cycles(measured: &Measured, method: usize) -> Option<[f64; 2]> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
     let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;

@@ -26,7 +26,7 @@ const AIMS: [&str; 5] = [
     "cdf(inverse_cdf(u)) - u, over what one ulp of t and three of the cdf explain",
 ];
 
-/// The columns of `docs/search.csv`. Of curves that were bred for an aim there is the worst in it alone, and where. Of an aimed
+/// The columns of `docs/internals/search.csv`. Of curves that were bred for an aim there is the worst in it alone, and where. Of an aimed
 /// family there is the worst in all that is promised: steps back of the inverse between fractions, of the cdf between times,
 /// and of the ticks of a frame; errors in ulp, and in ticks; how often any promise was broken, and the first breach of each.
 const COLUMNS: &str = "what is_bred curves worst backward evaluations steps_back cdf_steps_back tick_steps_back cdf density \
@@ -76,7 +76,7 @@ fn step(curve: &Curve, rng: &mut Rng) -> Curve {
     next
 }
 
-/// The lines of `docs/search.csv`, after trying about `curves` curves of either half.
+/// The lines of `docs/internals/search.csv`, after trying about `curves` curves of either half.
 pub fn search(curves: u64) -> Vec<Vec<String>> {
     let columns = COLUMNS.split(' ').map(String::from).collect();
     let families = (0..FAMILIES.len()).into_par_iter();

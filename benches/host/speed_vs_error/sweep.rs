@@ -7,7 +7,7 @@ pub const CHUNK: i64 = 1 << 22;
 /// Every so many answers are judged by the double-double oracle too.
 pub const SAMPLED: i64 = 1 << 18;
 
-/// What a sweep of one function found, as a line of `docs/every-f32.csv`; the parts of one add up. What a function has no figure
+/// What a sweep of one function found, as a line of `docs/internals/every-f32.csv`; the parts of one add up. What a function has no figure
 /// for stays empty.
 #[derive(Clone, Copy, Default, serde::Serialize)]
 pub struct Sweep {
