@@ -1,9 +1,9 @@
 //! From the edge of a camera's sync to the start of opening.
 
+use shutter_fit::unit::Unit;
 use toml::Spanned;
 
 use crate::scene::{Fault, Number, seconds};
-use crate::unit::Unit;
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.

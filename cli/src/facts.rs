@@ -1,12 +1,12 @@
 //! A plan's facts, in the words of those who test shutters.
 
 use shutter_curve::ShutterCurve;
+use shutter_fit::unit::{Unit, count, short};
 
 use crate::delay::Delay;
 use crate::lamp::Lamp;
 use crate::plan::Plan;
 use crate::times::Times;
-use crate::unit::{Unit, count, short};
 
 /// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
 #[derive(Clone, Copy, Debug, PartialEq)]

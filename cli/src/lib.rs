@@ -10,7 +10,7 @@ pub mod command;
 pub mod delay;
 pub mod emit;
 pub mod facts;
-pub mod fit;
+pub mod fitted;
 pub mod lamp;
 #[cfg(feature = "picture")]
 pub mod picture;
@@ -18,12 +18,9 @@ pub mod plan;
 pub mod planned;
 #[cfg(feature = "terminal")]
 pub mod report;
-mod rows;
 pub mod scene;
 pub mod set_up;
 pub mod shape;
 #[cfg(feature = "terminal")]
 pub mod speeds;
 pub mod times;
-pub mod trace;
-pub mod unit;

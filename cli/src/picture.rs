@@ -10,11 +10,11 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter_fit::unit::{Unit, short};
 
 use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
-use crate::unit::{Unit, short};
 use drawing::{
     Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, is_near, lit, pen,
     picture, sync, time_range,

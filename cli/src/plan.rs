@@ -1,15 +1,13 @@
 //! A scene's triggers, checked.
 
 use shutter_curve::{ScheduleError, ShutterCurve};
+pub use shutter_fit::MOST_TRIGGERS;
+use shutter_fit::unit::{Unit, count};
 
 use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene, min_gap, positive};
 use crate::shape::Shape;
-use crate::unit::{Unit, count};
-
-/// The most triggers of one scene.
-pub const MOST_TRIGGERS: u32 = 10_000;
 
 /// When to trigger.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,11 +1,12 @@
 //! What a scene becomes: a plan by a curve, or trigger times as they were measured. What both have is asked for here.
 
+use shutter_fit::unit::Unit;
+
 use crate::delay::Delay;
 use crate::facts;
 use crate::plan::Plan;
 use crate::scene::{Fault, trigger_times_at};
 use crate::times::Times;
-use crate::unit::Unit;
 
 /// A scene that can be played.
 #[derive(Clone)]

@@ -3,13 +3,13 @@
 use std::fmt::{self, Display, Write};
 use std::iter::once;
 
+use shutter_fit::rows::hidden_rows;
+use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
-use crate::rows::hidden_rows;
 use crate::times::Times;
-use crate::unit::{Unit, decimals, short};
 
 /// With more triggers than this, a full line at each would hide the curve.
 const MOST_LINES: usize = 36;

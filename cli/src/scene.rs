@@ -3,11 +3,11 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use shutter_curve::CurveError;
+use shutter_fit::unit::{Unit, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::shape::Shape;
-use crate::unit::{Unit, short};
 
 /// A scene as it is written; each value knows its place in the text.
 #[derive(Deserialize, Serialize)]

@@ -1,8 +1,7 @@
 //! The numbers that a shutter's curve is made of.
 
 use shutter_curve::{CubicBezier, CurveError, ShutterCurve};
-
-use crate::unit::{Unit, rounded, short};
+use shutter_fit::unit::{Unit, rounded, short};
 
 /// A curve as a scene has it: its times in seconds, and its inner control points.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! Several plans as a table: the speeds of a shutter.
 
+use shutter_fit::unit::short;
+
 use crate::facts::Facts;
 use crate::planned::Planned;
-use crate::unit::short;
 
 /// A row for each plan, under the names of what stands in it.
 pub fn text(plans: &[(String, Planned)]) -> String {

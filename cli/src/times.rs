@@ -1,13 +1,13 @@
 //! Trigger times as they were measured, in place of a curve: a scene's `trigger_times`, checked.
 
 use serde::Deserialize;
+use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
 use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY};
-use crate::unit::Unit;
 
 /// The scene as it is written; each value knows its place in the text.
 #[derive(Deserialize)]

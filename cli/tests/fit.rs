@@ -3,6 +3,7 @@
 
 // The table needs the rest of it.
 #[allow(dead_code)]
+#[path = "../../fit/tests/generator/mod.rs"]
 mod generator;
 
 use std::ffi::OsString;
@@ -11,10 +12,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use generator::{Disturbance, Random, Shutter, Truth, each, traced, truth};
-use shutter::fit::{Fit, Kind, Options, Tolerance, Zero, fit};
+use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
-use shutter::trace::{self, Column, Light, Refusal, Trace, Warning};
-use shutter::unit::Unit;
+use shutter_fit::trace::{self, Column, Light, Refusal, Trace, Warning};
+use shutter_fit::unit::Unit;
+use shutter_fit::{Fit, Kind, Options, Tolerance, fit};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     fit(trace, options, &mut |_| ())
@@ -376,7 +378,7 @@ fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
     let fit = fitted(&trace, &Options::default()).unwrap();
     assert_eq!((fit.frames.count, fit.frames.fitted), (5, 1));
     assert!((0.002..0.004).contains(&fit.frames.scatter), "{:?}", fit.frames);
-    assert!(matches!(fit.reason, shutter::fit::Reason::Shots { shots: 5, .. }));
+    assert!(matches!(fit.reason, shutter_fit::Reason::Shots { shots: 5, .. }));
     // Straight ramps are further from a leaf's than its shots from each other.
     assert!(fit.chosen > Kind::Trapezoid);
     let fourth = Options { frame: Some(4), model: Some(Kind::Free), ..Options::default() };
@@ -440,7 +442,7 @@ fn correlated_samples_count_for_fewer() {
             let case = traced(truth, disturbance, 3000, 0.01, &mut random);
             let trace = Trace { times: case.times, values: case.values };
             let fit = fitted(&trace, &Options::default()).unwrap();
-            let shutter::fit::Reason::Criterion { effective } = fit.reason else { panic!() };
+            let shutter_fit::Reason::Criterion { effective } = fit.reason else { panic!() };
             let share = effective / fit.samples.times.len() as f64;
             assert!((least..=most).contains(&share), "{disturbance:?} {seed}: {share}");
         }
@@ -525,7 +527,7 @@ fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
 
 /// The triggers of the scene that a fit writes, by the crate itself.
 fn planned(fit: &Fit, zero: Zero) -> Plan {
-    let scene = fit.scene("a trace\nwith two lines", zero).unwrap();
+    let scene = fitted::scene(fit, "a trace\nwith two lines", zero).unwrap();
     Plan::parse(&scene.text).unwrap()
 }
 
@@ -579,7 +581,7 @@ fn a_late_trace_moves_time_0_to_the_opening() {
     let mut trace = sampled(trapezoid, 1000, 0.005);
     trace.times.iter_mut().for_each(|t| *t += 1e4);
     let fit = fitted(&trace, &Options::default()).unwrap();
-    let scene = fit.scene("late", Zero::Trace).unwrap();
+    let scene = fitted::scene(&fit, "late", Zero::Trace).unwrap();
     assert_eq!(scene.zero, Zero::Open);
     assert!(scene.text.contains("open_start = 0\n"), "{}", scene.text);
 }
@@ -641,8 +643,8 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
             .collect();
         let times = (0..n).map(|i| i as f64 * if seed % 2 == 0 { 1.0 } else { 1e-9 }).collect();
         if let Ok(fit) = fitted(&Trace { times, values }, &Options::default()) {
-            let _ = fit.scene("chaos", Zero::Trace);
-            let _ = shutter::fit::text("chaos", &fit);
+            let _ = fitted::scene(&fit, "chaos", Zero::Trace);
+            let _ = shutter_fit::text("chaos", &fit);
             let _ = shutter::picture::trace("chaos", &fit).unwrap();
         }
     }
@@ -738,7 +740,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
     // Its oscilloscope was triggered by the sync.
-    let scene = fit.scene("leaf.csv", Zero::Trace).unwrap().text;
+    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace).unwrap().text;
     let fitted = Plan::parse(&scene).unwrap();
     // The same with the timer of the board and what the lamp needs, which a user fills in.
     let text = read("scenes/measured.toml");
@@ -750,8 +752,9 @@ fn from_a_trace_to_the_firmwares_module() {
     // Its oscilloscope was triggered by the camera's sync.
     let (trace, _) = trace::read(&read("traces/leaf.csv"), &trace::Options::default()).unwrap();
     let options = Options { sync: Some(0.0), ..Options::default() };
-    let synced = shutter::fit::fit(&trace, &options, &mut |_| ()).unwrap();
-    let synced = Plan::parse(&synced.scene("leaf.csv", Zero::Trace).unwrap().text).unwrap();
+    let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
+    let synced =
+        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace).unwrap().text).unwrap();
     let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
     assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
     assert_eq!(text, read("../boards/c/speeds/leaf.toml"));
@@ -759,7 +762,7 @@ fn from_a_trace_to_the_firmwares_module() {
         shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept.clone().into()).unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 
-    let report = shutter::fit::text("leaf.csv", &fit);
+    let report = shutter_fit::text("leaf.csv", &fit);
     let readme = read("../README.md");
     let (_, shown) = readme.split_once("```text\n").expect("the README shows the report");
     for line in shown.lines().take_while(|line| *line != "```") {

@@ -5,6 +5,7 @@
 
 // The tables need the rest of it.
 #[allow(dead_code)]
+#[path = "../../fit/tests/generator/mod.rs"]
 mod generator;
 
 use std::ffi::OsString;

@@ -7,6 +7,7 @@
 //!
 //! `SEED=9000011` before it makes other traces.
 
+#[path = "../../fit/tests/generator/mod.rs"]
 mod generator;
 
 use std::ops::RangeInclusive;
@@ -18,9 +19,9 @@ use std::{fs, thread};
 use generator::{Case, Disturbance, Random, SHUTTERS, Shutter, case, traced, truth};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
-use shutter::fit::{Fit, Kind, Measured, Options, fit};
 use shutter::picture::style;
-use shutter::trace::Trace;
+use shutter_fit::trace::Trace;
+use shutter_fit::{Fit, Kind, Measured, Options, fit};
 
 /// An interval of so many standard errors to either side holds 95 % of all values, if these are normal.
 const INTERVAL: f64 = 1.96;

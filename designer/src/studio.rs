@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
-use shutter::fit::{self, From, Options, Zero};
+use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
 use shutter::planned::Planned;
 use shutter::scene;
-use shutter::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
-use shutter::unit::{Unit, plus_minus};
+use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
+use shutter_fit::unit::{Unit, plus_minus};
+use shutter_fit::{From, Options};
 
 use crate::answer::{Wrong, json};
 use crate::words::{self, Told};
@@ -190,10 +191,10 @@ fn fitted(
         triggers: asked.triggers,
         ..Options::default()
     };
-    let mut fit = fit::fit(&recording.trace, &options, progress)?;
+    let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
     fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
-    let text = fit.curve_scene(name, Zero::Open)?.text;
+    let text = fitted::curve_scene(&fit, name, Zero::Open)?.text;
     let no_scene = |fault: scene::Fault| Refusal::NoScene { reason: fault.reason };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let best = fit.best();
@@ -203,13 +204,13 @@ fn fitted(
         (t - start, (v - signal.dark) / signal.gain, residual)
     });
     // What the program says of its own arguments is not for a page.
-    let report = fit::text(name, &fit);
+    let report = shutter_fit::text(name, &fit);
     let report = report.lines().filter(|line| !line.contains("--"));
     Ok(Fitted {
         scene: scene::parse(&text).map_err(no_scene)?,
         report: report.collect::<Vec<_>>().join("\n"),
         kind: fit.chosen.title(),
-        because: fit::because(&fit),
+        because: shutter_fit::because(&fit),
         rms: best.rms,
         exposure: plus_minus(
             fit.unit().of(fit.exposure.value),

@@ -6,8 +6,8 @@ use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::{Scene, Values};
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
-use shutter::unit::Unit;
 use shutter_curve::{CubicBezier, CurveError, Part as CurvePart};
+use shutter_fit::unit::Unit;
 
 use crate::answer::{Wrong, json};
 use crate::bar::Bar;

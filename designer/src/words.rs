@@ -1,7 +1,7 @@
 //! What is said of a trace, in the page's words: a person at a page has its controls, not the program's arguments.
 
 use serde::Serialize;
-use shutter::trace::{Refusal, Warning};
+use shutter_fit::trace::{Refusal, Warning};
 
 /// Something that is wrong or doubtful, and the control that mends it.
 #[derive(Serialize)]

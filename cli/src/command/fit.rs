@@ -8,13 +8,14 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
+use shutter_fit::unit::Unit;
+use shutter_fit::{Fit, Kind, Options, Tolerance};
 
 use super::output::{print, svg_path, write_whole};
-use crate::fit::{self, Fit, Kind, Options, Tolerance, Zero};
+use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
-use crate::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
-use crate::unit::Unit;
 
 /// Without progress for so long, nobody waits for any.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -160,7 +161,8 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     warnings.extend(fit.warnings.iter().cloned());
 
     let name = args.trace.file_name().unwrap_or_default().to_string_lossy();
-    let scene = fit.scene(&name, args.zero).map_err(|refusal| refused(refusal.to_string()))?;
+    let scene =
+        fitted::scene(&fit, &name, args.zero).map_err(|refusal| refused(refusal.to_string()))?;
     if scene.zero != args.zero && args.out.is_some() {
         warnings.push(Warning::ZeroMoved);
     }
@@ -177,9 +179,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         let _ = writeln!(err, "warning: {warning}");
     }
     if args.report == Report::Json {
-        return print(out, &fit::json(&name, &fit, &warnings));
+        return print(out, &shutter_fit::json(&name, &fit, &warnings));
     }
-    let mut report = fit::text(&name, &fit);
+    let mut report = shutter_fit::text(&name, &fit);
     if args.out.is_none() {
         report += &format!("\nThe scene, which --out SCENE.toml writes:\n\n{}", scene.text);
     }
@@ -229,7 +231,7 @@ fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
         }
         bar.set_position((1000.0 * done) as u64);
     };
-    let fit = fit::fit(trace, &options, &mut progress);
+    let fit = shutter_fit::fit(trace, &options, &mut progress);
     bar.finish_and_clear();
     fit
 }

@@ -3,11 +3,13 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use shutter_fit::unit::{count, plus_minus, short};
+use shutter_fit::{Fit, From, Measured};
+
 use super::fit::{Args, measure};
 use super::output::{print, write_whole};
-use crate::fit::{Fit, From, Measured};
+use crate::fitted;
 use crate::speeds::columns;
-use crate::unit::{count, plus_minus, short};
 
 /// A trace with what came of it.
 struct Speed {
@@ -63,7 +65,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
 
 /// The scene of one of the traces, with the name of its speed.
 fn scene(fit: &Fit, name: &str, args: &Args, nominal: Option<f64>) -> Result<String, String> {
-    let text = fit.scene(name, args.zero).map_err(|refusal| refusal.to_string())?.text;
+    let text = fitted::scene(fit, name, args.zero).map_err(|refusal| refusal.to_string())?.text;
     // In the unit that the scene is written in.
     Ok(match nominal {
         Some(seconds) => format!("{text}nominal = {}\n", short(fit.unit().of(seconds), 7)),

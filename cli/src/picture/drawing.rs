@@ -6,10 +6,10 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter_fit::unit::{Unit, decimals, trimmed};
 
 use super::style::{self, Area, BLUE, FAINT, GREY, Graph, LIGHT, VERMILION, dressed};
 use crate::plan::Plan;
-use crate::unit::{Unit, decimals, trimmed};
 
 pub type Drawn = Result<(), Box<dyn Error>>;
 

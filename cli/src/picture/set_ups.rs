@@ -4,12 +4,12 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter_fit::unit::short;
 
 use super::drawing::{Drawn, SCALE, below, draw_curve, graph, lit, pen, picture, steps};
 use super::style::{self, Area, BLUE, FAINT, GREY, VERMILION};
 use crate::plan::Plan;
 use crate::set_up::{Row, SetUps};
-use crate::unit::short;
 
 const SIZE: (i32, i32) = (1000, 760);
 const HEADING: i32 = 70;

@@ -4,11 +4,11 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter_fit::unit::{count, decimals, trimmed};
 
 use super::drawing::{Axis, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
 use super::style::{self, INK, VERMILION};
 use crate::times::Times;
-use crate::unit::{count, decimals, trimmed};
 
 const SIZE: (i32, i32) = (900, 240);
 const HEADING: i32 = 70;

@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use shutter_fit::trace::Trace;
+use shutter_fit::unit::{Unit, decimals, short, trimmed};
+use shutter_fit::{Fit, From};
 
 use super::drawing::{Axis, Drawn, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
 use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
-use crate::fit::{Fit, From};
-use crate::trace::Trace;
-use crate::unit::{Unit, decimals, short, trimmed};
 
 const SIZE: (i32, i32) = (900, 640);
 const HEADING: i32 = 88;

@@ -1,0 +1,192 @@
+//! A fit as a scene for `shutter plan`.
+
+use shutter_fit::report::{because, efficiency, exposure};
+use shutter_fit::trace::Refusal;
+use shutter_fit::unit::{Unit, decimals, trimmed};
+use shutter_fit::{Curve, Fit, From, Kind, Reason, STRAIGHT, delay};
+
+use crate::plan::Plan;
+use crate::planned::Planned;
+
+/// Where a scene's time 0 is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
+pub enum Zero {
+    /// As in the trace.
+    #[default]
+    Trace,
+    /// Where the shutter starts to open.
+    Open,
+}
+
+/// A scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// As TOML.
+    pub text: String,
+    /// Where its time 0 is in fact: where times would be lost in rounding, time 0 moves to the start of opening.
+    pub zero: Zero,
+}
+
+/// By its rounding to `f32`, a time may be off by this share of the interval; else time 0 moves.
+const ROUNDING: f64 = 1e-6;
+/// The digits of a time, counted from the interval's first.
+const DIGITS: i32 = 8;
+/// Between triggers there are at least so many ticks, if a timer of at most 1 GHz can do that.
+const TICKS: f64 = 100.0;
+
+/// The fit as a scene; `name` tells in a comment where it came from. Where the results are the trace's own, the scene has
+/// their trigger times and no curve, unless a model was asked for.
+///
+/// # Errors
+/// Where no scene can be made of it that can be planned.
+pub fn scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> {
+    if fit.from == From::Model || fit.reason == Reason::Asked {
+        return curve_scene(fit, name, zero);
+    }
+    let text = write_times(fit, name, zero);
+    match Planned::parse(&text) {
+        Ok(_) => Ok(Scene { text, zero }),
+        Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
+    }
+}
+
+/// The scene of the chosen model's curve, whether it explains the trace or not.
+///
+/// # Errors
+/// Where no scene can be made of it that can be planned.
+pub fn curve_scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> {
+    let curve = fit.best().signal.curve;
+    let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
+    let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
+    let curve = match zero {
+        Zero::Trace => curve,
+        Zero::Open => curve.mapped(1.0, -curve.start),
+    };
+    let mut refused = String::new();
+    // Rounding may push an extreme curve beyond what the crate accepts: a little nearer to a straight line it holds.
+    for nearer in std::iter::once(0.0).chain((0..10).map(|i| 1e-7 * 4f64.powi(i))) {
+        let text = write_curve(fit, name, &pulled(&curve, nearer));
+        match Plan::parse(&text) {
+            Ok(_) => return Ok(Scene { text, zero }),
+            Err(fault) => refused = fault.reason,
+        }
+    }
+    Err(Refusal::NoScene { reason: refused })
+}
+
+fn write_curve(fit: &Fit, name: &str, curve: &Curve) -> String {
+    let unit = Unit::fit(curve.length());
+    let (title, because) = (fit.chosen.title(), because(fit));
+    let mut text = format!("# Fitted to {}: {title}, {because}.\n", shown(name));
+    if fit.from == From::Trace {
+        text += "# This curve does not explain the trace, and its triggers are not the trace's own, which `shutter \
+                 fit` without --model writes.\n";
+    }
+    text += &comments(fit);
+    text += &format!("unit = \"{}\"\n", unit.name());
+    let places = decimals(unit.of(curve.length()), DIGITS);
+    let keys = ["open_start", "open_end", "close_start", "close_end"];
+    for (key, time) in keys.into_iter().zip(curve.times()) {
+        text += &format!("{key} = {}\n", trimmed(unit.of(time), places));
+    }
+    if fit.chosen > Kind::Trapezoid {
+        let numbers = inner(curve).map(|x| trimmed(x, 7)).join(", ");
+        text += "# The ramps' inner control points t1 y1 t2 y2, t5 y5 t6 y6: times as fractions of the interval.\n";
+        text += &format!("shutteropening = [{numbers}]\n");
+    }
+    text += &delay::line(fit, unit, places);
+    text += &format!("triggers = {}\n", fit.triggers.len());
+    text + &timer(unit, fit.exposure.value / fit.peak / fit.triggers.len() as f64, curve)
+}
+
+/// The trace's own triggers.
+fn write_times(fit: &Fit, name: &str, zero: Zero) -> String {
+    let curve = &fit.best().signal.curve;
+    let unit = Unit::fit(curve.length());
+    let places = decimals(unit.of(curve.length()), DIGITS);
+    let zero = match zero {
+        Zero::Trace => 0.0,
+        Zero::Open => fit.opens,
+    };
+    let time = |seconds: f64| trimmed(unit.of(seconds - zero), places);
+    let model = fit.chosen.name();
+    let mut text = format!(
+        "# Measured in {}: no model explains the trace, so these are its own trigger times, without a curve.\n\
+         # `--model {model}` writes the curve that comes nearest.\n",
+        shown(name),
+    );
+    text += &comments(fit);
+    text += &format!("unit = \"{}\"\nopen_start = {}\n", unit.name(), time(fit.opens));
+    text += "trigger_times = [\n";
+    let times: Vec<f64> = fit.triggers.iter().map(|trigger| trigger.value).collect();
+    for few in times.chunks(8) {
+        let few: Vec<String> = few.iter().map(|seconds| time(*seconds)).collect();
+        text += &format!("    {},\n", few.join(", "));
+    }
+    text += "]\n";
+    text += &delay::line(fit, unit, places);
+    let gap = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    text + &timer(unit, gap.min(curve.length()), curve)
+}
+
+/// What was read, and what came of it.
+fn comments(fit: &Fit) -> String {
+    let mut text = String::new();
+    if let Some(reading) = &fit.reading {
+        text += &format!("# Read: {}.\n", shown(&reading.to_string()));
+    }
+    text += &format!(
+        "# Exposure {}, efficiency {}, standard errors behind ±.\n",
+        exposure(fit),
+        efficiency(fit),
+    );
+    for warning in &fit.warnings {
+        text += &format!("# Warning: {warning}.\n");
+    }
+    text
+}
+
+/// On one line.
+fn shown(text: &str) -> String {
+    text.replace(|c: char| c.is_control(), "?")
+}
+
+/// The lines that are not measured: a timer that tells triggers apart that come so close, and a gap.
+fn timer(unit: Unit, gap: f64, curve: &Curve) -> String {
+    let hz = timer_hz(gap, curve.length());
+    let unit = unit.name();
+    format!(
+        "timer_hz = {hz} # your timer's\nmin_gap = 0 # {unit}, what your lamp needs between two flashes\n"
+    )
+}
+
+/// The curve with its control numbers so far on the way to a straight line's.
+fn pulled(curve: &Curve, by: f64) -> Curve {
+    let controls = curve
+        .controls
+        .map(|controls| std::array::from_fn(|k| controls[k] + by * (STRAIGHT[k] - controls[k])));
+    Curve { controls, ..*curve }
+}
+
+/// The inner control points as `shutteropening` has them.
+fn inner(curve: &Curve) -> [f64; 8] {
+    let length = curve.length();
+    let [o, c] = curve.controls;
+    let opening = |x: f64| curve.opening * x / length;
+    // The closing ramp's are counted back from the end.
+    let closing = |x: f64| (length - curve.closing * x) / length;
+    [opening(o[0]), o[1], opening(o[2]), o[3], closing(c[2]), c[3], closing(c[0]), c[1]]
+}
+
+/// A timer that tells the triggers apart, without more ticks than `u32` holds.
+fn timer_hz(gap: f64, length: f64) -> u32 {
+    let mut hz: u32 = 1_000_000;
+    while gap * f64::from(hz) < TICKS && hz < 1_000_000_000 {
+        hz *= 10;
+    }
+    while length * f64::from(hz) > f64::from(1u32 << 30) && hz > 1 {
+        hz /= 10;
+    }
+    hz
+}

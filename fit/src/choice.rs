@@ -1,0 +1,73 @@
+//! The models compared: what each kind's curve comes to, and which kind is the simplest that serves.
+
+use crate::frame::FrameFits;
+use crate::outcome::{Candidate, Options, Reason, Tolerance};
+use crate::shots::Shots;
+use crate::signal::Kind;
+use crate::structure::structure;
+
+/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter.
+const WITHIN: f64 = 1.1;
+
+/// Every kind's curve, judged by `n` triggers.
+pub fn candidates(fits: &FrameFits, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
+    let least = Kind::ALL.into_iter().map(|kind| fits.bic(kind)).fold(f64::INFINITY, f64::min);
+    let free = fits.triggers(Kind::Free, n);
+    let candidate = |kind: Kind| {
+        let fitted = fits.of(kind);
+        let signal = &fitted.solution.signal;
+        let shifts = fits.triggers(kind, n).into_iter().zip(&free).map(|(a, b)| (a - b).abs());
+        Candidate {
+            signal: fits.units.outside(signal),
+            rms: fitted.variance().sqrt() / signal.gain,
+            delta_bic: fits.bic(kind) - least,
+            shift: shifts.fold(0.0, f64::max) * fits.units.pulse(),
+            left_out: shots.map(|shots| shots.errors[kind as usize]),
+        }
+    };
+    Kind::ALL.into_iter().map(candidate).collect()
+}
+
+/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the simplest that meets
+/// shots left out, or else, of a single shot, the one of least criterion.
+pub fn choose(
+    options: &Options,
+    candidates: &[Candidate],
+    fits: &FrameFits,
+    shots: Option<&Shots>,
+) -> (Kind, Reason) {
+    let simplest = |good: &dyn Fn(&Candidate) -> bool| {
+        let found = candidates.iter().find(|candidate| good(candidate));
+        found.map_or(Kind::Free, |candidate| candidate.signal.kind)
+    };
+    if let Some(kind) = options.model {
+        return (kind, Reason::Asked);
+    }
+    if let Some(tolerance) = options.tolerance {
+        let most = match tolerance {
+            Tolerance::Share(share) => {
+                share * fits.exposure(Kind::Free).area() * fits.units.pulse()
+            }
+            Tolerance::Seconds(seconds) => seconds,
+        };
+        return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
+    }
+    if let Some(Shots { count, scatter, .. }) = shots {
+        let meets = |error: f64| error <= WITHIN * scatter;
+        let (shots, scatter) = (*count, *scatter);
+        let found = candidates.iter().find(|candidate| candidate.left_out.is_some_and(meets));
+        return match found {
+            Some(candidate) => (candidate.signal.kind, Reason::Shots { shots, scatter }),
+            None => (Kind::Free, Reason::NoKind { shots, scatter }),
+        };
+    }
+    let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
+    if structure(fits, kind).explained {
+        return (kind, Reason::Criterion { effective: fits.effective() });
+    }
+    let freer = Kind::ALL.into_iter().filter(|freer| *freer > kind);
+    match freer.into_iter().find(|freer| structure(fits, *freer).explained) {
+        Some(freer) => (freer, Reason::Explains),
+        None => (kind, Reason::Criterion { effective: fits.effective() }),
+    }
+}

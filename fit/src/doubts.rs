@@ -1,0 +1,148 @@
+//! What is doubtful about a fit: each doubt looks at the fit by itself, and is told or not.
+
+use crate::bins::Bin;
+use crate::frame::FrameFits;
+use crate::missed::{Parts, missed};
+use crate::outcome::{Fit, From, Test};
+use crate::signal::Kind;
+use crate::structure::Walk;
+use crate::trace::{Frame, Warning};
+
+/// All doubts about the fit of a frame.
+pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
+    // The sampling interval in seconds.
+    let step = fits.step * fits.units.pulse();
+    // What a capacitor bends may pass for a hum.
+    let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
+    let doubts = [
+        clipped(fit).or_else(|| saturated(fit, fits)),
+        if is_bent { None } else { hum(fit) },
+        flicker(fit),
+        cut_tail(fit, fits),
+        drift(fit),
+        lost_ramps(fit, fits.correlation, frame, step),
+        if full_is_given { None } else { no_plateau(fit, step) },
+        misfit(fit),
+    ];
+    doubts.into_iter().flatten().collect()
+}
+
+/// Many samples at the greatest value, where the dark shows that the noise is more than a step of the values.
+fn clipped(fit: &Fit) -> Option<Warning> {
+    let (dark, gain) = (fit.best().signal.dark, fit.best().signal.gain);
+    let values = &fit.samples.values;
+    let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let light = values.iter().filter(|v| **v > dark + 0.5 * gain).count();
+    let at_top = values.iter().filter(|v| **v == top).count();
+    let mut low: Vec<f64> = values.iter().copied().filter(|v| *v < dark + 0.1 * gain).collect();
+    low.sort_by(f64::total_cmp);
+    let same = low.chunk_by(|a, b| a == b).map(<[f64]>::len).max().unwrap_or(0);
+    let share = at_top as f64 / light.max(1) as f64;
+    let noise_shows = (same as f64) < 0.45 * low.len() as f64;
+    (at_top >= 5 && share > 0.05 && noise_shows)
+        .then_some(Warning::Clipped { share, at: fit.as_measured(top) })
+}
+
+/// Next to no noise in full light, where the dark has some: an amplifier at its end passes none.
+fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let parts = Parts::new(fits, fit.chosen);
+    let [_, open, close, _] = fits.exposure(fit.chosen).curve.times();
+    let from = fits.samples.partition_point(|bin| bin.from < open);
+    let to = fits.samples.partition_point(|bin| bin.to <= close);
+    let differ = |range: std::ops::Range<usize>| -> Vec<f64> {
+        let means = fits.samples[range].windows(2);
+        means.map(|pair| (pair[1].mean - pair[0].mean).powi(2)).collect()
+    };
+    let (light, dark) = (differ(from..to.max(from)), differ(parts.before));
+    if light.len() < 20 || dark.len() < 20 {
+        return None;
+    }
+    let [quiet, usual] = [&light, &dark].map(|d| d.iter().sum::<f64>() / d.len() as f64);
+    // Twenty differences and more scatter by a half at most; rounding makes both the same.
+    let is_quiet = quiet < 0.25 * usual && usual.sqrt() * fits.rounding.recip() > 4.0;
+    let top = fit.best().signal.dark + fit.best().signal.gain;
+    let share = light.len() as f64 / (parts.pulse.len() as f64);
+    is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(top) })
+}
+
+fn hum(fit: &Fit) -> Option<Warning> {
+    let signal = fit.best().signal;
+    let hum = signal.hum?;
+    Some(Warning::Hum { hertz: hum.frequency, amplitude: hum.amplitude() / signal.gain })
+}
+
+fn flicker(fit: &Fit) -> Option<Warning> {
+    let flicker = fit.best().signal.flicker?;
+    Some(Warning::Flicker { hertz: flicker.frequency, amplitude: flicker.amplitude() })
+}
+
+/// A signal that still falls at the end of the trace, where it did not in the dark before.
+fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let parts = Parts::new(fits, Kind::Free);
+    let gain = fits.of(Kind::Free).solution.signal.gain;
+    let levels = |part: &std::ops::Range<usize>, of: usize| -> Vec<f64> {
+        let few = (part.len() / of).max(1);
+        let mean = |bins: &[Bin]| {
+            bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain)
+        };
+        fits.samples[part.clone()].chunks_exact(few).map(mean).collect()
+    };
+    let [before, after] = [levels(&parts.before, 2), levels(&parts.after, 2)];
+    let dark = before.iter().sum::<f64>() / before.len().max(1) as f64;
+    let ([early, late, ..], [earlier, later, ..]) = (&after[..], &before[..]) else {
+        // There is no dark at all behind the curve.
+        let (first, last) = (fits.samples.first()?, fits.samples.last()?);
+        let is_open = fits.exposure(fit.chosen).curve.end() > last.to;
+        return is_open.then_some(Warning::CutTail { left: (last.mean - first.mean) / gain });
+    };
+    let walk = Walk::new(&missed(fits, Kind::Free), &parts, fits.step)?;
+    let half = 0.5 * fits.step * parts.after.len() as f64;
+    let error = (2.0 * walk.power / half).sqrt().hypot(fits.rounding);
+    // As steep before as after is a drift.
+    let same = (later - earlier) * parts.after.len() as f64 / parts.before.len() as f64;
+    let falls = early - late > 5.0 * error && early - late > 2.0 * same.abs();
+    let left = late - dark;
+    (falls && left > 5.0 * error && left > 1e-3).then_some(Warning::CutTail { left })
+}
+
+fn drift(fit: &Fit) -> Option<Warning> {
+    let signal = fit.best().signal;
+    let times = &fit.samples.times;
+    let length = times[times.len() - 1] - times[0];
+    Some(Warning::Drift { amount: signal.drift? * length / signal.gain })
+}
+
+/// Ramps that are as short as a sample, or else lost in the noise.
+fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<Warning> {
+    let best = fit.best();
+    let curve = best.signal.curve;
+    if curve.opening.min(curve.closing) < 2.0 * step {
+        return Some(Warning::SharpEdges { step });
+    }
+    // What a misfit leaves is no noise, and no average makes it less.
+    if !fit.test.explained {
+        return None;
+    }
+    let [up25, _, up75, down75, _, down25] = frame.crossings;
+    let longer = (up75 - up25).max(down25 - down75);
+    // Half a ramp lies between its quarters.
+    let on_ramp = (2.0 * longer / step).max(1.0);
+    let noise = best.rms * correlation.sqrt();
+    (noise / on_ramp.sqrt() > 0.03).then_some(Warning::NoiseHidesRamps { noise: best.rms })
+}
+
+fn no_plateau(fit: &Fit, step: f64) -> Option<Warning> {
+    let curve = fit.best().signal.curve;
+    (curve.plateau < step.max(0.01 * curve.length())).then_some(Warning::NoPlateau)
+}
+
+/// Structure that the model does not explain, or too little dark to tell.
+fn misfit(fit: &Fit) -> Option<Warning> {
+    let Test { explained, tested, share, at, .. } = fit.test;
+    let after = at - fit.best().signal.curve.start;
+    match (explained, tested) {
+        (false, _) => Some(Warning::Misfit { share, after, by_trace: fit.from == From::Trace }),
+        (true, false) => Some(Warning::Untested),
+        _ => None,
+    }
+}

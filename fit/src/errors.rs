@@ -1,0 +1,302 @@
+//! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot, a
+//! low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
+
+use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
+use crate::frame::FrameFits;
+use crate::missed::{Missed, least_open};
+use crate::signal::Kind;
+use crate::solve::Cholesky;
+use crate::units::Units;
+
+/// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
+/// of its end beside the noise's, and this openness for so long that of its light.
+const FOOT: f64 = 0.005;
+/// A plateau that is shorter than this share of the whole is a peak, or may be.
+const PEAK: f64 = 0.1;
+
+/// A value and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// One standard deviation of it.
+    pub error: f64,
+}
+
+impl Measured {
+    fn scaled(self, factor: f64) -> Self {
+        Self { value: self.value * factor, error: self.error * factor }
+    }
+}
+
+/// What a curve is good for.
+#[derive(Clone, Debug)]
+pub struct Results {
+    pub exposure: Measured,
+    pub efficiency: Measured,
+    pub start: Measured,
+    pub triggers: Vec<Measured>,
+}
+
+impl Results {
+    /// The same in seconds, and of full light where the pulse's peak is this share of it.
+    pub fn outside(self, units: &Units, peak: f64) -> Self {
+        let seconds = |m: Measured| Measured {
+            value: units.seconds(m.value),
+            error: units.pulse() * m.error,
+        };
+        Self {
+            exposure: self.exposure.scaled(units.pulse() * peak),
+            efficiency: self.efficiency.scaled(peak),
+            start: seconds(self.start),
+            triggers: self.triggers.into_iter().map(seconds).collect(),
+        }
+    }
+}
+
+/// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
+///
+/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
+/// Akaike weight, with its own variance and how far it lies from this one.
+pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
+    let mut chosen = OfKind::new(fits, kind).results(n);
+    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
+    let least = freer().map(|k| fits.aic(k)).fold(f64::INFINITY, f64::min);
+    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fits.aic(k))).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    let all: Vec<(f64, Results)> = freer()
+        .zip(weights)
+        .filter(|(_, weight)| *weight > 1e-3 * sum)
+        .map(|(k, weight)| (weight / sum, OfKind::new(fits, k).results(n)))
+        .collect();
+    let widen = |to: &mut Measured, of: &dyn Fn(&Results) -> Measured| {
+        let variance = |m: Measured| m.error * m.error + (m.value - to.value).powi(2);
+        to.error = all.iter().map(|(w, results)| w * variance(of(results))).sum::<f64>().sqrt();
+    };
+    widen(&mut chosen.exposure, &|results| results.exposure);
+    widen(&mut chosen.efficiency, &|results| results.efficiency);
+    widen(&mut chosen.start, &|results| results.start);
+    for (i, trigger) in chosen.triggers.iter_mut().enumerate() {
+        widen(trigger, &|results| results.triggers[i]);
+    }
+    chosen.widened(fits, kind)
+}
+
+/// What a lamp's flicker leaves unknown, as a share of it, where a period of it is in the pulse.
+const FLICKER: f64 = 0.2;
+
+impl Results {
+    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
+    fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
+        let lamp = fits.of(kind).solution.signal.flicker;
+        let lamp = lamp.map_or(0.0, |lamp| FLICKER * lamp.amplitude() / lamp.frequency);
+        let share = (2f64.sqrt() * fits.rounding).hypot(lamp);
+        for result in [&mut self.exposure, &mut self.efficiency] {
+            result.error = result.error.hypot(share * result.value);
+        }
+        let late = fits.rounding.hypot(0.3 * lamp) * self.exposure.value;
+        for time in self.triggers.iter_mut().chain([&mut self.start]) {
+            time.error = time.error.hypot(late);
+        }
+        self
+    }
+}
+
+/// One kind's curve with all that its errors come from.
+struct OfKind<'a> {
+    fits: &'a FrameFits,
+    kind: Kind,
+    curve: Curve,
+    integral: Exposure,
+    covariance: Covariance,
+    is_straight: bool,
+    /// Noise hides how high a peak is, and so what full light is.
+    is_peak: bool,
+    /// For how long nobody knows the shape of each ramp's foot.
+    feet: [f64; 2],
+}
+
+impl<'a> OfKind<'a> {
+    fn new(fits: &'a FrameFits, kind: Kind) -> Self {
+        let integral = fits.exposure(kind);
+        let curve = integral.curve;
+        let is_straight = kind <= Kind::Trapezoid;
+        Self {
+            fits,
+            kind,
+            curve,
+            integral,
+            covariance: Covariance::new(fits, kind),
+            is_straight,
+            is_peak: curve.plateau < PEAK * curve.length(),
+            feet: if is_straight { [0.0; 2] } else { integral.feet(FOOT) },
+        }
+    }
+
+    fn results(&self, n: u32) -> Results {
+        let exposure = self.exposure();
+        let efficiency = self.efficiency(exposure);
+        Results { exposure, efficiency, start: self.start(), triggers: self.triggers(n) }
+    }
+
+    /// The light that each foot may hold or not.
+    fn unseen(&self) -> [f64; 2] {
+        self.feet.map(|time| FOOT * time)
+    }
+
+    fn exposure(&self) -> Measured {
+        let linear = self.covariance.error(&self.integral.whole().moves);
+        let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
+        let error = self.unseen().into_iter().fold(noise, f64::hypot);
+        Measured { value: self.integral.area(), error }
+    }
+
+    /// The exposure by the length.
+    fn efficiency(&self, Measured { value: area, error: light }: Measured) -> Measured {
+        let length = self.curve.length();
+        let value = area / length;
+        // Where both are linear in the samples, what they have in common cancels; else the two errors are taken apart.
+        if self.is_straight && !self.is_peak {
+            let whole = self.integral.whole().moves;
+            let moves = std::array::from_fn(|k| (whole[k] - value * Curve::LENGTH[k]) / length);
+            return Measured { value, error: self.covariance.error(&moves) };
+        }
+        let linear = self.covariance.error(&Curve::LENGTH);
+        let noise = if self.is_straight { linear } else { self.searched(Whole::Length, linear) };
+        let ends = self.feet.into_iter().fold(noise, f64::hypot);
+        Measured { value, error: (light / length).hypot(value * ends / length) }
+    }
+
+    /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is long. The
+    /// linear error counts as well, but where a shape makes up for a shift it is too large: the length's serves as its bound.
+    fn start(&self) -> Measured {
+        let (curve, value) = (&self.curve, self.curve.start);
+        let mut moves = [0.0; PARAMETERS];
+        moves[START] = 1.0;
+        let linear = self.covariance.error(&moves);
+        if self.is_straight {
+            return Measured { value, error: linear };
+        }
+        let length = self.searched(Whole::Length, self.covariance.error(&Curve::LENGTH));
+        let hidden = length * curve.opening / (curve.opening + curve.closing);
+        Measured { value, error: hidden.hypot(linear.min(length)).hypot(self.feet[0]) }
+    }
+
+    fn triggers(&self, n: u32) -> Vec<Measured> {
+        let by_noise = |u: f64| {
+            let (value, moves) = self.integral.trigger(u);
+            Measured { value, error: self.covariance.error(&moves) }
+        };
+        let mut triggers: Vec<Measured> = fractions(n).map(by_noise).collect();
+        let by_shape = misfit(self.fits, self.kind, &triggers);
+        let [first, last] = self.unseen();
+        for (u, trigger) in fractions(n).zip(&mut triggers) {
+            // More light in the first foot makes a trigger earlier, more in the last one makes it later.
+            let light = ((1.0 - u) * first).hypot(u * last);
+            let by_feet = light / least_open(&self.integral, trigger.value);
+            trigger.error = trigger.error.hypot(by_shape).hypot(by_feet);
+        }
+        triggers
+    }
+
+    fn searched(&self, whole: Whole, linear: f64) -> f64 {
+        searched_error(self.fits, self.kind, whole, linear, self.covariance.variance)
+    }
+}
+
+/// How the parameters of a fitted curve vary together.
+struct Covariance {
+    kind: Kind,
+    /// Of the parameters that are on no bound.
+    moving: Vec<usize>,
+    factor: Cholesky,
+    /// What the inverse is multiplied by: the noise's variance, for correlated samples.
+    variance: f64,
+    /// The variance of each edge beside it: a sample tells an edge's side, not its place.
+    edges: [f64; 2],
+}
+
+impl Covariance {
+    fn new(fits: &FrameFits, kind: Kind) -> Self {
+        let fitted = fits.of(kind);
+        let solution = &fitted.solution;
+        let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
+        // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
+        let on_bound = |k: &usize| *k < CONTROLS && packed[*k] <= bounds[*k].0;
+        let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
+        let matrix: Vec<Vec<f64>> = moving
+            .iter()
+            .map(|i| moving.iter().map(|j| solution.normal[*i][*j]).collect())
+            .collect();
+        // The degrees of freedom: a parameter takes an independent sample.
+        let n = fits.samples.len() as f64;
+        let free = (n - packed.len() as f64 * fits.correlation).max(0.5 * n);
+        let curve = solution.signal.curve;
+        let edge =
+            |ramp: f64| fits.step * fits.step / 12.0 * (1.0 - ramp / (2.0 * fits.step)).max(0.0);
+        Self {
+            kind,
+            moving,
+            factor: Cholesky::stiffened(&matrix),
+            variance: fitted.squares / free * fits.correlation,
+            edges: [edge(curve.opening), edge(curve.closing)],
+        }
+    }
+
+    /// The standard error of what moves so with a curve's parameters.
+    fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
+        let mut gathered = vec![0.0; self.kind.parameters()];
+        self.kind.gather(moves, &mut gathered);
+        let row: Vec<f64> =
+            self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
+        let noise: f64 = self.factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
+        // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
+        let (opening, closing) = (moves[START] - moves[PLATEAU], moves[PLATEAU]);
+        let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];
+        (noise * self.variance + edges).sqrt()
+    }
+}
+
+/// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
+///
+/// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
+/// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
+fn searched_error(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
+    const SIDE: f64 = 1.96;
+    let value = whole.of(&fits.of(kind).solution.signal.curve).0;
+    let (least, most) = (1e-4 * value, 0.5 * value);
+    let side = |way: f64| {
+        // Where the linear error is unknown, not a number, `min` takes the other.
+        let mut by = (SIDE * linear).min(0.1 * value).max(least);
+        for _ in 0..8 {
+            let cost = fits.cost_of(kind, whole, way * by) / (SIDE * SIDE * variance);
+            if (0.8..1.25).contains(&cost) {
+                break;
+            }
+            // Between a square and the fourth power.
+            by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
+        }
+        by
+    };
+    side(1.0).max(side(-1.0)) / SIDE
+}
+
+/// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond
+/// what noise makes of them.
+///
+/// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
+/// by a random walk whose ends are tied. The fit has followed as much of that walk as the triggers' errors say; only the rest
+/// shows.
+fn misfit(fits: &FrameFits, kind: Kind, triggers: &[Measured]) -> f64 {
+    let fitted = fits.of(kind);
+    let [start, _, _, end] = fitted.solution.signal.curve.times();
+    let variance = fitted.variance() * fits.correlation * fits.step;
+    let missed = Missed::new(fits, kind);
+    let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
+        let t = trigger.value;
+        let (off, slope) = (missed.off(u, t), missed.slope(t));
+        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start));
+        off * off - (walk / (slope * slope) - trigger.error * trigger.error).max(0.0)
+    });
+    (excess.sum::<f64>() / triggers.len() as f64).max(0.0).sqrt()
+}

@@ -1,0 +1,29 @@
+//! A frame's fits, with a flicker where that explains what they do not, and with the dark's noise where nothing does.
+
+use std::cmp::max_by_key;
+
+use crate::frame::FrameFits;
+use crate::missed::Parts;
+use crate::noise::correlation;
+use crate::signal::Kind;
+use crate::structure::structure;
+use crate::trace::{Frame, Pulses};
+
+/// The fits of a frame; `progress` is told the share that is done, as far as that is known.
+pub fn fits(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> FrameFits {
+    let mut fits = FrameFits::new(pulses, frame, progress);
+    if structure(&fits, Kind::Free).explained {
+        return fits;
+    }
+    // A lamp's flicker is looked for where there is something to explain, and taken where it explains that.
+    let flickering = fits.flickering(&fits.units.crossings(frame));
+    if let Some(others) = flickering.filter(|others| structure(others, Kind::Free).explained) {
+        return others;
+    }
+    // What the freest curve misses is no noise, and counts for none of it.
+    let parts = Parts::new(&fits, Kind::Free);
+    let longer = max_by_key(parts.before, parts.after, |part| part.len());
+    let dark = correlation(&fits.of(Kind::Free).residuals[longer]);
+    fits.correlation = dark.min(fits.correlation);
+    fits
+}

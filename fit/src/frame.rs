@@ -1,0 +1,148 @@
+//! One frame fitted by every kind of curve, with the columns that it asks for, in units of its own.
+
+use crate::bins::{self, Bin};
+use crate::columns;
+use crate::curve::{Exposure, Whole, fractions};
+use crate::kind::KindFit;
+use crate::noise::{self, correlation};
+use crate::search::Search;
+use crate::signal::{Kind, Signal};
+use crate::solve::{Held, Problem};
+use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
+use crate::units::Units;
+
+/// A frame's fits.
+#[derive(Clone, Debug)]
+pub struct FrameFits {
+    pub units: Units,
+    /// The samples, each with the time that it owns.
+    pub samples: Vec<Bin>,
+    /// The sampling interval.
+    pub step: f64,
+    /// What was solved.
+    problem: Problem,
+    /// Of each kind, simplest first.
+    kinds: Vec<KindFit>,
+    /// How many samples stand for one that is independent of the others: by the freest kind's residuals where that explains
+    /// them, else by those in the dark.
+    pub correlation: f64,
+    /// The standard deviation that a step of the values puts into all of a plateau alike, as a share of the light.
+    pub rounding: f64,
+}
+
+impl FrameFits {
+    /// Fits every kind; `progress` is told the share that is done, as far as that is known.
+    pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
+        let units = Units::new(frame, pulses.levels);
+        let crossings = units.crossings(frame);
+        let trace = units.inside(pulses.trace.part(&frame.samples));
+        let step = sampling_interval(&trace.times);
+
+        let samples = bins::each(&trace);
+        let bins = bins::shared(&samples, &crossings, step);
+        let noise = pulses.relative_noise().max(noise::LEAST);
+        // A control number is 0.5 of the way around a straight ramp's, give or take.
+        let problem = Problem { bins, prior: 4.0 * noise * noise, held: None };
+        let rounding = pulses.rounding / pulses.light();
+        let (kinds, correlation) = (Vec::new(), 1.0);
+        let mut fits = Self { units, samples, step, problem, kinds, correlation, rounding };
+
+        // If a column turns out to be worth it, the search comes twice, half of the way each.
+        let plain = Signal::plain();
+        fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
+        let free = fits.of(Kind::Free);
+        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step) {
+            fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
+        }
+        fits
+    }
+
+    /// The same with the flicker of a lamp on the mains, where that is worth it.
+    pub fn flickering(&self, crossings: &Crossings) -> Option<Self> {
+        let free = self.of(Kind::Free);
+        let second = self.units.pulse();
+        let found = columns::flickering(&self.problem, free, &self.samples, second)?;
+        let mut others = self.clone();
+        others.search_with(crossings, found, &mut |_| ());
+        Some(others)
+    }
+
+    /// Searches for every kind's best signal, from what `like` has beside its curve.
+    fn search(&mut self, crossings: &Crossings, like: &Signal, progress: &mut dyn FnMut(f64)) {
+        let search = Search { problem: &self.problem, crossings, step: self.step };
+        self.kinds = KindFit::all(search.every_kind(like, progress), &self.samples);
+        self.correlation = correlation(&self.of(Kind::Free).residuals);
+    }
+
+    /// The same from the columns of a fit of the freest kind, which may be better than where the search ends.
+    fn search_with(&mut self, crossings: &Crossings, free: KindFit, progress: &mut dyn FnMut(f64)) {
+        self.search(crossings, &free.solution.signal, progress);
+        let last = &mut self.kinds[Kind::Free as usize];
+        if free.solution.cost < last.solution.cost {
+            *last = free;
+            self.correlation = correlation(&last.residuals);
+        }
+    }
+
+    /// Each sample as an openness, by a kind's levels, drift, hum and flicker.
+    pub fn opened(&self, kind: Kind) -> Vec<f64> {
+        let fitted = self.of(kind);
+        let signal = fitted.solution.signal;
+        let integral = self.exposure(kind);
+        let each = self.samples.iter().zip(&fitted.residuals);
+        each.map(|(bin, r)| {
+            let (middle, width) = (0.5 * (bin.from + bin.to), bin.to - bin.from);
+            let lamp = signal.flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+            integral.mean(bin.from, bin.to) + r / (signal.gain * lamp.max(0.1))
+        })
+        .collect()
+    }
+
+    /// The samples, as far as neighbours share a bin.
+    pub fn bins(&self) -> &[Bin] {
+        &self.problem.bins
+    }
+
+    /// A kind's best signal.
+    pub fn of(&self, kind: Kind) -> &KindFit {
+        &self.kinds[kind as usize]
+    }
+
+    /// So many samples count.
+    pub fn effective(&self) -> f64 {
+        self.samples.len() as f64 / self.correlation
+    }
+
+    /// Schwarz's criterion.
+    pub fn bic(&self, kind: Kind) -> f64 {
+        self.of(kind).bic(self.correlation)
+    }
+
+    /// Akaike's criterion.
+    pub fn aic(&self, kind: Kind) -> f64 {
+        let parameters = self.of(kind).solution.signal.len() as f64;
+        self.bic(kind) + parameters * (2.0 - self.effective().ln())
+    }
+
+    /// A kind's curve with its integral.
+    pub fn exposure(&self, kind: Kind) -> Exposure {
+        Exposure::new(&self.of(kind).solution.signal.curve)
+    }
+
+    /// A kind's `n` trigger times.
+    pub fn triggers(&self, kind: Kind, n: u32) -> Vec<f64> {
+        let exposure = self.exposure(kind);
+        fractions(n).map(|u| exposure.trigger(u).0).collect()
+    }
+
+    /// By how much a kind's sum of squares grows if its curve is to have so much more of something.
+    pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64) -> f64 {
+        let solution = &self.of(kind).solution;
+        let target = whole.of(&solution.signal.curve).0 + more;
+        // Stiff enough to be kept to a hundredth.
+        let weight = 1e4 * solution.cost / (more * more);
+        let held = Some(Held { whole, target, weight });
+        let stiff = Problem { held, ..self.problem.clone() };
+        self.problem.at(&stiff.minimise(&solution.signal).signal).cost - solution.cost
+    }
+}

@@ -1,0 +1,128 @@
+//! What a closing ramp adds that follows the fitted one with a lag: the pattern that stands for all tails; and how much of it is in the
+//! samples, with all that the signal's own parameters could explain of it left out.
+
+use crate::bins::Bin;
+use crate::curve::Exposure;
+use crate::solve::{Cholesky, Problem, Solution};
+
+/// The lag's time constant, in closing ramps. From 0.4 to 1.6 it tells the same.
+pub const LAG: f64 = 0.8;
+
+/// What a lag adds to the closing ramp, in each bin.
+pub fn lagging(solution: &Solution, bins: &[Bin], step: f64) -> Option<Vec<f64>> {
+    let exposure = Exposure::new(&solution.signal.curve);
+    let curve = exposure.curve;
+    let constant = LAG * curve.closing;
+    if constant < 2.0 * step {
+        return None;
+    }
+    let (mut last, mut open, mut lag) = (curve.close_start(), 1.0, 0.0);
+    let mean = |bin: &Bin| {
+        let width = bin.to - last;
+        if width <= 0.0 {
+            return 0.0;
+        }
+        // A lag falls by its time constant and grows by what the ramp falls, evenly over a bin.
+        let falls = open - exposure.openness(bin.to);
+        let pass = (-width / constant).exp();
+        let next = lag * pass + falls * (1.0 - pass) * constant / width;
+        let mean = constant * (lag + falls - next) / width;
+        (last, open, lag) = (bin.to, open - falls, next);
+        solution.signal.gain * mean
+    };
+    Some(bins.iter().map(mean).collect())
+}
+
+/// A signal's parameters, as far as they can move, at each bin.
+pub struct Movable<'a> {
+    solution: &'a Solution,
+    bins: &'a [Bin],
+    /// Which.
+    places: Vec<usize>,
+    factor: Cholesky,
+    /// How each bin moves with each.
+    rows: Vec<Vec<f64>>,
+    /// What each bin is missed by.
+    pub missed: Vec<f64>,
+}
+
+impl<'a> Movable<'a> {
+    pub fn new(solution: &'a Solution, bins: &'a [Bin], keep: impl Fn(usize) -> bool) -> Self {
+        let places: Vec<usize> = solution.moving().into_iter().filter(|k| keep(*k)).collect();
+        let row =
+            |i: &usize| places.iter().map(|j| solution.normal[*i.max(j)][*i.min(j)]).collect();
+        let factor = Cholesky::stiffened(&places.iter().map(row).collect::<Vec<_>>());
+        let mut means = solution.signal.means();
+        let mut moves = vec![0.0; solution.signal.len()];
+        let (mut rows, mut missed) = (Vec::new(), Vec::new());
+        for bin in bins {
+            missed.push(bin.mean - means.over(bin.from, bin.to, &mut moves));
+            rows.push(places.iter().map(|k| moves[*k]).collect());
+        }
+        Self { solution, bins, places, factor, rows, missed }
+    }
+
+    /// How the parameters would make up for a pattern.
+    fn answer(&self, pattern: &[f64]) -> Vec<f64> {
+        let mut right = vec![0.0; self.places.len()];
+        for ((bin, row), p) in self.bins.iter().zip(&self.rows).zip(pattern) {
+            right.iter_mut().zip(row).for_each(|(sum, m)| *sum += bin.samples * m * p);
+        }
+        self.factor.solve(&right)
+    }
+
+    /// What is left of a pattern.
+    pub fn rest(&self, pattern: &[f64]) -> Vec<f64> {
+        self.less(pattern, &self.answer(pattern))
+    }
+
+    /// The pattern less what the curve's parameters make up for, which is how the light itself changes.
+    pub fn without_levels(&self, pattern: &[f64]) -> Vec<f64> {
+        let mut by = self.answer(pattern);
+        let of_curve = self.solution.signal.kind.parameters();
+        let levels = self.places.iter().zip(&mut by).filter(|(place, _)| **place >= of_curve);
+        levels.for_each(|(_, by)| *by = 0.0);
+        self.less(pattern, &by)
+    }
+
+    fn less(&self, pattern: &[f64], by: &[f64]) -> Vec<f64> {
+        let explained = |row: &Vec<f64>| row.iter().zip(by).map(|(m, by)| m * by).sum::<f64>();
+        pattern.iter().zip(&self.rows).map(|(p, row)| p - explained(row)).collect()
+    }
+}
+
+/// How much of a pattern is in what is missed.
+pub struct Score {
+    pub along: f64,
+    pub square: f64,
+}
+
+impl Score {
+    pub fn new(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> Self {
+        let (mut along, mut square) = (0.0, f64::MIN_POSITIVE);
+        for ((bin, p), missed) in bins.iter().zip(pattern).zip(missed) {
+            along += bin.samples * p * missed;
+            square += bin.samples * p * p;
+        }
+        Self { along, square }
+    }
+}
+
+/// Does a tail explain as much as the drift does that a signal was given?
+pub fn passes_for_drift(problem: &Problem, solution: &Solution, step: f64) -> bool {
+    let (signal, bins) = (solution.signal, &problem.bins);
+    let (Some(drift), Some(lagging)) = (signal.drift, lagging(solution, bins, step)) else {
+        return false;
+    };
+    let place = signal.kind.parameters() + 2;
+    let movable = Movable::new(solution, bins, |k| k != place);
+    let line: Vec<f64> = bins.iter().map(|bin| 0.5 * (bin.from + bin.to)).collect();
+    let missed: Vec<f64> =
+        movable.missed.iter().zip(&line).map(|(missed, t)| missed + drift * t).collect();
+    // What the sum of squares falls by, and the way.
+    let falls = |pattern: &[f64]| {
+        let Score { along, square } = Score::new(&movable.rest(pattern), &missed, bins);
+        along * along.abs() / square
+    };
+    falls(&lagging) >= falls(&line).abs()
+}

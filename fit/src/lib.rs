@@ -1,0 +1,161 @@
+//! From a measured trace to the simplest shutter that serves. There is no file, terminal, thread or clock in it.
+//!
+//! [`fit`] takes a trace that [`crate::trace`] has read, and gives a [`Fit`]. Its stages, in the order in which they happen:
+//!
+//! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
+//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from `starts` with `solve`, with the
+//!   `columns` of a drift and a `hum`, and the `noise` that is left;
+//! - `shots`, `choice`: the kinds compared, and one chosen;
+//! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
+//! - `structure`, `tail` (by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
+//! - `report`, `json`: the [`Fit`] as text, and for a program.
+//!
+//! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
+
+mod bins;
+mod choice;
+mod columns;
+mod curve;
+pub mod delay;
+mod doubts;
+mod errors;
+mod explain;
+mod frame;
+mod hum;
+mod json;
+mod kind;
+mod lag;
+mod missed;
+mod noise;
+mod outcome;
+mod ramp;
+pub mod report;
+pub mod rows;
+mod running;
+mod search;
+mod shots;
+mod signal;
+mod solve;
+mod speed;
+mod starts;
+mod structure;
+mod tail;
+pub mod trace;
+pub mod unit;
+mod units;
+
+use std::iter::once;
+
+use crate::trace::{Light, Pulses, Refusal, Trace, Warning, pulses, undone};
+pub use curve::Curve;
+pub use errors::Measured;
+use frame::FrameFits;
+pub use json::json;
+pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
+pub use ramp::STRAIGHT;
+pub use report::{because, text};
+use shots::Shots;
+pub use signal::{Flicker, Hum, Kind, Signal};
+
+/// The most triggers of a frame that are judged and planned.
+pub const MOST_TRIGGERS: u32 = 10_000;
+
+/// Fits a trace. `progress` is told the share that is done.
+///
+/// # Errors
+/// A trace without a whole pulse or with too few samples, a frame that is not there, a full light below what is seen.
+pub fn fit(
+    trace: &Trace,
+    options: &Options,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Fit, Refusal> {
+    let n = options.triggers.clamp(1, MOST_TRIGGERS);
+    let pulses = found(trace, options.light)?;
+    let asked = shots::asked(&pulses.frames, options.frame)?;
+    let counted = Frames::new(&pulses.frames, asked);
+    let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
+    let frames = fit_frames(&pulses, asked, differ, options, progress);
+    let (fits, shots) = (&frames[0], Shots::new(&frames, n));
+
+    let candidates = choice::candidates(fits, shots.as_ref(), n);
+    let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
+    let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
+    let test = judged(fits, chosen, reason);
+    let model = errors::results(fits, chosen, n).outside(&fits.units, peak);
+    let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
+    let from = if from_trace.is_some() { From::Trace } else { From::Model };
+    let results = from_trace.map(|results| results.outside(&fits.units, peak));
+    let results = results.unwrap_or_else(|| model.clone());
+
+    let frame = &pulses.frames[asked];
+    let mut fit = Fit {
+        candidates,
+        chosen,
+        reason,
+        exposure: results.exposure,
+        efficiency: results.efficiency,
+        opens: results.start.value,
+        delay: delay::delay(options.sync, results.start, &pulses.frames[..asked])?,
+        triggers: results.triggers,
+        from,
+        model_exposure: model.exposure,
+        model_triggers: model.triggers,
+        test,
+        peak,
+        frames: counted,
+        reading: None,
+        warnings: pulses.warnings.clone(),
+        samples: pulses.trace.part(&frame.samples),
+        inverted: pulses.inverted,
+        middle: fits.units.seconds(0.0),
+    };
+    if differ {
+        fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
+    }
+    let doubts = doubts::doubts(&fit, fits, frame, options.full.is_some());
+    fit.warnings.extend(doubts);
+    if fit.is_determined() { Ok(fit) } else { Err(Refusal::Undetermined) }
+}
+
+/// The pulses of the trace; those without a capacitor before the recorder, where the dark asks for that.
+fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
+    let plain = pulses(trace, light);
+    let is_sound = !matches!(plain, Err(Refusal::Unsound | Refusal::TooFewSamples { .. }));
+    let coupled = if is_sound && light == Light::Auto { undone(trace) } else { None };
+    let Some((mut pulses, seconds)) = coupled else { return plain };
+    pulses.warnings.push(Warning::Coupled { seconds });
+    Ok(pulses)
+}
+
+/// Does the chosen kind explain the trace? A kind that was taken for a tolerance, or for shots that differ, need not follow
+/// every sample: there the freest is asked.
+fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> Test {
+    let kind = match reason {
+        Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,
+        _ => chosen,
+    };
+    let found = structure::structure(fits, kind);
+    let explained = found.explained && !matches!(reason, Reason::NoKind { .. });
+    let at = fits.units.seconds(found.at);
+    Test { explained, tested: found.tested, sigma: found.sigma, share: found.share, at }
+}
+
+/// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.
+fn fit_frames(
+    pulses: &Pulses,
+    asked: usize,
+    differ: bool,
+    options: &Options,
+    progress: &mut dyn FnMut(f64),
+) -> Vec<FrameFits> {
+    let shots_decide = !differ && options.model.is_none() && options.tolerance.is_none();
+    let others = if shots_decide { shots::others(&pulses.frames, asked) } else { Vec::new() };
+    let steps = 1.0 + others.len() as f64;
+    let mut frames = Vec::new();
+    for (i, k) in once(asked).chain(others).enumerate() {
+        let mut progress = |done: f64| progress((i as f64 + done) / steps);
+        frames.push(explain::fits(pulses, &pulses.frames[k], &mut progress));
+    }
+    progress(1.0);
+    frames
+}

@@ -1,0 +1,212 @@
+//! A fit as text: what was measured, each candidate, the results with their standard errors.
+
+use std::fmt::{self, Write};
+
+use crate::curve::fractions;
+use crate::delay;
+use crate::errors::Measured;
+use crate::outcome::{Fit, From, Reason, Test, Tolerance};
+use crate::rows::hidden_rows;
+use crate::signal::Kind;
+use crate::speed;
+use crate::trace::{from_opening, sampling_interval};
+use crate::unit::{MOST_PLACES, Unit, count, decimals, plus_minus, short, trimmed};
+
+/// The fit of the trace `name`, for a terminal.
+pub fn text(name: &str, fit: &Fit) -> String {
+    let mut text = String::new();
+    write_text(&mut text, name, fit).expect("a string takes all");
+    text
+}
+
+fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
+    write_trace(out, name, fit)?;
+    writeln!(out)?;
+    write_models(out, fit)?;
+    writeln!(out)?;
+    write_results(out, fit)?;
+    writeln!(out)?;
+    write_triggers(out, fit)
+}
+
+/// What was measured.
+fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
+    let (times, signal) = (&fit.samples.times, &fit.best().signal);
+    let step = sampling_interval(times);
+    writeln!(out, "trace        {name}")?;
+    if let Some(reading) = &fit.reading {
+        writeln!(out, "signal       {}", reading.signal())?;
+        writeln!(out, "times        {}", reading.times())?;
+    }
+    write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
+    if fit.frames.count > 1 {
+        write!(out, "; the exposures scatter by {} %", short(100.0 * fit.frames.scatter, 2))?;
+    }
+    let (apart, rate) = (Unit::fit(step).show(step), short(1.0 / step, 4));
+    writeln!(out, "\nsamples      {}, {apart} apart: {rate} Hz", times.len())?;
+    let (gain, dark) = (short(signal.gain, 4), short(fit.as_measured(signal.dark), 4));
+    let way = if fit.inverted { "below" } else { "above" };
+    writeln!(out, "light        {gain} {way} the dark at {dark}")
+}
+
+/// Each candidate, which was chosen, and why.
+fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
+    let unit = fit.unit();
+    writeln!(
+        out,
+        "  model                     opens      open    closes   rms %    ΔBIC    shift"
+    )?;
+    for candidate in &fit.candidates {
+        let kind = candidate.signal.kind;
+        let c = &candidate.signal.curve;
+        let mark = if kind == fit.chosen { '*' } else { ' ' };
+        let [opens, open, closes] = [c.opening, c.plateau, c.closing].map(|t| short(unit.of(t), 4));
+        let (rms, shift) = (short(100.0 * candidate.rms, 3), short(unit.of(candidate.shift), 2));
+        let bic = trimmed(candidate.delta_bic, 0);
+        let title = kind.title();
+        writeln!(
+            out,
+            "{mark} {title:22}  {opens:>8}  {open:>8}  {closes:>8}  {rms:>6}  {bic:>6}  {shift:>7}"
+        )?;
+        if let Some(error) = candidate.left_out {
+            writeln!(out, "    on shots left out: {} % of the exposure", short(100.0 * error, 2))?;
+        }
+    }
+    let name = unit.name();
+    writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
+    writeln!(out, "chosen       {}", fit.chosen.title())?;
+    writeln!(out, "because      {}", because(fit))?;
+    writeln!(out, "fit          {}", judgement(fit))
+}
+
+/// The chosen curve, and what it is good for.
+fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
+    let (unit, places) = (fit.unit(), speed::places(fit));
+    let curve = &fit.best().signal.curve;
+    let show = |time: f64| format!("{:.places$}", unit.of(time));
+    let [start, open_end, close_start, end] = curve.times().map(show);
+    let unit = unit.name();
+    writeln!(out, "opens        from {start} to {open_end} {unit}")?;
+    writeln!(out, "closes       from {close_start} to {end} {unit}")?;
+    writeln!(out, "delay        {}", delay::told(fit))?;
+    if fit.chosen > Kind::Trapezoid {
+        let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
+        writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;
+        writeln!(out, "             (the closing ramp seen backwards; fractions of each ramp)")?;
+    }
+    writeln!(out, "tester       {}", speed::times(fit))?;
+    writeln!(out, "exposure     {}{}", exposure(fit), source(fit))?;
+    if let Some(speed) = speed::speed(fit) {
+        writeln!(out, "speed        {speed}")?;
+    }
+    writeln!(out, "efficiency   {}", efficiency(fit))?;
+    if fit.peak < 1.0 {
+        writeln!(out, "peak         {} % of full light", short(100.0 * fit.peak, 4))?;
+    }
+    writeln!(out, "             (standard errors behind ±)")
+}
+
+/// Whether the model explains the trace.
+fn judgement(fit: &Fit) -> String {
+    let Test { explained, tested, sigma, share, at } = fit.test;
+    if explained && !tested {
+        return "untested: there is too little dark to know the noise by".into();
+    }
+    if explained {
+        return "the model explains the trace".into();
+    }
+    format!(
+        "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
+        short(100.0 * share.abs(), 2),
+        from_opening(at - fit.best().signal.curve.start),
+        short(sigma, 2)
+    )
+}
+
+/// What the exposure is taken from, where that is not the model.
+fn source(fit: &Fit) -> String {
+    match fit.from {
+        From::Model => String::new(),
+        From::Trace => {
+            let Measured { value, error } = fit.model_exposure;
+            let unit = fit.unit();
+            let model = plus_minus(unit.of(value), unit.of(error), unit.name());
+            format!(", by the trace (the model: {model})")
+        }
+    }
+}
+
+fn write_triggers(out: &mut String, fit: &Fit) -> fmt::Result {
+    let unit = fit.unit();
+    let (time, error) = (format!("time ({})", unit.name()), format!("error ({})", unit.name()));
+    let beside = if fit.from == From::Trace { "  by the model" } else { "" };
+    writeln!(out, "    #        u  {time:>15}  {error:>12}{beside}")?;
+    let least = fit.triggers.iter().map(|trigger| unit.of(trigger.error));
+    // Two digits of the least error, and as many decimals for all: a column that the eye can run down.
+    let places = decimals(least.fold(f64::INFINITY, f64::min), 2).min(MOST_PLACES);
+    let hidden = hidden_rows(fit.triggers.len());
+    let all = fractions(fit.triggers.len() as u32).zip(&fit.triggers);
+    for (i, (u, trigger)) in all.enumerate() {
+        if i == hidden.start {
+            writeln!(out, "  ...  {} more", hidden.len())?;
+        }
+        if hidden.contains(&i) {
+            continue;
+        }
+        let (time, error) = (at(fit, trigger.value), unit.of(trigger.error));
+        write!(out, "{i:5}  {u:.5}  {time:>15}  {error:>12.places$}")?;
+        match fit.from {
+            From::Model => writeln!(out)?,
+            From::Trace => writeln!(out, "  {:>12}", at(fit, fit.model_triggers[i].value))?,
+        }
+    }
+    Ok(())
+}
+
+/// A time, to a hundredth of a per mille of the interval.
+fn at(fit: &Fit, seconds: f64) -> String {
+    let unit = fit.unit();
+    let places = decimals(unit.of(fit.best().signal.curve.length()), 5);
+    format!("{:.places$}", unit.of(seconds))
+}
+
+/// The exposure and its standard error.
+pub fn exposure(fit: &Fit) -> String {
+    let Measured { value, error } = fit.exposure;
+    plus_minus(fit.unit().of(value), fit.unit().of(error), fit.unit().name())
+}
+
+/// The efficiency and its standard error.
+pub fn efficiency(fit: &Fit) -> String {
+    let Measured { value, error } = fit.efficiency;
+    plus_minus(100.0 * value, 100.0 * error, "%")
+}
+
+/// Why the model was chosen.
+pub fn because(fit: &Fit) -> String {
+    match fit.reason {
+        Reason::Asked => "as asked".into(),
+        Reason::Tolerance(Tolerance::Share(share)) => format!(
+            "the simplest whose triggers are within {} % of the exposure of the free model's",
+            short(100.0 * share, 3)
+        ),
+        Reason::Tolerance(Tolerance::Seconds(seconds)) => format!(
+            "the simplest whose triggers are within {} of the free model's",
+            fit.unit().show(seconds)
+        ),
+        Reason::Shots { shots, scatter } => format!(
+            "the simplest that meets shots left out as well as {} meet each other, to {} %",
+            count(shots as u64, "shot"),
+            short(100.0 * scatter, 2)
+        ),
+        Reason::NoKind { shots, scatter } => format!(
+            "it is the freest; no model meets shots left out as well as {} meet each other, to {} %",
+            count(shots as u64, "shot"),
+            short(100.0 * scatter, 2)
+        ),
+        Reason::Explains => "the simplest that explains the trace".into(),
+        Reason::Criterion { effective } => {
+            format!("least BIC, from one shot of {} independent samples", trimmed(effective, 0))
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! What a detector shows of a shutter: a level in the dark, so much more in full light, and perhaps a drift and a hum.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::curve::{CONTROLS, Collected, Curve, Exposure, PARAMETERS, PLATEAU, START};
+use crate::ramp::STRAIGHT;
+
+/// The candidates, simplest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Kind {
+    /// All open or all closed.
+    Box,
+    /// Straight ramps.
+    Trapezoid,
+    /// Cubic ramps that mirror each other but for their length.
+    Symmetric,
+    /// Any cubic ramps.
+    Free,
+}
+
+impl Kind {
+    /// All of them, simplest first.
+    pub const ALL: [Self; 4] = [Self::Box, Self::Trapezoid, Self::Symmetric, Self::Free];
+
+    /// As a reader is told.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Trapezoid => "straight ramps",
+            Self::Symmetric => "symmetric cubic ramps",
+            Self::Free => "free cubic ramps",
+        }
+    }
+
+    /// As `--model` has it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Trapezoid => "trapezoid",
+            Self::Symmetric => "symmetric",
+            Self::Free => "free",
+        }
+    }
+
+    /// How many numbers describe its curve.
+    pub const fn parameters(self) -> usize {
+        match self {
+            Self::Box => 2,
+            Self::Trapezoid => CONTROLS,
+            Self::Symmetric => CONTROLS + 4,
+            Self::Free => PARAMETERS,
+        }
+    }
+
+    /// By which of this kind's parameters each of a curve's is held, if any.
+    fn holder(self, parameter: usize) -> Option<usize> {
+        match (self, parameter) {
+            (Self::Box, START) => Some(0),
+            (Self::Box, PLATEAU) => Some(1),
+            (Self::Box, _) => None,
+            (Self::Trapezoid, CONTROLS..) => None,
+            (Self::Symmetric, CONTROLS..) => Some(CONTROLS + (parameter - CONTROLS) % 4),
+            _ => Some(parameter),
+        }
+    }
+
+    /// This kind's parameters of a curve; of a curve that is not of this kind, some of them.
+    pub(super) fn pack(self, curve: &Curve) -> Vec<f64> {
+        let mut packed = vec![0.0; self.parameters()];
+        for (k, p) in curve.parameters().into_iter().enumerate().rev() {
+            if let Some(holder) = self.holder(k) {
+                packed[holder] = p;
+            }
+        }
+        packed
+    }
+
+    /// The curve with these parameters.
+    pub(super) fn unpack(self, packed: &[f64]) -> Curve {
+        let mut p = Curve::trapezoid(0.0, 0.0, 0.0, 0.0).parameters();
+        for (k, p) in p.iter_mut().enumerate() {
+            if let Some(holder) = self.holder(k) {
+                *p = packed[holder];
+            }
+        }
+        Curve::from_parameters(&p)
+    }
+
+    /// Moves with this kind's parameters, from moves with a curve's.
+    pub(super) fn gather(self, moves: &[f64; PARAMETERS], into: &mut [f64]) {
+        into[..self.parameters()].fill(0.0);
+        for (k, m) in moves.iter().enumerate() {
+            if let Some(holder) = self.holder(k) {
+                into[holder] += m;
+            }
+        }
+    }
+}
+
+/// A sine that is added to the signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hum {
+    /// Periods in a unit of time.
+    pub frequency: f64,
+    /// What its cosine is multiplied by.
+    pub cosine: f64,
+    /// What its sine is multiplied by.
+    pub sine: f64,
+}
+
+impl Hum {
+    /// Half of what it spans.
+    pub fn amplitude(&self) -> f64 {
+        self.cosine.hypot(self.sine)
+    }
+
+    /// The sine's value at a time.
+    pub fn at(&self, t: f64) -> f64 {
+        let (s, c) = (TAU * self.frequency * t).sin_cos();
+        self.cosine * c + self.sine * s
+    }
+
+    /// Its mean over an interval, and how that moves with the frequency, the cosine and the sine.
+    fn mean(&self, middle: f64, width: f64) -> (f64, [f64; 3]) {
+        let Self { frequency, cosine, sine } = *self;
+        let (s, c) = (TAU * frequency * middle).sin_cos();
+        let value = cosine * c + sine * s;
+        let turned = sine * c - cosine * s;
+        let half = PI * frequency * width;
+        // sin(x)/x, by which the mean is less than the middle's value, and its slope.
+        let (less, slope) = if half.abs() < 1e-4 {
+            (1.0 - half * half / 6.0, -half / 3.0)
+        } else {
+            (half.sin() / half, (half.cos() - half.sin() / half) / half)
+        };
+        let by_frequency = turned * TAU * middle * less + value * slope * PI * width;
+        (value * less, [by_frequency, c * less, s * less])
+    }
+}
+
+/// A lamp's own ups and downs at a frequency and twice that: by `1 + flicker(t)` the light is multiplied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flicker {
+    /// Periods in a unit of time; it is known, and not fitted.
+    pub frequency: f64,
+    /// What cosine and sine, and those of twice the frequency, are multiplied by.
+    pub terms: [f64; 4],
+}
+
+impl Flicker {
+    /// None, as a start.
+    pub(super) fn none(frequency: f64) -> Self {
+        Self { frequency, terms: [0.0; 4] }
+    }
+
+    /// Half of what the first frequency spans, as a share of the light.
+    pub fn amplitude(&self) -> f64 {
+        self.terms[0].hypot(self.terms[1])
+    }
+
+    /// Cosines and sines, each as its mean over an interval.
+    fn waves(&self, middle: f64, width: f64) -> [f64; 4] {
+        let wave = |frequency: f64| {
+            let (s, c) = (TAU * frequency * middle).sin_cos();
+            let half = PI * frequency * width;
+            let less = if half.abs() < 1e-4 { 1.0 } else { half.sin() / half };
+            [less * c, less * s]
+        };
+        let ([a, b], [c, d]) = (wave(self.frequency), wave(2.0 * self.frequency));
+        [a, b, c, d]
+    }
+
+    /// By what the light is multiplied over an interval.
+    pub fn factor(&self, middle: f64, width: f64) -> f64 {
+        let waves = self.waves(middle, width);
+        1.0 + waves.iter().zip(self.terms).map(|(wave, term)| wave * term).sum::<f64>()
+    }
+}
+
+/// `v = dark + gain f(t) (1 + flicker(t)) + drift t + hum(t)`
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Signal {
+    /// Which curves it may have.
+    pub kind: Kind,
+    /// `f`
+    pub curve: Curve,
+    /// The level in the dark.
+    pub dark: f64,
+    /// What full light adds.
+    pub gain: f64,
+    /// By a unit of time.
+    pub drift: Option<f64>,
+    /// Beside the light.
+    pub hum: Option<Hum>,
+    /// Of the light.
+    pub flicker: Option<Flicker>,
+}
+
+/// A range that a parameter stays in.
+pub type Bounds = (f64, f64);
+const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
+
+impl Signal {
+    /// A box in the frame's own units, as the crossings have it.
+    pub(super) fn plain() -> Self {
+        Self {
+            kind: Kind::Box,
+            curve: Curve::trapezoid(-0.5, 0.0, 1.0, 0.0),
+            dark: 0.0,
+            gain: 1.0,
+            drift: None,
+            hum: None,
+            flicker: None,
+        }
+    }
+
+    /// How many numbers it takes.
+    pub(super) fn len(&self) -> usize {
+        let (drift, hum) = (self.drift.map_or(0, |_| 1), self.hum.map_or(0, |_| 3));
+        self.kind.parameters() + 2 + drift + hum + self.flicker.map_or(0, |_| 4)
+    }
+
+    /// Its numbers, the curve's first.
+    pub(super) fn pack(&self) -> Vec<f64> {
+        let mut packed = self.kind.pack(&self.curve);
+        packed.extend([self.dark, self.gain]);
+        packed.extend(self.drift);
+        packed.extend(self.hum.iter().flat_map(|hum| [hum.frequency, hum.cosine, hum.sine]));
+        packed.extend(self.flicker.iter().flat_map(|flicker| flicker.terms));
+        packed
+    }
+
+    /// The same with other numbers, as `pack` orders them.
+    pub(super) fn unpack(&self, packed: &[f64]) -> Self {
+        let (curve, rest) = packed.split_at(self.kind.parameters());
+        let (columns, at) = (&rest[2..], self.drift.map_or(0, |_| 1));
+        let waves = at + self.hum.map_or(0, |_| 3);
+        Self {
+            kind: self.kind,
+            curve: self.kind.unpack(curve),
+            dark: rest[0],
+            gain: rest[1],
+            drift: self.drift.map(|_| columns[0]),
+            hum: self.hum.map(|_| Hum {
+                frequency: columns[at],
+                cosine: columns[at + 1],
+                sine: columns[at + 2],
+            }),
+            flicker: self.flicker.map(|Flicker { frequency, .. }| Flicker {
+                frequency,
+                terms: std::array::from_fn(|k| columns[waves + k]),
+            }),
+        }
+    }
+
+    /// The bounds of each: no length below 0, and control numbers in [0, 1].
+    pub(super) fn bounds(&self) -> Vec<Bounds> {
+        let mut bounds = vec![ANY; self.len()];
+        for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
+            *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { (0.0, 1.0) };
+        }
+        bounds
+    }
+
+    /// The parameters that are control numbers, and what each is on a straight ramp.
+    pub(super) fn controls(&self) -> impl Iterator<Item = (usize, f64)> {
+        let n = self.kind.parameters();
+        (CONTROLS..n.max(CONTROLS)).map(|k| (k, STRAIGHT[(k - CONTROLS) % 4]))
+    }
+
+    /// What works the signal's means out.
+    pub(super) fn means(&self) -> Means<'_> {
+        Means { signal: self, exposure: Exposure::new(&self.curve), last: None }
+    }
+}
+
+/// A signal's mean over one interval after another.
+pub struct Means<'a> {
+    signal: &'a Signal,
+    exposure: Exposure,
+    /// Where the last interval ended, and what is collected by then: mostly the next one begins there.
+    last: Option<(f64, Collected)>,
+}
+
+impl Means<'_> {
+    /// The mean over [`from`, `to`], and how it moves with each parameter.
+    pub fn over(&mut self, from: f64, to: f64, moves: &mut [f64]) -> f64 {
+        let Signal { kind, dark, gain, drift, hum, flicker, .. } = *self.signal;
+        let start = match self.last {
+            Some((end, collected)) if end == from => collected,
+            _ => self.exposure.collected(from),
+        };
+        let end = self.exposure.collected(to);
+        self.last = Some((to, end));
+        let width = to - from;
+        let openness = (end.amount - start.amount) / width;
+        let middle = 0.5 * (from + to);
+        let lamp = flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+        let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
+        // In the order of `Signal::pack`.
+        let (of_curve, beside) = moves.split_at_mut(kind.parameters());
+        kind.gather(&each, of_curve);
+        let (levels, mut columns) = beside.split_at_mut(2);
+        levels.copy_from_slice(&[1.0, openness * lamp]);
+        let mut mean = dark + gain * openness * lamp;
+        if let Some(drift) = drift {
+            columns[0] = middle;
+            columns = &mut columns[1..];
+            mean += drift * middle;
+        }
+        if let Some(hum) = hum {
+            let (value, moves) = hum.mean(middle, width);
+            columns[..3].copy_from_slice(&moves);
+            columns = &mut columns[3..];
+            mean += value;
+        }
+        if let Some(flicker) = flicker {
+            let waves = flicker.waves(middle, width);
+            columns.copy_from_slice(&waves.map(|wave| gain * openness * wave));
+        }
+        mean
+    }
+}

@@ -1,0 +1,210 @@
+//! Least squares: the parameters of a signal that pass its bins most closely.
+//!
+//! Levenberg and Marquardt's method with bounds: a parameter that lies on its bound and would leave it stands still for a
+//! step, and a step that leaves a bound ends on it.
+
+use crate::bins::Bin;
+use crate::curve::Whole;
+use crate::signal::Signal;
+
+/// The most steps.
+const STEPS: usize = 150;
+/// The sum of squares has stopped falling where a step lowers it by less than this share.
+const LITTLE: f64 = 1e-8;
+
+/// What is minimised: squares of what the bins miss, and of what the control numbers miss of a straight ramp's.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub bins: Vec<Bin>,
+    /// By how much a control number counts that is 1 away.
+    pub prior: f64,
+    /// What the curve is to keep beside that, where the question is what this would cost.
+    pub held: Option<Held>,
+}
+
+/// A quantity of the whole curve that is to have a value.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    pub whole: Whole,
+    pub target: f64,
+    /// By how much a miss of 1 counts.
+    pub weight: f64,
+}
+
+/// A signal with its sum of squares and the normal equations there.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub signal: Signal,
+    pub cost: f64,
+    /// `JᵀJ`, up to its diagonal: it is symmetric.
+    pub normal: Vec<Vec<f64>>,
+    /// `Jᵀr`, what lowers the sum pointing against it.
+    pub gradient: Vec<f64>,
+}
+
+impl Solution {
+    fn empty(signal: &Signal) -> Self {
+        let n = signal.len();
+        Self { signal: *signal, cost: 0.0, normal: vec![vec![0.0; n]; n], gradient: vec![0.0; n] }
+    }
+
+    /// Adds the square of a miss that moves so with the parameters.
+    fn add(&mut self, weight: f64, miss: f64, moves: &[f64]) {
+        self.cost += weight * miss * miss;
+        for (i, row) in self.normal.iter_mut().enumerate() {
+            let weighted = weight * moves[i];
+            if weighted != 0.0 {
+                self.gradient[i] += weighted * miss;
+                for (cell, m) in row[..=i].iter_mut().zip(moves) {
+                    *cell += weighted * m;
+                }
+            }
+        }
+    }
+
+    /// The parameters that are on no bound which they would leave.
+    pub fn moving(&self) -> Vec<usize> {
+        let (packed, bounds) = (self.signal.pack(), self.signal.bounds());
+        let outward = |k: usize| {
+            let (low, high) = bounds[k];
+            packed[k] <= low && self.gradient[k] > 0.0
+                || packed[k] >= high && self.gradient[k] < 0.0
+        };
+        (0..packed.len()).filter(|k| !outward(*k)).collect()
+    }
+}
+
+impl Problem {
+    /// The signal as it is.
+    pub fn at(&self, signal: &Signal) -> Solution {
+        let mut solution = Solution::empty(signal);
+        let mut moves = vec![0.0; signal.len()];
+        let mut means = signal.means();
+        for bin in &self.bins {
+            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
+            solution.add(bin.samples, miss, &moves);
+        }
+        let packed = signal.pack();
+        for (k, straight) in signal.controls() {
+            moves.fill(0.0);
+            moves[k] = 1.0;
+            solution.add(self.prior, packed[k] - straight, &moves);
+        }
+        if let Some(Held { whole, target, weight }) = self.held {
+            let (value, each) = whole.of(&signal.curve);
+            moves.fill(0.0);
+            signal.kind.gather(&each, &mut moves);
+            solution.add(weight, value - target, &moves);
+        }
+        solution
+    }
+
+    /// The best signal near `start`.
+    pub fn minimise(&self, start: &Signal) -> Solution {
+        let bounds = start.bounds();
+        let mut here = self.at(start);
+        let (mut damping, mut idle) = (1e-3, 0);
+        for _ in 0..STEPS {
+            let packed = here.signal.pack();
+            let next = step(&here, &packed, &bounds, damping).map(|to| self.at(&start.unpack(&to)));
+            match next {
+                Some(next) if next.cost < here.cost => {
+                    let gain = (here.cost - next.cost) / here.cost;
+                    here = next;
+                    damping = f64::max(damping * 0.2, 1e-12);
+                    idle = if gain < LITTLE { idle + 1 } else { 0 };
+                }
+                _ => {
+                    damping *= 4.0;
+                    idle += usize::from(damping > 1e4);
+                }
+            }
+            if idle > 1 {
+                break;
+            }
+        }
+        here
+    }
+}
+
+/// The parameters a damped step on.
+fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
+    let moving = here.moving();
+    let matrix: Vec<Vec<f64>> = moving
+        .iter()
+        .map(|i| {
+            let damped = |j: usize| {
+                let cell = here.normal[*i][j];
+                if *i == j { cell * (1.0 + damping) + 1e-12 } else { cell }
+            };
+            moving.iter().map(|j| damped(*j)).collect()
+        })
+        .collect();
+    let right: Vec<f64> = moving.iter().map(|k| -here.gradient[*k]).collect();
+    let by = Cholesky::new(matrix)?.solve(&right);
+    let mut to = packed.to_vec();
+    for (k, by) in moving.into_iter().zip(by) {
+        to[k] = (to[k] + by).clamp(bounds[k].0, bounds[k].1);
+    }
+    Some(to)
+}
+
+/// `A = L Lᵀ` of a symmetric, positive matrix, which is read up to its diagonal.
+pub struct Cholesky {
+    lower: Vec<Vec<f64>>,
+}
+
+impl Cholesky {
+    /// None where the matrix is not positive.
+    pub fn new(mut a: Vec<Vec<f64>>) -> Option<Self> {
+        for j in 0..a.len() {
+            for i in j..a.len() {
+                let sum: f64 = (0..j).map(|k| a[i][k] * a[j][k]).sum();
+                let rest = a[i][j] - sum;
+                if i > j {
+                    a[i][j] = rest / a[j][j];
+                } else if rest > 0.0 && rest.is_finite() {
+                    a[j][j] = rest.sqrt();
+                } else {
+                    return None;
+                }
+            }
+        }
+        Some(Self { lower: a })
+    }
+
+    /// The same where the samples do not tell the parameters apart: their diagonal is raised until they are, so that each has
+    /// a variance, however large.
+    pub fn stiffened(a: &[Vec<f64>]) -> Self {
+        let largest = a.iter().enumerate().map(|(k, row)| row[k]).fold(f64::MIN_POSITIVE, f64::max);
+        let raised = |by: f64| {
+            let mut a = a.to_vec();
+            for (k, row) in a.iter_mut().enumerate() {
+                row[k] = row[k] * (1.0 + by) + 1e-6 * by * largest;
+            }
+            Self::new(a)
+        };
+        let found = (0..6).find_map(|k| raised(1e-10 * 100f64.powi(k)));
+        // A diagonal alone has a root: that of the numbers that are none is left out.
+        found.unwrap_or_else(|| {
+            let row =
+                |k: usize| (0..a.len()).map(move |j| if j == k { largest.sqrt() } else { 0.0 });
+            Self { lower: (0..a.len()).map(|k| row(k).collect()).collect() }
+        })
+    }
+
+    /// The `x` of `A x = right`.
+    pub fn solve(&self, right: &[f64]) -> Vec<f64> {
+        let (l, n) = (&self.lower, right.len());
+        let mut x = right.to_vec();
+        for i in 0..n {
+            let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
+            x[i] = (x[i] - sum) / l[i][i];
+        }
+        for i in (0..n).rev() {
+            let sum: f64 = (i + 1..n).map(|k| l[k][i] * x[k]).sum();
+            x[i] = (x[i] - sum) / l[i][i];
+        }
+        x
+    }
+}

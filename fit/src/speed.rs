@@ -1,0 +1,67 @@
+//! What a shutter tester says: the exposure beside the nearest speed of the scale, and the curve's times by their names.
+
+use crate::curve::Exposure;
+use crate::outcome::Fit;
+use crate::unit::{decimals, short};
+
+/// The full steps of the usual scale that are no powers of two, in parts of a second.
+const FRACTIONS: [f64; 13] =
+    [8000.0, 4000.0, 2000.0, 1000.0, 500.0, 250.0, 125.0, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0];
+
+/// A speed as a dial has it.
+fn named(seconds: f64) -> String {
+    // From a third of a second on, seconds are what a dial shows.
+    if seconds < 0.3 {
+        format!("1/{:.0} s", 1.0 / seconds)
+    } else {
+        format!("{} s", short(seconds, 3))
+    }
+}
+
+/// The nearest speed of the scale, in seconds.
+fn nearest(seconds: f64) -> f64 {
+    let whole = (0..10).map(|k| f64::from(1 << k));
+    let scale = FRACTIONS.into_iter().map(|part| 1.0 / part).chain(whole);
+    let far = |speed: &f64| (seconds / speed).log2().abs();
+    scale.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(1.0)
+}
+
+/// The exposure beside the nearest speed; none where that is more than a step away, as of what is no camera's shutter.
+pub fn speed(fit: &Fit) -> Option<String> {
+    let seconds = fit.exposure.value;
+    let nominal = nearest(seconds);
+    let stops = (seconds / nominal).log2();
+    let dial = if seconds < 0.3 {
+        // No digit finer than the error.
+        let parts = 1.0 / seconds;
+        let places =
+            decimals(parts * fit.exposure.error / seconds, 1).min(usize::from(parts < 100.0));
+        format!("1/{parts:.places$} s")
+    } else {
+        named(seconds)
+    };
+    (stops.abs() < 0.75)
+        .then(|| format!("{dial} measured, {} nominal: {stops:+.2} EV", named(nominal)))
+}
+
+/// T1 to T3, TE and TOT, as testers call them, to the digits that the length's error leaves.
+pub fn times(fit: &Fit) -> String {
+    let unit = fit.unit();
+    let curve = fit.best().signal.curve;
+    let feet = Exposure::new(&curve).feet(0.5);
+    let places = places(fit);
+    let show = |seconds: f64| format!("{:.places$}", unit.of(seconds));
+    let [opening, open, closing] = [curve.opening, curve.plateau, curve.closing].map(show);
+    let half = show(curve.length() - feet[0] - feet[1]);
+    let total = show(curve.length());
+    format!("T1 {opening}, T2 {open}, T3 {closing}; TE {half}; TOT {total} {}", unit.name())
+}
+
+/// The decimals of the curve's times: one digit more than their error has, and five digits at most.
+pub fn places(fit: &Fit) -> usize {
+    let unit = fit.unit();
+    let length = unit.of(fit.best().signal.curve.length());
+    let share = fit.efficiency.error / fit.efficiency.value;
+    let finest = decimals(length, 5);
+    if share > 0.0 && share.is_finite() { decimals(share * length, 1).min(finest) } else { finest }
+}

@@ -1,0 +1,478 @@
+//! Where the pulses of a trace are: its levels in the dark and in the light, its noise, its frames.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use super::samples::{CONTRAST, LARGEST, Trace, median, sampling_interval};
+use super::told::{Refusal, Warning};
+
+/// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
+const SPIKE: f64 = 6.0;
+/// One in so many samples is few: so many are a trace's end, are smoothed together at most, or may be spikes.
+const FEW_OF: usize = 50;
+/// The fewest samples of a trace.
+const FEWEST: usize = 16;
+/// The fewest samples of a pulse.
+const FEWEST_LIT: usize = 8;
+/// The fewest samples in the dark on either side of a pulse.
+const FEWEST_DARK: usize = 3;
+/// The shares of the light at which a pulse's ramps are timed.
+pub const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
+/// The beginning and the end of a trace that differ by this share of the light are not both dark.
+const CUT: f64 = 0.3;
+/// Between these shares of the light the state stays what it was.
+const SWITCH: (f64, f64) = (0.4, 0.6);
+/// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
+const GLITCH: f64 = 0.2;
+
+/// No camera fires again so soon, in seconds, but a lamp on the mains or behind a switch does.
+const FASTEST: f64 = 0.011;
+
+/// So far below the dark, as a share of the light, neither drift nor hum take a signal.
+const UNDERSHOOT: f64 = 0.1;
+
+/// The least of many samples strays so many standard deviations of the noise from their mean.
+const STRAY: f64 = 5.0;
+
+/// Which way light moves the signal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Light {
+    /// It begins and ends in the dark.
+    #[default]
+    Auto,
+    /// Light raises it.
+    Up,
+    /// Light lowers it.
+    Down,
+}
+
+/// When a quarter, half and three quarters of the light are reached, and left again: six times in order.
+pub type Crossings = [f64; 6];
+
+/// The samples of one opening of the shutter, from the dark before to the dark after.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Which samples of the trace.
+    pub samples: Range<usize>,
+    /// In seconds.
+    pub crossings: Crossings,
+    /// The integral over the light's level above the dark, in seconds; as the samples have it.
+    pub exposure: f64,
+}
+
+/// What is known of a trace before a model is fitted.
+#[derive(Clone, Debug)]
+pub struct Pulses {
+    /// The trace without its spikes; what light lowers is turned round.
+    pub trace: Trace,
+    /// Does light lower the signal as it was measured?
+    pub inverted: bool,
+    /// The level in the dark, and how much the light adds.
+    pub levels: (f64, f64),
+    /// The standard deviation of what differs from one sample to the next.
+    pub noise: f64,
+    /// The standard deviation of what rounding adds to all samples of a level alike.
+    pub rounding: f64,
+    /// In order.
+    pub frames: Vec<Frame>,
+    /// What is doubtful.
+    pub warnings: Vec<Warning>,
+}
+
+impl Pulses {
+    /// How much the light adds to the dark.
+    pub fn light(&self) -> f64 {
+        self.levels.1
+    }
+
+    /// The noise as a share of the light.
+    pub(crate) fn relative_noise(&self) -> f64 {
+        self.noise / self.light()
+    }
+
+    /// A value as it was measured from one with light upwards, or the other way round.
+    pub(crate) fn turned(&self, value: f64) -> f64 {
+        if self.inverted { -value } else { value }
+    }
+}
+
+/// Finds the pulses.
+///
+/// # Errors
+/// No pulse, an incomplete one, too few samples.
+pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
+    check(trace)?;
+    let mut trace = trace.clone();
+    let mut warnings = Vec::new();
+    let (noise, rounding) = (noise(&trace.values), common_rounding(&trace.values));
+    let spikes = drop_spikes(&mut trace, noise);
+    if let Some(first) = spikes.first() {
+        warnings.push(Warning::Spikes { count: spikes.len(), first: *first });
+    }
+
+    let mut smooth = Smooth::new(&trace.values, noise)?;
+    let inverted = match light {
+        Light::Up => false,
+        Light::Down => true,
+        Light::Auto => smooth.seems_inverted(),
+    };
+    if inverted {
+        trace.values.iter_mut().for_each(|v| *v = -*v);
+        smooth.turn();
+    }
+    let contrast = smooth.contrast();
+    if contrast < CONTRAST {
+        return Err(Refusal::NoPulse { contrast });
+    }
+    let levels = (smooth.dark, smooth.light());
+    let has_way = light != Light::Auto;
+    smooth.check_ends(levels.1, has_way)?;
+    warnings.extend(smooth.undershoot(levels.1));
+
+    let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
+    let mut runs = runs(&share);
+    if runs.is_empty() {
+        return Err(Refusal::NoPulse { contrast });
+    }
+    warnings.extend(pulsed(&trace.times, &runs));
+    let glitches = drop_glitches(&mut runs, &share);
+    if glitches > 0 {
+        warnings.push(Warning::Glitches { count: glitches });
+    }
+    let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0);
+    if longest < FEWEST_LIT {
+        return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT });
+    }
+    let frames = frames(&trace, &share, &runs, levels, has_way, &mut warnings)?;
+    if inverted && light == Light::Auto {
+        warnings.push(Warning::Inverted);
+    }
+    Ok(Pulses { trace, inverted, levels, noise, rounding, frames, warnings })
+}
+
+/// What no arithmetic would survive.
+fn check(trace: &Trace) -> Result<(), Refusal> {
+    let Trace { times, values } = trace;
+    if times.len() < FEWEST {
+        return Err(Refusal::TooFewSamples { samples: times.len(), required: FEWEST });
+    }
+    let is_sound = times.len() == values.len()
+        && times.iter().chain(values).all(|x| x.abs() <= LARGEST)
+        && times.windows(2).all(|pair| pair[0] < pair[1]);
+    if is_sound { Ok(()) } else { Err(Refusal::Unsound) }
+}
+
+/// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
+/// the least step of the values makes.
+fn noise(values: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let least = steps.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+    let rounding = if least.is_finite() { least / 12f64.sqrt() } else { 0.0 };
+    let middle = steps.len() / 2;
+    let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    (median / 0.6745 / 2f64.sqrt()).max(rounding)
+}
+
+fn range(values: &[f64]) -> (f64, f64) {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)))
+}
+
+/// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is left.
+fn common_rounding(values: &[f64]) -> f64 {
+    let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let repeated = differ.iter().filter(|d| **d == 0.0).count();
+    let least = differ.iter().copied().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+    if repeated * FEW_OF < values.len() || !least.is_finite() {
+        return 0.0;
+    }
+    // Of many short parts the middle one is flat.
+    let part = |few: &[f64]| 0.5 * few.iter().map(|d| d * d).sum::<f64>() / few.len() as f64;
+    let rounding = least * least / 12.0;
+    let noise = (median(differ.chunks(24).map(part).collect()) - rounding).max(0.0);
+    (rounding * (-4.0 * (PI / least).powi(2) * noise).exp()).sqrt()
+}
+
+/// Drops the samples that lie outside what their neighbours span by [`SPIKE`] and by more than that span. The
+/// immediate neighbours are not asked: a spike may be two samples wide. Tells the times.
+fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
+    let Trace { times, values } = trace;
+    let n = values.len();
+    let is_spike = |i: usize| {
+        let near = (i.saturating_sub(4)..i.saturating_sub(1)).chain((i + 2).min(n)..(i + 5).min(n));
+        let (low, high) = near.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| {
+            (low.min(values[k]), high.max(values[k]))
+        });
+        let outside = (values[i] - high).max(low - values[i]);
+        outside > (SPIKE * noise).max(1.5 * (high - low))
+    };
+    // Not at the ends: there an edge would be one.
+    let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
+    // What is so frequent is no accident: a pattern that belongs to the signal.
+    if spikes.is_empty() || spikes.len() > n / FEW_OF {
+        return Vec::new();
+    }
+    let told = spikes.iter().map(|i| times[*i]).collect();
+    let mut kept = vec![true; n];
+    spikes.iter().for_each(|i| kept[*i] = false);
+    let mut keep = kept.iter();
+    times.retain(|_| *keep.next().unwrap_or(&true));
+    let mut keep = kept.iter();
+    values.retain(|_| *keep.next().unwrap_or(&true));
+    told
+}
+
+/// A trace's values, smoothed so far that the noise switches no state.
+struct Smooth {
+    values: Vec<f64>,
+    /// What is left of the noise.
+    noise: f64,
+    /// The level at the beginning and the end, which are dark.
+    dark: f64,
+}
+
+impl Smooth {
+    fn new(values: &[f64], noise: f64) -> Result<Self, Refusal> {
+        let (low, high) = range(values);
+        if high <= low {
+            return Err(Refusal::NoPulse { contrast: 0.0 });
+        }
+        // A twentieth of the light is too little to switch.
+        let window = (noise / (0.05 * (high - low))).powi(2).ceil() as usize;
+        let window = window.clamp(1, values.len() / FEW_OF + 1);
+        let values = means(values, window);
+        let (first, last) = ends(&values);
+        let dark = 0.5 * (first + last);
+        Ok(Self { values, noise: noise / (window as f64).sqrt(), dark })
+    }
+
+    /// Does the signal leave the dark downwards? If one end is in the light, nothing tells which one but that light mostly
+    /// raises a signal.
+    fn seems_inverted(&self) -> bool {
+        let (low, high) = range(&self.values);
+        let (first, last) = ends(&self.values);
+        let is_cut = (first - last).abs() > CUT * (high - low);
+        !is_cut && self.dark - low > high - self.dark
+    }
+
+    fn turn(&mut self) {
+        self.values.iter_mut().for_each(|v| *v = -*v);
+        self.dark = -self.dark;
+    }
+
+    /// The peak above the dark.
+    fn height(&self) -> f64 {
+        range(&self.values).1 - self.dark
+    }
+
+    /// The height in standard deviations of the noise.
+    fn contrast(&self) -> f64 {
+        self.height() / self.noise.max(f64::MIN_POSITIVE)
+    }
+
+    /// How much the light adds to the dark: up to the median of what is above half, or to the peak where that is far above.
+    fn light(&self) -> f64 {
+        let half = self.dark + 0.5 * self.height();
+        let above = |level: f64| self.values.iter().copied().filter(|v| *v > level).collect();
+        let middle = median(above(half));
+        let top: Vec<f64> = above(middle);
+        let full = if top.is_empty() { middle } else { median(top) };
+        full - self.dark
+    }
+
+    /// Light moves a signal one way only, unless a capacitor takes the mean away.
+    fn undershoot(&self, light: f64) -> Option<Warning> {
+        let below = self.dark - range(&self.values).0;
+        let is_more_than_noise = below - STRAY * self.noise > UNDERSHOOT * light;
+        is_more_than_noise.then_some(Warning::Undershoot { share: below / light })
+    }
+
+    /// Are both ends in the dark?
+    fn check_ends(&self, light: f64, has_way: bool) -> Result<(), Refusal> {
+        let (first, last) = ends(&self.values);
+        // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
+        if (first - last).abs() > CUT * light {
+            return Err(if first > last {
+                Refusal::BeginsInPulse { has_way }
+            } else {
+                Refusal::EndsInPulse { has_way }
+            });
+        }
+        if first > self.dark + SWITCH.0 * light {
+            return Err(Refusal::BeginsInPulse { has_way });
+        }
+        Ok(())
+    }
+}
+
+/// Means over `window` neighbours, fewer at the ends.
+fn means(values: &[f64], window: usize) -> Vec<f64> {
+    if window < 2 {
+        return values.to_vec();
+    }
+    let n = values.len();
+    let mut sums = vec![0.0; n + 1];
+    for i in 0..n {
+        sums[i + 1] = sums[i] + values[i];
+    }
+    let (before, after) = (window / 2, window - window / 2);
+    (0..n)
+        .map(|i| {
+            let (from, to) = (i.saturating_sub(before), (i + after).min(n));
+            (sums[to] - sums[from]) / (to - from) as f64
+        })
+        .collect()
+}
+
+/// The medians of the first and the last samples.
+fn ends(values: &[f64]) -> (f64, f64) {
+    let n = values.len();
+    let few = (n / FEW_OF).max(3);
+    (median(values[..few].to_vec()), median(values[n - few..].to_vec()))
+}
+
+/// Where the light is on, with a switch that has two thresholds.
+fn runs(share: &[f64]) -> Vec<Range<usize>> {
+    let (mut runs, mut start) = (Vec::new(), None);
+    for (i, share) in share.iter().enumerate() {
+        match start {
+            None if *share > SWITCH.1 => start = Some(i),
+            Some(from) if *share < SWITCH.0 => {
+                runs.push(from..i);
+                start = None;
+            }
+            _ => (),
+        }
+    }
+    runs.extend(start.map(|from| from..share.len()));
+    runs
+}
+
+/// Pulses that follow each other faster than any camera fires.
+fn pulsed(times: &[f64], runs: &[Range<usize>]) -> Option<Warning> {
+    let gaps: Vec<f64> =
+        runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
+    let period = if gaps.is_empty() { return None } else { median(gaps) };
+    (period < FASTEST).then_some(Warning::Pulsed { hertz: 1.0 / period })
+}
+
+/// Drops the runs with too little light to be pulses, and tells how many.
+fn drop_glitches(runs: &mut Vec<Range<usize>>, share: &[f64]) -> usize {
+    let light = |run: &Range<usize>| share[run.clone()].iter().sum::<f64>();
+    let largest = runs.iter().map(light).fold(0.0, f64::max);
+    let before = runs.len();
+    runs.retain(|run| light(run) > GLITCH * largest);
+    before - runs.len()
+}
+
+/// The frames of the pulses, each up to halfway to the next; of several pulses, those that the trace cuts are left out.
+fn frames(
+    trace: &Trace,
+    share: &[f64],
+    runs: &[Range<usize>],
+    levels: (f64, f64),
+    has_way: bool,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Frame>, Refusal> {
+    let mut frames = Vec::new();
+    for (k, run) in runs.iter().enumerate() {
+        let from = if k > 0 { (runs[k - 1].end + run.start) / 2 } else { 0 };
+        let to = runs.get(k + 1).map_or(share.len(), |next| (run.end + next.start) / 2);
+        let cut = if run.start - from < FEWEST_DARK {
+            Refusal::BeginsInPulse { has_way }
+        } else if to - run.end < FEWEST_DARK {
+            Refusal::EndsInPulse { has_way }
+        } else {
+            frames.push(frame(trace, share, run, from..to, levels));
+            continue;
+        };
+        if runs.len() == 1 {
+            return Err(cut);
+        }
+        warnings.push(Warning::PartialFrame { number: k + 1 });
+    }
+    if frames.is_empty() { Err(Refusal::BeginsInPulse { has_way }) } else { Ok(frames) }
+}
+
+/// The frame of the pulse whose light is on in `run`, and which owns `samples`.
+fn frame(
+    trace: &Trace,
+    share: &[f64],
+    run: &Range<usize>,
+    samples: Range<usize>,
+    (dark, light): (f64, f64),
+) -> Frame {
+    let t = &trace.times;
+    let crossings = crossings(t, share, run, &samples);
+    // Half a pulse of dark on either side: more would only add noise.
+    let (from, to) = window(t, &samples, crossings, 0.5);
+    let usual = sampling_interval(&t[samples.clone()]);
+    // Across a gap no sample stands for more than the usual time: nothing is known of the rest.
+    let owned = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
+    let exposure = (from..to)
+        .map(|i| {
+            let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
+            let after = t[(i + 1).min(samples.end - 1)] - t[i];
+            (owned(before) + owned(after)) * (trace.values[i] - dark) / light
+        })
+        .sum();
+    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell.
+    let (from, to) = window(t, &samples, crossings, 2.0);
+    Frame { samples: from..to, crossings, exposure }
+}
+
+/// When the pulse reaches each quarter of the light and leaves it, seen from its inside.
+fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize>) -> Crossings {
+    // The first sample below, and the time in between.
+    let rise = |level: f64| {
+        let inside = run.clone().find(|i| share[*i] >= level).unwrap_or(run.start);
+        match (samples.start..inside).rev().find(|i| share[*i] < level) {
+            Some(i) => between(t, share, i, level),
+            None => t[inside],
+        }
+    };
+    let fall = |level: f64| {
+        let inside = run.clone().rev().find(|i| share[*i] >= level).unwrap_or(run.end - 1);
+        match (inside + 1..samples.end).find(|i| share[*i] < level) {
+            Some(i) => between(t, share, i - 1, level),
+            None => t[inside],
+        }
+    };
+    let [a, b, c] = QUARTERS;
+    let mut crossings = [rise(a), rise(b), rise(c), fall(c), fall(b), fall(a)];
+    for k in 1..crossings.len() {
+        crossings[k] = crossings[k].max(crossings[k - 1]);
+    }
+    crossings
+}
+
+/// The samples from so many pulses before a pulse to so many after it, and some more, up to the next gap.
+fn window(
+    times: &[f64],
+    samples: &Range<usize>,
+    crossings: Crossings,
+    pulses: f64,
+) -> (usize, usize) {
+    let around = pulses * (crossings[5] - crossings[0]);
+    let from = times.partition_point(|t| *t < crossings[0] - around);
+    let to = times.partition_point(|t| *t <= crossings[5] + around);
+    let usual = sampling_interval(&times[samples.clone()]);
+    let near = |a: usize, b: usize| times[b] - times[a] <= around.max(4.0 * usual);
+    let (mut first, mut end) = (from.max(samples.start), to.min(samples.end));
+    for _ in 0..8 {
+        if first > samples.start && near(first - 1, first) {
+            first -= 1;
+        }
+        if end < samples.end && near(end - 1, end) {
+            end += 1;
+        }
+    }
+    (first, end)
+}
+
+/// The time between a sample and the next one at which the light is at a level.
+fn between(times: &[f64], share: &[f64], i: usize, level: f64) -> f64 {
+    let part = (level - share[i]) / (share[i + 1] - share[i]);
+    times[i] + (times[i + 1] - times[i]) * if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 }
+}

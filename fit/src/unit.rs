@@ -1,0 +1,119 @@
+//! Units of time, and numbers as people write them.
+
+use serde::{Deserialize, Serialize};
+
+/// A unit of time, by the name that it has in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Unit {
+    /// `s`
+    #[serde(rename = "s")]
+    #[cfg_attr(feature = "clap", value(name = "s", help = None))]
+    Second,
+    /// `ms`
+    #[serde(rename = "ms")]
+    #[cfg_attr(feature = "clap", value(name = "ms", help = None))]
+    Millisecond,
+    /// `µs`, with the micro sign or the Greek letter, or `us`
+    #[serde(rename = "µs", alias = "μs", alias = "us")]
+    #[cfg_attr(feature = "clap", value(name = "us", aliases = ["µs", "μs"], help = None))]
+    Microsecond,
+    /// `ns`
+    #[serde(rename = "ns")]
+    #[cfg_attr(feature = "clap", value(name = "ns", help = None))]
+    Nanosecond,
+}
+
+impl Unit {
+    const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+
+    /// As it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Second => "s",
+            Self::Millisecond => "ms",
+            Self::Microsecond => "µs",
+            Self::Nanosecond => "ns",
+        }
+    }
+
+    /// How many of it are a second.
+    pub const fn per_second(self) -> f64 {
+        match self {
+            Self::Second => 1.0,
+            Self::Millisecond => 1e3,
+            Self::Microsecond => 1e6,
+            Self::Nanosecond => 1e9,
+        }
+    }
+
+    /// The largest that `seconds` has at least one of.
+    pub fn fit(seconds: f64) -> Self {
+        let fits = |unit: &Self| seconds * unit.per_second() >= 1.0;
+        Self::ALL.into_iter().find(fits).unwrap_or(Self::Nanosecond)
+    }
+
+    /// A time without its unit.
+    pub fn of(self, seconds: impl Into<f64>) -> f64 {
+        seconds.into() * self.per_second()
+    }
+
+    /// The seconds of a time in this unit; divided, so that 2.5 ms is the number nearest to 0.0025.
+    pub fn seconds(self, time: f64) -> f64 {
+        time / self.per_second()
+    }
+
+    /// A time with its unit, to five digits.
+    pub fn show(self, seconds: impl Into<f64>) -> String {
+        format!("{} {}", short(self.of(seconds), 5), self.name())
+    }
+}
+
+/// So many things by their name: `1 trigger`, `2 triggers`.
+pub fn count(n: impl Into<u64>, thing: &str) -> String {
+    let n = n.into();
+    format!("{n} {thing}{}", if n == 1 { "" } else { "s" })
+}
+
+/// `x` to so many significant digits, without the zeros that say nothing.
+pub fn short(x: f64, digits: i32) -> String {
+    if x != 0.0 && !(1e-6..1e12).contains(&x.abs()) {
+        return format!("{x:.0$e}", digits as usize - 1);
+    }
+    trimmed(x, decimals(x, digits))
+}
+
+/// The number that [`short`] writes.
+pub fn rounded(x: f64, digits: i32) -> f64 {
+    let scale = 10f64.powi(decimals(x, digits) as i32);
+    let rounded = (x * scale).round() / scale;
+    if rounded.is_finite() { rounded } else { x }
+}
+
+/// `x` to so many decimals, without the zeros that say nothing.
+pub fn trimmed(x: f64, places: usize) -> String {
+    let fixed = format!("{x:.places$}");
+    let number = match fixed.contains('.') {
+        true => fixed.trim_end_matches('0').trim_end_matches('.'),
+        false => &fixed,
+    };
+    if number == "-0" { "0".into() } else { number.into() }
+}
+
+/// How many decimals show `digits` significant digits of `x`.
+pub fn decimals(x: f64, digits: i32) -> usize {
+    let leading = if x == 0.0 { 0.0 } else { x.abs().log10().floor() + 1.0 };
+    // No `f64` has more, whatever its least digit.
+    ((f64::from(digits) - leading) as usize).min(340)
+}
+
+/// No number with an error has more decimals, however small that is.
+pub const MOST_PLACES: usize = 12;
+
+/// A value and its standard error, to the digits that the error leaves.
+pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
+    let places =
+        if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
+    let places = places.min(MOST_PLACES);
+    format!("{value:.places$} ± {error:.places$} {unit}")
+}
