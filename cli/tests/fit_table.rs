@@ -1,5 +1,5 @@
-//! How well traces with a known truth are fitted. The ordinary test judges some of them; the whole table of docs/fit.md, and
-//! its picture, come from
+//! How well traces with a known truth are fitted. The ordinary test judges some of them; the whole table behind
+//! docs/internals/fit.md, and its picture, come from
 //!
 //! ```text
 //! cargo test --package shutter --test fit_table -- --ignored --nocapture
@@ -207,7 +207,7 @@ fn some_traces_are_fitted_as_well_as_promised() {
 }
 
 #[test]
-#[ignore = "some minutes: the whole table, for docs/fit.md"]
+#[ignore = "some minutes: the whole table, for docs/internals/fit.md"]
 fn table() {
     let mut white = Vec::new();
     for (disturbance, name, limits) in DISTURBANCES {

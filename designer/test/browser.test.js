@@ -633,7 +633,7 @@ test('a newcomer sees pictures, words, the speed, and an exposure that plays unl
   });
   assert.doesNotMatch(text, /\bcdf\b|\b[ty][1-6]\b|open_start/);
   assert.match(await page.textContent('header'), /shutter opens.*trace.*flash/s);
-  for (const link of ['docs.rs/shutter-curve', 'docs.rs/crate/shutter-curve', 'recording.md']) assert.ok(await page.locator(`header a[href*="${link}"]`).count(), link);
+  for (const link of ['docs.rs/shutter-curve', 'docs.rs/crate/shutter-curve', 'measuring.md']) assert.ok(await page.locator(`header a[href*="${link}"]`).count(), link);
   await page.waitForSelector('#sweep b', { state: 'attached' });
   const moving = await page.evaluate(() => document.getAnimations().filter((it) => it.effect.target.closest('#sweep')).map((it) => it.effect.getTiming().delay));
   assert.equal(moving.length, 13, 'the bar, and a flash for each trigger');

@@ -1,5 +1,5 @@
 //! What `shutter fit` makes of shutters, lamps and recorders that no model of it has: right, or doubted aloud, or refused. The
-//! ordinary test judges some traces of each; the tables of docs/fit.md come from
+//! ordinary test judges some traces of each; the tables of docs/internals/fit.md come from
 //!
 //! ```text
 //! cargo test --package shutter --test fit_physics -- --ignored --nocapture
@@ -162,7 +162,7 @@ const HEAD: &str = "| | traces | triggers, median | 90 % | exposure, median | 90
                     from the trace | wrong | silently | warnings |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|";
 
 #[test]
-#[ignore = "some minutes: the tables, for docs/fit.md"]
+#[ignore = "some minutes: the tables, for docs/internals/fit.md"]
 fn table() {
     let (count, seed) = (asked("EACH", 20), asked("SEED", 1));
     println!("\n{HEAD}");
@@ -186,9 +186,9 @@ fn device_rows(device: Device, count: u64, seed: u64) -> Vec<Row> {
     })
 }
 
-/// Other devices, made when all was done; docs/fit.md says what was changed since.
+/// Other devices, made when all was done; docs/internals/fit.md says what was changed since.
 #[test]
-#[ignore = "some minutes: the table of other devices, for docs/fit.md"]
+#[ignore = "some minutes: the table of other devices, for docs/internals/fit.md"]
 fn fresh_devices() {
     let (count, seed) = (asked("EACH", 25), asked("SEED", 1));
     println!("\n{HEAD}");
@@ -255,7 +255,7 @@ fn the_models_own_kind_is_not_doubted() {
 
 /// On the model's own kind nearly nothing is doubted.
 #[test]
-#[ignore = "some minutes: the table of false alarms, for docs/fit.md"]
+#[ignore = "some minutes: the table of false alarms, for docs/internals/fit.md"]
 fn false_alarms() {
     let (count, seed) = (asked("EACH", 20), asked("SEED", 1));
     for (k, disturbance) in
