@@ -8,7 +8,7 @@ use crate::exposure::{CDF_ERROR, Exposure};
 use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::rounded;
 use crate::number::pair::{Pair, significand};
-use crate::number::units::{WHOLE, WHOLE_EXPONENT};
+use crate::number::units::{DARK, WHOLE, WHOLE_EXPONENT};
 
 /// Where a time lies on the curve.
 enum At {
@@ -97,7 +97,8 @@ impl Exposure {
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();
-        if nearest <= 0.0 {
+        // So far down the inverse would bisect.
+        if nearest < DARK {
             return 0.0;
         }
         // mass = nearest + rest, and the middle is nearest + half, on the side of rest.

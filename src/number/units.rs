@@ -19,6 +19,10 @@ pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
+/// Half of the least `f32` above 0, in [`WHOLE`]: less than that is 0 as an `f32`. A ramp with less is *dark*.
+pub(crate) const DARK: f32 = power_of_two(DARK_EXPONENT);
+const DARK_EXPONENT: i32 = WHOLE_EXPONENT - 150;
+
 /// How many values a `u32` has, and a `u64`.
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
@@ -47,11 +51,10 @@ pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
 
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
-    // A ramp with less than 2⁻¹⁵⁰ of the exposure is dark. At 2⁻¹⁵⁰ the factor is 2¹²⁶ and its inverse 2⁻¹²⁶, the least
-    // normal number: so WHOLE may not be less, and the 80 not greater.
-    const DARK: i32 = WHOLE_EXPONENT - 150;
+    // At 2⁻¹⁵⁰ of the exposure the factor is 2¹²⁶ and its inverse 2⁻¹²⁶, the least normal number: so WHOLE may not be
+    // less, and the 80 not greater.
     let exponent = exponent(share);
-    80 - if exponent < DARK { DARK } else { exponent }
+    80 - if exponent < DARK_EXPONENT { DARK_EXPONENT } else { exponent }
 }
 
 /// The exponent of a ramp's unit of time. The ramp is one to two [`LENGTH`]s long (less if its length is subnormal), so

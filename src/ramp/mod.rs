@@ -26,7 +26,9 @@ use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, flipped};
 use crate::number::series::Series;
-use crate::number::units::{LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit};
+use crate::number::units::{
+    DARK, LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit,
+};
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::integral;
 use crate::ramp::shape::Shape;
@@ -99,10 +101,8 @@ impl Ramp {
     pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
         let [start, _, _, end] = curve.times();
         let shape = Shape::new(curve);
-        let share = shape.area() / area;
-        // Below 2⁻¹⁵⁰ no `f32` u is reached on the ramp.
-        let is_dark = share < 0.5 * f32::from_bits(1) as f64;
-        let share = Pair::from_f64(if is_dark { 0.0 } else { share * WHOLE as f64 });
+        let share = shape.area() / area * WHOLE as f64;
+        let share = Pair::from_f64(if share < DARK as f64 { 0.0 } else { share });
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
         let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
         let mut ramp = Self {
