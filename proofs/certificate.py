@@ -20,11 +20,11 @@ code("const COSINES: &[i32; POINTS / 2 + 1] = &{", """
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() { cosines[i] = (cosine * PLACE as f64 + 0.5) as i32;
     (cosine, last) = (2.0 * COSINE * cosine - last, cosine); i += 1; } cosines };""")
-code("let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);", """
+code("let (mut seen, mut i) = ([0.0; KINDS], 0);", """
     while i < COSINES.len() { let mut place = COSINES[i]; loop {
     let half = 1 << (FRACTION_BITS - 1);
     let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
-    let value = octave.polynomial(octave.ahead_of_center(position));
+    let value = octave.polynomial(octave.offset(position));
     let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
     let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
     let error = error / (1 << TIME_BITS) as f32;""")
@@ -33,9 +33,9 @@ code("counted[k] = fixed_f64(c[k], -bits);", "are_counted &= counted[k].unsigned
 code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut c) = (0, c);
     while let [lower @ .., next] = c { let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
     value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next; c = lower; } value }""")
-code("let noise = noise * absolute(&weights[kind], 1.0);", """found.least[kind] -= noise;
-    found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
-code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * bends(octave, x, axis);")
+code("let noise = noise * absolute(&weights[kind], 1.0);", """least[kind] -= noise;
+    most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
+code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * off_line(octave, x, axis);")
 code("let [axis, square, _] = ELLIPSES[i];", """
     let mut tail = tails[i] * absolute(weight, axis);
     let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
@@ -57,9 +57,9 @@ DEGREES = int(source(r"const DEGREES: usize = (\d+);"))
 SLACK = 1 + 1 / Fraction(2 ** int(source(r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
 MOST_POINTS = int(source(r"const POINTS: usize = (\d+);"))
 COSINE = float(source(r"const COSINE: f64 = ([\d.]+);"))
-EFFORTS = int(source(r"pub\(crate\) const EFFORTS: usize = (\d+);"))
+code("step = if is_decided { 0 }", "else { step / 2 }; }")
 # Every fourth point, every second, and all.
-STEPS = [4 >> effort for effort in range(EFFORTS)]
+STEPS = [int(source(r"pub\(crate\) const SPARSEST: usize = (\d+);")) >> halvings for halvings in range(3)]
 PLACES = 2 ** int(source(r"const PLACE: f32 = \(1 << (\d+)\) as f32;"))
 RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source(r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
 require(STEPS == [4, 2, 1] and MOST_POINTS % 8 == 0 and len(RHOS) == 6, "points and ellipses")
@@ -180,7 +180,7 @@ for rho in RHOS:
 proven("ellipses: A, 1/rho^2 and 2 rho^-12 / (rho - 1) are too small by at most " + ", ".join(
     f"{float(max(low[i] for low in axes_low.values())):.1f}" for i in range(3)) + " roundings of 2^-24")
 
-# --- `bends`. On an ellipse |s| <= A, x is X + W with |X| <= Y1 and |W| <= Y - Y1, and (X + W)^k - X^k has no negative term.
+# --- `off_line`. On an ellipse |s| <= A, x is X + W with |X| <= Y1 and |W| <= Y - Y1, and (X + W)^k - X^k has no negative term.
 
 
 def transcribed(c, y1, w, mul, add):
@@ -223,17 +223,17 @@ for k in range(DEGREE - 1):
     for j in range(1, DEGREE - k + 1):
         # (Y1 + W)^n - Y1^n
         expected = poly_add(expected, {tuple([DEGREE - k - j, j] + [int(i == k) for i in range(DEGREE)]): comb(DEGREE - k, j)})
-require(found == expected, "bends")
+require(found == expected, "off_line")
 require(all(number > 0 for number in expected.values()), "no negative term")
 random.seed(3)
 for _ in range(200):
     c = [Fraction(random.randint(0, 2**31)) for _ in range(DEGREE)]
     y1, w = Fraction(random.randint(0, 2**20), 2**19), Fraction(random.randint(0, 2**20), 2**21)
     exact = sum(c[k] * ((y1 + w) ** (DEGREE - k) - y1 ** (DEGREE - k)) for k in range(DEGREE - 1))
-    require(transcribed(c, y1, w, lambda a, b: a * b, lambda a, b: a + b) == exact, "bends, by numbers")
+    require(transcribed(c, y1, w, lambda a, b: a * b, lambda a, b: a + b) == exact, "off_line, by numbers")
     without_x2 = sum(c[k] * ((y1 + w) ** (DEGREE - k) - y1 ** (DEGREE - k)) for k in range(DEGREE - 2))
     require(w == 0 or c[DEGREE - 2] == 0 or y1 + w == 0 or without_x2 < exact, "each power counts")
-proven("bends is the sum of |c_k| (Y^k - Y1^k) from k = 2 on, as an identity, and so bounds Q(x) - Q(x0 + x1 s) but for c_1 x")
+proven("off_line is the sum of |c_k| (Y^k - Y1^k) from k = 2 on, as an identity, and so bounds Q(x) - Q(x0 + x1 s) but for c_1 x")
 
 # --- SLACK: by how many roundings a tail's bound may be too small. All terms are positive, so the longest way counts.
 for rho, low in axes_low.items():
@@ -247,9 +247,9 @@ for rho, low in axes_low.items():
     for _ in range(DEGREE - 1):
         more = max(both + more + 1, curve + power + 1) + 1
         power = power + linear + 1
-    bends = 1 + more + 1 + (DEGREE - 2)  # c_k itself, the product, and the sums
+    off_line = 1 + more + 1 + (DEGREE - 2)  # c_k itself, the product, and the sums
     weighed = 1 + 2 * weight + axis * weight
-    tail = bends + weighed + first + 3 + (DEGREES - 1) * (1 + square)
+    tail = off_line + weighed + first + 3 + (DEGREES - 1) * (1 + square)
     # The share, the quotient and two sums.
     count = tail + 4
     axes_low[rho] = count
@@ -272,7 +272,8 @@ code("let slope = 0.5 * (per_size[1] - per_size[0]) / (t1 + t3);", """
     let per_size_along = [mean - slope * t2, slope * t1, slope * t2, slope * t3];""")
 code("let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];", "")
 code("let error = time + self.rounding;", "let rounding = self.rounding + error * WEIGHT_OFF;")
-code("relative + rounding * self.per_size,", "exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends, error * self.beyond, ]")
+code("forward: relative + rounding * self.per_size,", """
+    backward: exposure + rounding * absolute(&self.openness, 1.0) + error * way * steepest, beyond: error * self.beyond, }""")
 weight_off = 1 / Fraction(2 ** int(source(r"const WEIGHT_OFF: f32 = 1\.0 / \(1 << (\d+)\) as f32;"))) / U
 # Makes up for roundings of roundings, and for those of doubles.
 MORE = Fraction(1001, 1000)
@@ -437,7 +438,7 @@ code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", "
     let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
     while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
-    let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * bends as f64 }""")
+    let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * differences as f64 }""")
 code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(ramp, most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.
 f0, f1, f2, f3, q = z3.Reals("f0 f1 f2 f3 q")

@@ -4,22 +4,21 @@ truncates, by Gappa."""
 from solver import *
 
 
-code("pub(crate) const fn offset(&self, position: i32) -> i32 {", "self.ahead_of_center(doubled(position)) }")
-code("pub(crate) const fn doubled(position: i32) -> i32 {", "position.wrapping_add(position & !(position >> 31)) }")
-code("pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {", """
-    doubled.wrapping_sub(self.center as i32) << (self.center & FINER) }""")
+code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """
+    position.wrapping_sub(self.center as i32) << (self.center & SHIFT) }""")
 code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usize; if index >= OCTAVES { return None; }
     let octave = &self.octaves[side as usize][index];
-    let borrowed = bits ^ (top ^ below) & 1 << 23; Some((octave, (borrowed << 8) as i32)) }""")
-code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(FINER as i64) | self.finer as i64 }""")
+    let borrowed = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
+    Some((octave, borrowed.wrapping_add(borrowed & !(borrowed >> 31)))) }""")
+code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
     if top < LEAST_TOP || from >= to { return None; }
     let to = to as f32; let power = power_of_two(exponent(high));
     let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power; let middle = 0.5 * (from as f32 + to);
-    let (mut width, mut finer) = (power, 0);
-    while finer < MOST_FINER && half <= FILLED * width { width *= 0.5; finer += 1; }""")
+    let (mut width, mut shift) = (power, 0);
+    while shift < MOST_SHIFT && half <= FILLED * width { width *= 0.5; shift += 1; }""")
 code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP };
@@ -52,55 +51,55 @@ code("last_before_far: [ floor_bits(", """exposure.joins(Start)[1]), floor_bits(
 code("let last = if plan.last_before_far[side] < before_end {", """plan.last_before_far[side] } else { before_end };
     let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);""")
 
-FINER = int(source(r"const FINER: u32 = (\d+);"))
+SHIFT = int(source(r"const SHIFT: u32 = (\d+);"))
 STEP = 1 << int(source(r"const TOP_STEP: u32 = 1 << (\d+);"))
 LEAST_EXPONENT = 127 - int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
 LEAST = LEAST_EXPONENT << 23
 
 
 def look_up(top, bits):
-    """`Plan::octave`: the index and the position."""
+    """`Plan::look_up`: the index, and the significand with its sign."""
     below = top - bits
     return LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
 
 
-def offset(position, center):
-    """`Octave::offset`."""
-    ahead = position & ~(position >> 31)
-    return (position + ahead - center) << (center & FINER)
+def offset(significand, center):
+    """The position that `Plan::look_up` makes of it, and `Octave::offset` of that."""
+    position = significand + (significand & ~(significand >> 31))
+    return (position - center) << (center & SHIFT)
 
 
-# The position is the place in the octave. `top` is below 2, `bits` those of a fraction above 0 and at most `top`.
+# The significand is the place in the octave. `top` is below 2, `bits` those of a fraction above 0 and at most `top`.
 top, bits = BitVecs("top bits", 32)
-index, position = look_up(top, bits)
+index, significand = look_up(top, bits)
 octave_top = top - (index << 23)
 domain = And(UGT(bits, 0), ULE(bits, top), ULT(top, 128 << 23))
-is_lower = position < 0
+is_lower = significand < 0
 valid(
     "the look-up finds the octave below whose top, and above half of whose top, the fraction is",
     Implies(domain, And(ULE(bits, octave_top), UGT(bits + (1 << 23), octave_top))),
     Implies(domain, And(ULT(bits, octave_top), UGT(bits + (1 << 23), octave_top))),
 )
 valid(
-    "the sign of a position says in which of the octave's two binades the fraction is, and the rest is its significand",
+    "its sign says in which of the octave's two binades the fraction is, and the rest is its significand",
     Implies(And(domain, UGE(bits, 1 << 23)), And(
         LShR(bits, 23) == LShR(octave_top, 23) - If(is_lower, BitVecVal(1, 32), BitVecVal(0, 32)),
-        position << 1 == bits << 9,
+        significand << 1 == bits << 9,
     )),
     Implies(domain, LShR(bits, 23) == LShR(octave_top, 23)),
 )
 
 # The offset. The fraction, in 2^-32 of the power of two at or below the octave's top, is an integer `exact` of 34 bits.
-position, center = BitVec("position", 32), BitVec("center", 64)
-wide = SignExt(32, position)
-exact = (1 << 32) + If(position < 0, wide, 2 * wide)
-shift = center & FINER
+significand, center = BitVec("significand", 32), BitVec("center", 64)
+wide = SignExt(32, significand)
+exact = (1 << 32) + If(significand < 0, wide, 2 * wide)
+shift = center & SHIFT
 word = 1 << 31
 
 
 def leads_to(least, most):
     fits = And(exact - center >= least >> shift, exact - center <= most >> shift)
-    right = SignExt(32, offset(position, Extract(31, 0, center))) == (exact - center) << shift
+    right = SignExt(32, offset(significand, Extract(31, 0, center))) == (exact - center) << shift
     return Implies(And(ULT(center, 1 << 34), fits), right)
 
 
@@ -117,21 +116,21 @@ valid(
 # at most 2 FILLED of the width; without one it is at most a quarter of a top that is less than twice the width, by a step, and 4 EPSILON.
 # The middle is off by the rounding of the sum of the ends, the center by what its lowest bits come to.
 FILLED = Fraction(source(r"const FILLED: f32 = (0\.\d+);"))
-MOST_FINER = int(source(r"const MOST_FINER: u32 = (\d+);"))
+MOST_SHIFT = int(source(r"const MOST_SHIFT: u32 = (\d+);"))
 REACH = Fraction(source(r"let reach = span\.half / span\.width \+ (0\.\d+);"))
 EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;"))
 WORD = 2**32
 EPSILON = WORD // 2**23
 MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
-LOW_BITS = FINER
+LOW_BITS = SHIFT
 # A served fraction is within half of EPSILON of the f32 between which the part is.
 SERVED = EPSILON // 2
 
 
-def most_filled(filled, finer):
+def most_filled(filled, shift):
     """The greatest half, in the width's 2^-32."""
     whole = (2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON
-    return max(2 * filled * WORD, whole if finer == 0 else 0) * (1 + 2 * U)
+    return max(2 * filled * WORD, whole if shift == 0 else 0) * (1 + 2 * U)
 
 
 def served_fits(filled, extension=EPSILONS):
@@ -143,21 +142,21 @@ require(served_fits(FILLED) and not served_fits(Fraction(1, 4)) and not served_f
 proven(f"the offset of each fraction that a part serves is within its half and fits the word, for FILLED = {float(FILLED)} and any shift; with 0.25, or a half of one EPSILON more than the part, not so")
 
 
-def beyond_fits(filled, finer):
+def beyond_fits(filled, shift):
     """The same for fractions up to 4 EPSILON beyond the part."""
-    return most_filled(filled, finer) + (MIDDLE + LOW_BITS) * 2**finer < WORD / 2
+    return most_filled(filled, shift) + (MIDDLE + LOW_BITS) * 2**shift < WORD / 2
 
 
-def reach_holds(finer):
-    return (MIDDLE + LOW_BITS) * 2**finer <= REACH * WORD
+def reach_holds(shift):
+    return (MIDDLE + LOW_BITS) * 2**shift <= REACH * WORD
 
 
-far = max(finer for finer in range(32) if beyond_fits(FILLED, finer))
-within = max(finer for finer in range(32) if reach_holds(finer))
+far = max(shift for shift in range(32) if beyond_fits(FILLED, shift))
+within = max(shift for shift in range(32) if reach_holds(shift))
 
 
-require(MOST_FINER <= far and not beyond_fits(FILLED, far + 1), "fractions beyond a part fit the word")
-proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shifts up to {MOST_FINER} (up to {far} would do)")
+require(MOST_SHIFT <= far and not beyond_fits(FILLED, far + 1), "fractions beyond a part fit the word")
+proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shifts up to {MOST_SHIFT} (up to {far} would do)")
 # Tops keep 16 ulp from where a range begins.
 bits, top = BitVecs("bits top", 32)
 raised = If(ULT((top - bits + 16) & 0x7FFFFF, 32), top + STEP, top)
@@ -181,7 +180,7 @@ def sums_fit(guard, per_step=Fraction(3, 2)):
 
 require(reach_holds(within) and sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
 proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a part serves, and {EPSILONS} EPSILON beyond with shifts up to {within}")
-require(MOST_FINER <= within, "the reach covers all shifts")
+require(MOST_SHIFT <= within, "the reach covers all shifts")
 
 # The plateau's line, by the bits of a fraction: those above `before` and up to `last`, which are below 2^31, as all are.
 last, before = BitVecs("last before", 32)

@@ -13,14 +13,14 @@ code("const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {", """let mut 
     horner(&mut c, x, 0); horner(&mut c, x, 1); Self { value, d1: c[0], d2: c[1] } }""")
 code("let c = core::hint::black_box(c);", """let size = s.abs(); let y = x.abs() + size; let (mut cubes, mut j) = (0.0, N);
     while j > 2 { cubes = cubes * y + j as f32 * c[j - 1].abs(); j -= 1; }
-    let bends = cubes * y + 2.0 * c[1].abs(); let slopes = bends * y + c[0].abs();
+    let squares = cubes * y + 2.0 * c[1].abs(); let slopes = squares * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
-    first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s)) }""")
+    first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s)) }""")
 code("const fn distance(&self, p: f32) -> f32 {", "flipped((p - self.place.hi) - self.place.lo, self.back) }")
 code("let c5 = c5 + 6.0 * c6 * from_end;", "")
 code("const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {", """let x = Pair::new(x);
-    let bend = c.thrice().times(x); let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
-    [slope.rounded(), bend.plus(b).rounded(), c.hi] }""")
+    let thrice = c.thrice().times(x); let slope = thrice.plus(b.scaled(2.0)).times(x).plus(a);
+    [slope.rounded(), thrice.plus(b).rounded(), c.hi] }""")
 code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
     let slowest = -c2 / thrice; let sought = target.difference(series.at(slowest)); if sought.abs() < target.hi {
     let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest); 
@@ -33,8 +33,8 @@ code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
 
 ROUNDING = 1 / Fraction(2 ** int(source(r"const ROUNDING: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
 MOVED = 1 / Fraction(2 ** int(source(r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-CUBES = Fraction(source(r"moved\.abs\(\) \* bends \+ (\d\.\d) \* cubes"))
-BENDS = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
+CUBES = Fraction(source(r"moved\.abs\(\) \* squares \+ (\d\.\d) \* cubes"))
+SQUARES = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
 # By how many ROUNDINGs each kind of anchor counts.
 code("let mut anchor =", "Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };")
 code("if target.hi <= sought.abs() {", """let c = self.mass_in_single(side);
@@ -52,15 +52,15 @@ class Degree:
     def __init__(self, n):
         self.n = n
         self.slopes = self.sums(lambda j: j, 1, 1)
-        self.bends = self.sums(lambda j: j, 2, 2)
+        self.squares = self.sums(lambda j: j, 2, 2)
         self.cubes = self.sums(lambda j: j, 3, 3)
         # What the computed bound is at least, relative to the exact one: a few roundings more than its operations are deep.
         self.deep = (1 - U) ** (2 * n + 8)
         self.count = ratio(by(self.first_terms(1).error, s=-1), self.slopes) / U
         # A distance that is wrong by m changes the slopes, between the places, by m times the greatest second derivative.
-        self.per_move = ratio(self.sums(lambda j: j * (j - 1), 2, 2), self.bends)
+        self.per_move = ratio(self.sums(lambda j: j * (j - 1), 2, 2), self.squares)
         # Where it leads beyond Y.
-        self.more = BENDS * ((1 + MOVED) ** (n - 2) - 1) * MOVED / U
+        self.more = SQUARES * ((1 + MOVED) ** (n - 2) - 1) * MOVED / U
         self.near = self.count + self.more
 
     def sums(self, number, first, less):
@@ -100,17 +100,17 @@ covers = lambda number: cubes * (1 + 4 * U) <= number * mass.deep
 require(covers(CUBES) and not covers(CUBES - Fraction(1, 10)), "3.4 covers 10/3 and rounding")
 proven(f"the terms from the third on are at most 10/3 E |s|^3: {float(CUBES)} covers that and its rounding")
 
-require(mass.per_move == BENDS and time.per_move == 2, "5 is j - 1 at most")
-proven(f"a distance rounded by m costs at most {BENDS} m (2 |c_2| + E Y), and where it leads beyond Y at most {float(mass.more):.3f} * 2^-24 D more")
+require(mass.per_move == SQUARES and time.per_move == 2, "5 is j - 1 at most")
+proven(f"a distance rounded by m costs at most {SQUARES} m (2 |c_2| + E Y), and where it leads beyond Y at most {float(mass.more):.3f} * 2^-24 D more")
 
 # From the other end a place's distance is itself one rounding, from inside two, which `moved` does not know.
 ONCE = Fraction(1001, 1000)
-far = mass.near + BENDS * ONCE
+far = mass.near + SQUARES * ONCE
 # From inside, c_5 + 6 c_6 P has three roundings of 6 |c_6| P, one of the end's c_5, which is at most |c_5| + 6 |c_6| P, and one of
 # the sum, so |c_5| counts once more and 6 |c_6| P four times. That 6 |c_6| P x^4 <= D(x) follows from the density's sign,
 # below.
-inside = mass.near + 2 * BENDS * ONCE + 1 + BENDS * 4 * ONCE
-slow = time.near + BENDS * Fraction(2, BENDS) * ONCE
+inside = mass.near + 2 * SQUARES * ONCE + 1 + SQUARES * 4 * ONCE
+slow = time.near + SQUARES * Fraction(2, SQUARES) * ONCE
 for which, needed, factor in (
     ("mass | the end that faces the side", mass.near, 1),
     ("mass | the other end", far, OTHER_END),

@@ -148,10 +148,10 @@ def left():
         cubes = f(0)
         for j in range(6, 2, -1):
             cubes = cubes * y + f(j) * abs(c[j - 1])
-        bends = cubes * y + f(2) * abs(c[1])
-        slopes = bends * y + abs(c[0])
+        squares = cubes * y + f(2) * abs(c[1])
+        slopes = squares * y + abs(c[0])
         first = abs(missing - s * (d[0] + d[1] * s))
-        bound = first + size * (f(2.0**-20) * slopes + f(5) * abs(moved) * bends + f(3.4) * cubes * (s * s))
+        bound = first + size * (f(2.0**-20) * slopes + f(5) * abs(moved) * squares + f(3.4) * cubes * (s * s))
         yield [bits(v) for v in (*c, x, moved, missing, s, d[0], d[1], bound)]
 
 

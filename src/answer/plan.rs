@@ -248,8 +248,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The octave of an `a` with these bits on a ramp, and from what [`Octave::offset`] makes the offset: the position,
-    /// or half of it if that is not negative. None for 0, outside [0, 1] and for NaN.
+    /// The octave of an `a` with these bits on a ramp, and the position of `a` in it. None for 0, outside [0, 1] and for
+    /// NaN.
     #[inline(always)]
     pub(crate) const fn look_up(
         &self,
@@ -264,14 +264,14 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             return None;
         }
         let octave = &self.octaves[side as usize][index];
-        // Returned is the significand, with the sign of the position: negative if `a` is below the octave's power of
-        // two, that is where `top - bits` borrows from the exponent, where bit 23 of top ^ bits ^ below is 1. In the
-        // octave (0.1875, 0.375], with the power 1/4:
+        // Below the octave's power `a` is less than 1 in units of it, so its position is its significand less 1. That is
+        // where `top - bits` borrows from the exponent, and bit 23 of top ^ bits ^ below is 1. In (0.1875, 0.375]:
         //   top    0.375   0 01111101 100...
-        //   bits   0.3     0 01111101 00110...   no borrow: returns  0.2 · 2³¹, the position is 0.2 · 2³²
-        //   bits   0.2     0 01111100 10011...   a borrow:  returns -0.2 · 2³², the position itself
-        let borrowed = bits ^ (top ^ below) & 1 << 23;
-        Some((octave, (borrowed << 8) as i32))
+        //   bits   0.3     0 01111101 00110...   no borrow:  0.2 · 2³¹
+        //   bits   0.2     0 01111100 10011...   a borrow:  -0.2 · 2³²
+        let borrowed = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
+        // Above the power an `f32` counts twice as much.
+        Some((octave, borrowed.wrapping_add(borrowed & !(borrowed >> 31))))
     }
 
     /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².

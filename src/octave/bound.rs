@@ -6,8 +6,8 @@
 //!
 //! A polynomial of degree `n` is nowhere greater than its greatest value at the N + 1 points `cos(k π / N)`, over
 //! `cos(n π / 2N)` (Ehlich and Zeller 1964). For `n = 12` that is 1.41 times the greatest of 25 samples, or 1.02 times
-//! that of 97. What `R` has above degree `n` is at most a *tail*, by a bound on an ellipse around [-1, 1] ([`bends`]).
-//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/internals/proofs.md, "An octave's certificate", 3 and 4.
+//! that of 97. What `R` has above degree `n` is at most a *tail*, by a bound on an ellipse around [-1, 1] ([`off_line`]).
+//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/proofs.md, "An octave's certificate", 3 and 4.
 //!
 //! Samples go the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
@@ -19,8 +19,8 @@ use crate::octave::path::{Path, absolute};
 const POINTS: usize = 96;
 const COSINE: f64 = 0.9994645874763657;
 
-/// The number of efforts: with every fourth point, every second, and all.
-pub(crate) const EFFORTS: usize = 3;
+/// At first every fourth point is sampled; then every second, then all, if that is not enough.
+pub(crate) const SPARSEST: usize = 4;
 
 /// `cos(i π / 96)` for `i` from 0 to 48, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
 const COSINES: &[i32; POINTS / 2 + 1] = &{
@@ -54,14 +54,29 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The errors that are bounded: `R` times three *weights*, cubics of `s`. They are 1, for the error in time, the
-/// openness, for that in exposure, and a bound of 1 / size, for that relative to the time.
-pub(crate) const KINDS: usize = 3;
+/// The number of [`Errors`], and of the *weights* by which `R` is multiplied for each: cubics of `s`, and 1.
+const KINDS: usize = 3;
 
-/// The greatest errors: at least, by the samples, and at most.
+/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them.
 pub(crate) struct Errors {
-    pub(crate) least: [f32; KINDS],
-    pub(crate) most: [f32; KINDS],
+    /// `R`
+    pub(crate) time: f32,
+    /// `R` times the openness.
+    pub(crate) exposure: f32,
+    /// `R` times a bound of 1 / size.
+    pub(crate) relative: f32,
+}
+
+impl Errors {
+    const fn new([time, exposure, relative]: [f32; KINDS]) -> Self {
+        Self { time, exposure, relative }
+    }
+}
+
+/// What the errors are at least, by samples, and at most.
+pub(crate) struct Bounds {
+    pub(crate) least: Errors,
+    pub(crate) most: Errors,
 }
 
 /// A sample's fraction counts 2⁻²⁰ of a position, its time 2⁻²⁴ of the coefficients' unit.
@@ -111,8 +126,8 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// The greatest errors along a stretch: `R`, in the unit of the coefficients, times each weight. `x` is the offset in
-/// widths. Samples are off by at most `noise`. The effort counts from 0.
+/// Bounds of the greatest errors along a stretch, with weights in the order of [`Errors`], from every `step`-th point.
+/// `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -120,9 +135,9 @@ pub(crate) const fn errors(
     x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
-    effort: usize,
-) -> Errors {
-    let (step, mut seen, mut i) = (4 >> effort, [0.0; KINDS], 0);
+    step: usize,
+) -> Bounds {
+    let (mut seen, mut i) = ([0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
         // At the cosine and at its negative.
@@ -130,7 +145,7 @@ pub(crate) const fn errors(
             // The nearest position; it wraps.
             let half = 1 << (FRACTION_BITS - 1);
             let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
-            let value = octave.polynomial(octave.ahead_of_center(position));
+            let value = octave.polynomial(octave.offset(position));
             let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;
@@ -151,17 +166,17 @@ pub(crate) const fn errors(
     let (mut tails, mut i) = ([0.0; ELLIPSES.len()], 0);
     while i < ELLIPSES.len() {
         let [axis, _, first] = ELLIPSES[i];
-        tails[i] = SLACK * first * bends(octave, x, axis);
+        tails[i] = SLACK * first * off_line(octave, x, axis);
         i += 1;
     }
-    let (mut found, mut kind) = (Errors { least: seen, most: seen }, 0);
+    let (mut least, mut most, mut kind) = (seen, seen, 0);
     while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
-        found.least[kind] -= noise;
-        found.most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
+        least[kind] -= noise;
+        most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
         kind += 1;
     }
-    found
+    Bounds { least: Errors::new(least), most: Errors::new(most) }
 }
 
 /// The bound that follows from the greatest sample `seen`, of every `step`-th point, by the best ellipse and degree.
@@ -189,7 +204,7 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step
 /// `Σ |c_k| (Y^k - Y₁^k)` from `k = 2` on, where `Y₁ = |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`. On the ellipse, `R`
 /// is within this of a polynomial of a degree below 12.
 #[inline(never)]
-const fn bends(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
+const fn off_line(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
     let linear = x0.abs() + x1.abs() * axis;
     let curve = absolute(curved, axis) * axis * axis;
     // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), from k = 2 up.

@@ -3,7 +3,6 @@
 use crate::exposure::Exposure;
 use crate::fraction::Side;
 use crate::number::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
-use crate::octave::certificate::certain;
 use crate::octave::path::{Path, View};
 use crate::octave::span::Span;
 use crate::octave::{Octave, below};
@@ -105,8 +104,8 @@ impl View<'_> {
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
         let Some(candidate) = self.candidate(span, &stretch) else { return Octave::NONE };
-        let is_certain = certain(&self.certificate(&candidate, span, stretch, ramp, places));
-        if is_certain { candidate.octave } else { Octave::NONE }
+        let shares = self.certificate(&candidate, span, stretch, ramp, places);
+        if shares.are_certain() { candidate.octave } else { Octave::NONE }
     }
 }
 

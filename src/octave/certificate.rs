@@ -1,14 +1,9 @@
-//! The certificate of an octave: bounds of its polynomial's errors, as shares of what each may be.
-//!
-//! - `[0]`: the error in time. It may be [`FORWARD_ERROR`] of [`View::size_of_time`].
-//! - `[1]`: the error in exposure, the backward error. It may be [`ULP_ERROR`] ulp of where the span begins.
-//! - `[2]`: the same beyond the ramp's join.
-//!
-//! docs/internals/proofs.md, "An octave's certificate", proves that shares below 1 are enough.
+//! The certificate of an octave: bounds of its polynomial's errors. docs/proofs.md, "An octave's certificate", has the
+//! argument.
 
 use crate::fraction::Side::{self, End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{EFFORTS, KINDS, SAMPLE_OFF, Sampled, errors};
+use crate::octave::bound::{Errors, SAMPLE_OFF, SPARSEST, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -38,8 +33,29 @@ const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 /// 1, less what single precision rounds.
 const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 
+/// Bounds of an octave's errors, each as a share of what the error may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shares {
+    /// Of the error in time. That may be [`FORWARD_ERROR`] of [`View::size_of_time`].
+    pub(crate) forward: f32,
+    /// Of the error in exposure. That may be [`ULP_ERROR`] ulp of where the span begins.
+    pub(crate) backward: f32,
+    /// The same where the error in time leads beyond the ramp's join.
+    pub(crate) beyond: f32,
+}
+
+impl Shares {
+    pub(crate) const REFUSED: Self =
+        Self { forward: f32::INFINITY, backward: f32::INFINITY, beyond: f32::INFINITY };
+
+    /// Are all below 1? Written so that a NaN fails.
+    pub(crate) const fn are_certain(&self) -> bool {
+        self.forward <= CERTAIN && self.backward <= CERTAIN && self.beyond <= CERTAIN
+    }
+}
+
 impl View<'_> {
-    /// The three shares on the stretch `along` between two places of the ramp, after [`Span::counted`].
+    /// The shares on the stretch `along` between two places of the ramp, after [`Span::counted`].
     #[inline(never)]
     pub(crate) const fn certificate(
         &self,
@@ -48,7 +64,7 @@ impl View<'_> {
         mut along: Path,
         ramp: Side,
         [first, last]: [f64; 2],
-    ) -> [f32; 3] {
+    ) -> Shares {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
         let (exposure, side) = (self.exposure, self.side);
         let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
@@ -57,10 +73,10 @@ impl View<'_> {
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
         let single_step = step as f32;
-        // Share [1] of an error of one step at openness 1, in `f64`, since an area may be 2⁻¹²⁶. `ULP_ERROR * ulp` is
+        // The share `backward` of an error of one step at openness 1, in `f64`, since an area may be 2⁻¹²⁶. `ULP_ERROR * ulp` is
         // above `off`, since no span begins below LEAST_TOP / 2 (proofs/certificate.py).
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
-        // Share [0] of an error of one step, at both ends.
+        // The share `forward` of an error of one step, at both ends.
         let per_size = [
             single_step / self.size_of_time(ends[0]) / FORWARD_ERROR,
             single_step / self.size_of_time(ends[1]) / FORWARD_ERROR,
@@ -98,19 +114,16 @@ impl View<'_> {
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded by 1/2 and a trace.
         let noise = limits.rounding + 0.5002 * steep * per_position as f32;
-        let (mut effort, mut bounds) = (0, [f32::INFINITY; 3]);
-        let (Some(sampled), true) = (Sampled::new(&along), fits) else { return bounds };
-        while effort < EFFORTS {
-            let errors = errors(octave, &sampled, &offset, &weights, noise, effort);
-            bounds = limits.share(&errors.most);
+        let (mut step, mut shares) = (SPARSEST, Shares::REFUSED);
+        let (Some(sampled), true) = (Sampled::new(&along), fits) else { return shares };
+        while step > 0 {
+            let errors = errors(octave, &sampled, &offset, &weights, noise, step);
+            shares = limits.shares(&errors.most);
             // More samples cannot help where those seen are too wrong.
-            effort = if certain(&bounds) || !certain(&limits.share(&errors.least)) {
-                EFFORTS
-            } else {
-                effort + 1
-            };
+            let is_decided = shares.are_certain() || !limits.shares(&errors.least).are_certain();
+            step = if is_decided { 0 } else { step / 2 };
         }
-        bounds
+        shares
     }
 
     /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
@@ -147,9 +160,9 @@ impl View<'_> {
             p *= 2.0;
             doublings = doublings - 1;
         }
-        // |f'| <= 3 bends
-        let bends = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();
-        at_join as f64 + 3.0 * p as f64 * bends as f64
+        // |f'| <= 3 differences
+        let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();
+        at_join as f64 + 3.0 * p as f64 * differences as f64
     }
 }
 
@@ -157,21 +170,21 @@ impl View<'_> {
 struct Limits {
     /// What rounding adds to an error in time, in steps.
     rounding: f32,
-    /// Share `[0]` of an error of one step, at the end of the stretch where it is greater.
+    /// The share `forward` of an error of one step, at the end of the stretch where it is greater.
     per_size: f32,
-    /// Share `[2]` of an error of one step; 0 if the stretch does not reach the join.
+    /// The share `beyond` of an error of one step; 0 if the stretch does not reach the join.
     beyond: f32,
     /// The time along the stretch, in steps.
     time: [f32; 4],
-    /// Share `[1]` of an error of one step, along the stretch.
+    /// The share `backward` of an error of one step, along the stretch.
     openness: [f32; 4],
 }
 
 impl Limits {
-    /// The shares in the order of [`certain`], with what rounding adds, from the three greatest errors, which come in
-    /// the order of [`KINDS`] (docs/internals/proofs.md, "From time to exposure").
+    /// The shares that follow from the greatest errors, with what rounding adds (docs/proofs.md, "From time to
+    /// exposure").
     #[inline(never)]
-    const fn share(&self, &[time, exposed, relative]: &[f32; KINDS]) -> [f32; 3] {
+    const fn shares(&self, &Errors { time, exposure, relative }: &Errors) -> Shares {
         let error = time + self.rounding;
         let rounding = self.rounding + error * WEIGHT_OFF;
         // most >= t' >= slowest
@@ -185,18 +198,13 @@ impl Limits {
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;
         }
-        // |f'| <= bends, so on the way the openness grows by `way bends` at most.
+        // |f'| <= steepest, so on the way the openness grows by `way steepest` at most.
         let [_, f1, f2, f3] = self.openness;
-        let bends = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        [
-            relative + rounding * self.per_size,
-            exposed + rounding * absolute(&self.openness, 1.0) + error * way * bends,
-            error * self.beyond,
-        ]
+        let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
+        Shares {
+            forward: relative + rounding * self.per_size,
+            backward: exposure + rounding * absolute(&self.openness, 1.0) + error * way * steepest,
+            beyond: error * self.beyond,
+        }
     }
-}
-
-/// Are all shares below 1? Written so that a NaN fails.
-pub(crate) const fn certain(&[relative, exposed, beyond]: &[f32; 3]) -> bool {
-    relative <= CERTAIN && exposed <= CERTAIN && beyond <= CERTAIN
 }

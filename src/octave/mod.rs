@@ -8,9 +8,8 @@
 //! A side's array has the far ramp's `k` octaves, then the near ramp's. The near ramp's stored top is its first top,
 //! times `2^k`: so `(bits(stored top) - bits(a)) >> 23` is an index of the array for either ramp.
 //!
-//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it. The
-//! one exception is `Plan::look_up`: it returns the significand as it stands, which above the power counts 2⁻³¹, and
-//! [`doubled`] makes a position of that.
+//! An octave's *power* is the power of two at or below its top. A *position* is `a` less the power, in 2⁻³² of it. It
+//! is an `i32` that may wrap.
 //!
 //! ```text
 //! a             0     0.023   0.047   0.09375   0.125   0.25    0.5
@@ -18,9 +17,9 @@
 //! serves        near ramp, up to 0.09             far ramp, from 0.2
 //! stored top    0.09375 · 2² = 0.375              0.5
 //!
-//! octave (0.1875, 0.375], power 0.25:       bits          look_up       position      (a - power) / power
-//!               a = 0.3125  = 1.25 · 2⁻²    0x3EA0_0000   0x2000_0000   0x4000_0000    1/4
-//!               a = 0.21875 = 1.75 · 2⁻³    0x3E60_0000   0xE000_0000   0xE000_0000   -1/8
+//! octave (0.1875, 0.375], power 0.25:       bits          position      (a - power) / power
+//!               a = 0.3125  = 1.25 · 2⁻²    0x3EA0_0000   0x4000_0000    1/4
+//!               a = 0.21875 = 1.75 · 2⁻³    0x3E60_0000   0xE000_0000   -1/8
 //! ```
 
 pub(crate) mod bound;
@@ -47,8 +46,8 @@ pub(crate) struct Octave {
 
 pub(crate) const DEGREE: usize = 8;
 
-/// The bits of a center that are its shift: by how many powers of two an offset is finer than a position.
-pub(crate) const FINER: u32 = 31;
+/// The bits of a center that are its shift: an offset counts `2^shift` for a position.
+pub(crate) const SHIFT: u32 = 31;
 
 /// The bits of a top that is `steps` [`TOP_STEP`]s above [`LEAST_TOP`].
 #[inline(always)]
@@ -61,13 +60,6 @@ pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }
 
-/// The position that belongs to what `Plan::look_up` returns, which is the argument: twice that if it is not negative,
-/// else that. It wraps.
-#[inline(always)]
-pub(crate) const fn doubled(position: i32) -> i32 {
-    position.wrapping_add(position & !(position >> 31))
-}
-
 impl Octave {
     pub(crate) const NONE: Self = Self { middle: 0, factor: 0, center: 0, c: [0; DEGREE] };
 
@@ -76,17 +68,11 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset, for what `Plan::look_up` returns.
+    /// The offset of a position. It fits the word although both may wrap: a span leaves room for that (`FILLED` in
+    /// [`span`]).
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
-        self.ahead_of_center(doubled(position))
-    }
-
-    /// The offset of a position, which [`doubled`] returns. It fits the word although position and center may wrap: a
-    /// span leaves room for that (`FILLED` in [`span`]).
-    #[inline(always)]
-    pub(crate) const fn ahead_of_center(&self, doubled: i32) -> i32 {
-        doubled.wrapping_sub(self.center as i32) << (self.center & FINER)
+        position.wrapping_sub(self.center as i32) << (self.center & SHIFT)
     }
 
     /// The time, in the plan's unit, at an offset.

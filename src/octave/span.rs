@@ -1,7 +1,7 @@
 //! A span: the part of an octave that its polynomial serves, and how its positions become offsets.
 
 use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
-use crate::octave::FINER;
+use crate::octave::SHIFT;
 use crate::octave::path::{Path, scale};
 
 /// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a
@@ -9,7 +9,7 @@ use crate::octave::path::{Path, scale};
 /// between: 2⁸ for a rounded middle and 31 for the shift in its lowest bits, both times 2¹⁷ at most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
-const MOST_FINER: u32 = 17;
+const MOST_SHIFT: u32 = 17;
 
 /// The part of an octave that lies on one ramp, in `a`.
 pub(crate) struct Span {
@@ -20,10 +20,10 @@ pub(crate) struct Span {
     pub(crate) half: f32,
     /// The power of two at or below the octave's top. A position counts 2⁻³² of it.
     pub(crate) power: f32,
-    /// `power / 2^finer`. An offset counts 2⁻³² of it.
+    /// `power / 2^shift`. An offset counts 2⁻³² of it.
     pub(crate) width: f32,
     /// The shift from positions to offsets.
-    finer: u32,
+    shift: u32,
 }
 
 impl Span {
@@ -40,17 +40,17 @@ impl Span {
         let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power;
         let middle = 0.5 * (from as f32 + to);
         // A short span fills the word of its offsets too, so that its coefficients keep their bits.
-        let (mut width, mut finer) = (power, 0);
-        while finer < MOST_FINER && half <= FILLED * width {
+        let (mut width, mut shift) = (power, 0);
+        while shift < MOST_SHIFT && half <= FILLED * width {
             width *= 0.5;
-            finer += 1;
+            shift += 1;
         }
-        Some(Self { from, to, middle, half, power, width, finer })
+        Some(Self { from, to, middle, half, power, width, shift })
     }
 
     /// The position of the middle plus 2³², the shift in its lowest bits. Its lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
-        fixed(self.middle, exponent(self.power) - 32) & !(FINER as i64) | self.finer as i64
+        fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64
     }
 
     /// The stretch with positions for its fractions.

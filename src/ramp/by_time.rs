@@ -96,10 +96,10 @@ impl Ramp {
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
         // The greatest f is about 2⁶⁰, so second numbers and products with the least place are normal where they count.
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
-        let bend = d[1].minus_loose(d[0]);
-        let c = [d[0].thrice(), bend.thrice()];
+        let second = d[1].minus_loose(d[0]);
+        let c = [d[0].thrice(), second.thrice()];
         // f[0] + c[0] p + c[1] p² + last p³
-        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend) };
+        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(second) };
         let value = Pair::new(f[0]).plus(series.at_pair_unrolled(place.scaled(1.0 / LAST_PLACE)));
         (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
     }
@@ -153,12 +153,12 @@ impl Ramp {
 
 #[inline(never)]
 const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
-    let near = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
-    if t.abs() >= near || t == start || t == end {
+    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
+    if t.abs() >= half || t == start || t == end {
         return t;
     }
-    // The farther end is 2 to 4 near, and the sum 0.5 to 2.5 near: its ulp is 1/4, 1/2 or 1 ulp of the farther end.
-    let t = (t + 1.5 * near) - 1.5 * near;
+    // The farther end is 2 to 4 times `half`, and the sum 0.5 to 2.5: its ulp is 1/4, 1/2 or 1 ulp of the farther end.
+    let t = (t + 1.5 * half) - 1.5 * half;
     if t < start {
         start
     } else if t > end {
@@ -173,9 +173,9 @@ const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
 #[inline(never)]
 const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
     let x = Pair::new(x);
-    let bend = c.thrice().times(x);
-    let slope = bend.plus(b.scaled(2.0)).times(x).plus(a);
-    [slope.rounded(), bend.plus(b).rounded(), c.hi]
+    let thrice = c.thrice().times(x);
+    let slope = thrice.plus(b.scaled(2.0)).times(x).plus(a);
+    [slope.rounded(), thrice.plus(b).rounded(), c.hi]
 }
 
 /// The place at which `c[0] x + c[1] x² + c[2] x³` reaches `target`, within `error`; `None` where time nearly stands

@@ -130,13 +130,13 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// ```text
 ///   |missing - s (d1 + d2 s)|    left by the first two Taylor terms, as they are computed
 /// + |s| rounding slopes          their rounding
-/// + |s| 5 |moved| bends          what `moved` changes of them
+/// + |s| 5 |moved| squares          what `moved` changes of them
 /// + |s| 3.4 cubes s²             all further terms
 /// ```
 ///
-/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `bends = 2 |c_2| + cubes y`, `slopes = |c_1| + bends y`,
-/// and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second derivative `5 bends`, the third
-/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/internals/proofs.md, "What a step of the search
+/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`, `slopes = |c_1| + squares y`,
+/// and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second derivative `5 squares`, the third
+/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search
 /// leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
@@ -157,10 +157,10 @@ pub(crate) const fn left<const N: usize>(
         cubes = cubes * y + j as f32 * c[j - 1].abs();
         j -= 1;
     }
-    let bends = cubes * y + 2.0 * c[1].abs();
-    let slopes = bends * y + c[0].abs();
+    let squares = cubes * y + 2.0 * c[1].abs();
+    let slopes = squares * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
-    first + size * (rounding * slopes + 5.0 * moved.abs() * bends + 3.4 * cubes * (s * s))
+    first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s))
 }
 
 /// The place where `series` reaches `target`, and the evaluations that took.

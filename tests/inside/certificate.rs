@@ -5,7 +5,7 @@ use crate::fraction::Side;
 use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES};
-use crate::octave::certificate::{FORWARD_ERROR, OFF, ULP_ERROR};
+use crate::octave::certificate::{FORWARD_ERROR, OFF, Shares, ULP_ERROR};
 use crate::octave::path::{Path, View, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below, top};
@@ -88,7 +88,7 @@ impl View<'_> {
     ) {
         let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
-        let bounds = self.certificate(&candidate, span, stretch, ramp, places).map(f64::from);
+        let bounds = self.certificate(&candidate, span, stretch, ramp, places);
         let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
@@ -104,9 +104,8 @@ impl View<'_> {
                 continue;
             }
             {
-                // As a look-up has it: the significand of 32 bits, less 2³² in the lower binade.
-                let doubled = ((a / f64::from(span.power) - 1.0) * f64::from(WORD)).floor() as i64;
-                let position = if doubled < 0 { doubled } else { doubled >> 1 } as i32;
+                let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
+                let position = position.floor() as i64 as i32;
                 let time = octave.time(octave.offset(position)) - start;
                 let time = time as f64 * power_of_two_f64(self.unit);
                 let served = Dd::from(f64::from(self.exposure.end(self.side))) + Dd::from(time);
@@ -122,8 +121,8 @@ impl View<'_> {
                     exact.complement_dd(served) - Dd::from(a)
                 };
                 let share = [
-                    off / (f64::from(FORWARD_ERROR) * size) / bounds[0],
-                    light.hi.abs() / error_in_u / bounds[1].max(bounds[2]),
+                    off / (f64::from(FORWARD_ERROR) * size) / f64::from(bounds.forward),
+                    light.hi.abs() / error_in_u / f64::from(bounds.backward.max(bounds.beyond)),
                 ];
                 for (greatest, share) in greatest.iter_mut().zip(share) {
                     assert!(share <= 1.0, "{share} of {bounds:?} at {a:e}: {:?}", exact.curve());
@@ -217,7 +216,7 @@ fn an_offset_beyond_its_word_is_refused() {
                     let mut moved = stretch;
                     moved.fraction[0] += (end * to - offset(&stretch, end)) / per_position;
                     let bounds = this.certificate(&candidate, &span, moved, side, places);
-                    let is_refused = bounds == [f32::INFINITY; 3];
+                    let is_refused = bounds == Shares::REFUSED;
                     assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
                     judged += 1;
                 }
