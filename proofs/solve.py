@@ -10,8 +10,8 @@ from majorant import *
 
 code("const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {", "let mut k = N - 1; while k > to { k -= 1; c[k] += c[k + 1] * x; } }")
 code("const fn new<const N: usize>(c: &[f32; N], x: f32) -> Self {", """let mut c = *c; horner(&mut c, x, 0); let value = c[0] * x;
-    horner(&mut c, x, 0); horner(&mut c, x, 1); Self { value, d1: c[0], d2: c[1] } }""")
-code("let c = core::hint::black_box(c);", """let size = s.abs(); let y = x.abs() + size; let (mut cubes, mut j) = (0.0, N);
+    horner(&mut c, x, 0); horner(&mut c, x, 1); Self { x, value, d1: c[0], d2: c[1] } }""")
+code("let c = core::hint::black_box(c);", """let size = s.abs(); let y = local.x.abs() + size; let (mut cubes, mut j) = (0.0, N);
     while j > 2 { cubes = cubes * y + j as f32 * c[j - 1].abs(); j -= 1; }
     let squares = cubes * y + 2.0 * c[1].abs(); let slopes = squares * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
@@ -27,18 +27,22 @@ code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c
     let (back, sought) = (sought.to_bits() & BACK, sought.abs());
     let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
     anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
-code("solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0", "}")
-code("let error = if step.abs() <= ULP * p { accepted } else { wanted };", """
-    if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {""")
+code("let error = TIME_ERROR * target.hi;", "solve(series, target, &anchor, &Tolerance { wanted: error, accepted: error }).place }")
+code("let (mut local, mut evaluations) = anchor.approach(error.wanted);", """let mut p = place.hi + flipped(local.x, back);
+    let mut moved = anchor.distance(p) - local.x; let mut needs_slopes = moved.abs() > MOVED * local.x;""")
+code("if needs_slopes {", """(local, moved) = (Taylor::new(c, anchor.distance(p)), 0.0); evaluations += 1; }
+    let missing = target.difference(series.at(p));""")
+code("let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };", """
+    if is_inside && left(c, &local, moved, missing, step, rounding) <= 0.75 * most {""")
 
 ROUNDING = 1 / Fraction(2 ** int(source(r"const ROUNDING: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
 MOVED = 1 / Fraction(2 ** int(source(r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
 CUBES = Fraction(source(r"moved\.abs\(\) \* squares \+ (\d\.\d) \* cubes"))
 SQUARES = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
 # By how many ROUNDINGs each kind of anchor counts.
-code("let mut anchor =", "Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };")
-code("if target.hi <= sought.abs() {", """let c = self.mass_in_single(side);
-    return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING }; }""")
+code("pub(crate) const fn end(c: [f32; N], sought: f32) -> Self {", "Self { place: Pair::ZERO, back: 0, c, sought, rounding: ROUNDING } }")
+code("let mut anchor =", "Anchor::end(c, target.hi);")
+code("if target.hi <= sought.abs() {", "return Anchor::end(self.mass_in_single(side), target.hi); }")
 code("if nearest == 2 {", """let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
     return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER }; }""")
 code("Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }", "")
@@ -186,7 +190,7 @@ code("pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) ->
     let inverse = inverse * (2.0 - local.d1 * inverse); let newton = missing * inverse;
     let step = newton * (1.0 - local.d2 * newton * inverse); let place = Pair::sum(x, step);
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-    let left = left(&single, [x, 0.0], &local, missing, step, ROUNDING);
+    let left = left(&single, &local, 0.0, missing, step, ROUNDING);
     if is_inside & (left <= 0.75 * error) { Some(place) } else { None } }""")
 code("quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)", "}")
 # Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most

@@ -12,6 +12,7 @@ use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT, floor_bits};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::{Shape, check_finite, check_ramp};
+use crate::search::Tolerance;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
@@ -110,7 +111,8 @@ impl Exposure {
             Section::Ramp(ramp, target) => {
                 // One address, or the search keeps the curve's and an index on the stack.
                 let ramp = core::hint::black_box(self.ramp(ramp));
-                ramp.at_mass(side, target, [error * a.hi, INVERSE_ERROR * a.hi])
+                let [wanted, accepted] = [error * a.hi, INVERSE_ERROR * a.hi];
+                ramp.at_mass(side, target, &Tolerance { wanted, accepted })
             }
         }
     }

@@ -5,8 +5,7 @@ use crate::number::pair::{Pair, flipped, lost_by_short_product, upper};
 use crate::number::series::Series;
 use crate::number::units::{LAST_PLACE, LENGTH, exponent, fraction_per_mass, power_of_two};
 use crate::ramp::{BACK, Ramp};
-use crate::search::guess::guess;
-use crate::search::{Anchor, ROUNDING, Taylor, left, solve};
+use crate::search::{Anchor, ROUNDING, Taylor, Tolerance, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
 /// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
@@ -66,8 +65,7 @@ impl Ramp {
     const fn searched_place(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        let mut anchor =
-            Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
+        let mut anchor = Anchor::end(c, target.hi);
         // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if that is below SLOW and nearer to the target than
         // the end is.
         let thrice = 3.0 * c3;
@@ -82,8 +80,8 @@ impl Ramp {
                 anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
             }
         }
-        let guess = guess(&anchor.c, anchor.sought);
-        solve(series, target, &anchor, guess, [TIME_ERROR * target.hi; 2]).0
+        let error = TIME_ERROR * target.hi;
+        solve(series, target, &anchor, &Tolerance { wanted: error, accepted: error }).place
     }
 
     /// The openness `f 2^unit` at `t`, at least 0, as `(f, unit)`.
@@ -203,7 +201,7 @@ pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Optio
     let place = Pair::sum(x, step);
     // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-    let left = left(&single, [x, 0.0], &local, missing, step, ROUNDING);
+    let left = left(&single, &local, 0.0, missing, step, ROUNDING);
     if is_inside & (left <= 0.75 * error) { Some(place) } else { None }
 }
 

@@ -32,8 +32,7 @@ use crate::number::units::{
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::integral;
 use crate::ramp::shape::Shape;
-use crate::search::guess::guess;
-use crate::search::{Anchor, ROUNDING, solve};
+use crate::search::{Anchor, Found, ROUNDING, Tolerance, solve};
 
 /// The sign bit, for what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
@@ -62,11 +61,10 @@ impl End {
     }
 }
 
-/// A flat place: the minimum of `t'` or `f` inside a ramp. Place, mass and powers count away from the ramp's nearer
-/// end; place and mass are negative if that is the later end.
+/// A flat place: the minimum of `t'` or `f` inside a ramp. Place, mass and powers count from the ramp's nearer end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// From that end to here.
+    /// From that end to here, with a sign that says which it is: negative for the later one.
     place: f32,
     /// From that end to here.
     mass: Pair,
@@ -77,6 +75,12 @@ struct Flat {
 impl Flat {
     /// No flat place: no mass is near to it.
     const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
+
+    /// The end from which all counts.
+    #[inline(always)]
+    const fn end(&self) -> Side {
+        Side::end_if(self.place.is_sign_negative())
+    }
 }
 
 /// One Bezier as a part of a curve.
@@ -121,7 +125,7 @@ impl Ramp {
             // From either side both last coefficients have the same bits, but for the sign of the mass.
             ramp.last_of_time = in_places(&time.c, per_unit, &mut seen_end.time);
             let last = in_places(&seen.mass(), per_mass, &mut seen_end.mass);
-            ramp.last_of_mass = seen_from(side, last);
+            ramp.last_of_mass = last.flipped(side.sign());
             let series = Series { c: &seen_end.mass, last };
             let minima = [time.least_slope(), openness.minimum()];
             let mut kind = 0;
@@ -134,7 +138,7 @@ impl Ramp {
                     in_places(&integral(openness.around(p), time.around(p)), per_mass, &mut c);
                     ramp.flats[kind & 1] = Flat {
                         place: flipped(place, side.sign()),
-                        mass: seen_from(side, series.at(place)),
+                        mass: series.at(place),
                         c: [c[0].hi, c[1].hi, c[2].hi, c[3].hi],
                     };
                 }
@@ -171,7 +175,7 @@ impl Ramp {
     /// The mass since the end that faces a side.
     #[inline(always)]
     pub(crate) const fn mass_since(&self, side: Side) -> Series<'_> {
-        Series { c: &self.end(side).mass, last: seen_from(side, self.last_of_mass) }
+        Series { c: &self.end(side).mass, last: self.last_of_mass.flipped(side.sign()) }
     }
 
     /// [`mass_since`](Self::mass_since) in single precision.
@@ -181,21 +185,16 @@ impl Ramp {
         [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
     }
 
-    /// The moment by which `target` has been collected since the end that faces a side. Target and errors (those of
-    /// [`solve`]) are fractions in [`WHOLE`].
+    /// The moment by which `target` has been collected since the end that faces a side. Target and error are fractions
+    /// in [`WHOLE`].
     #[inline(always)]
-    pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: [f32; 2]) -> Moment {
+    pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: &Tolerance) -> Moment {
         let factor = mass_per_fraction(self.share.hi);
         let target = target.scaled(factor);
+        let Tolerance { wanted, accepted } = *error;
+        let error = Tolerance { wanted: wanted * factor, accepted: accepted * factor };
         let anchor = self.anchor(side, target);
-        let guess = guess(&anchor.c, anchor.sought);
-        let error = [error[0] * factor, error[1] * factor];
-        self.moment(side, solve(self.mass_since(side), target, &anchor, guess, error))
-    }
-
-    /// The moment of a place, counted from the end that faces a side.
-    #[inline(always)]
-    const fn moment(&self, side: Side, (place, evaluations): (Pair, u32)) -> Moment {
+        let Found { place, evaluations } = solve(self.mass_since(side), target, &anchor, &error);
         let way = self.time_since(side).at_pair(place);
         Moment {
             base: self.time(side),
@@ -212,10 +211,10 @@ impl Ramp {
     /// On a ramp with a mass of 10, from each anchor to a target of 7, and negative if that lies back:
     ///
     /// ```text
-    /// from this end                     7
-    /// from a flat place of mass 6       7 - 6 = 1             both masses count from this end
-    /// from a flat place of mass -1      (7 - 10) + 1 = -2     both count from the other end
-    /// from the other end                7 - 10 = -3
+    /// from this end                                         7
+    /// from a flat place of mass 6, counted from this end    7 - 6 = 1
+    /// from one of mass 1, counted from the other end        (7 - 10) + 1 = -2
+    /// from the other end                                    7 - 10 = -3
     /// ```
     #[inline(always)]
     const fn anchor(&self, side: Side, target: Pair) -> Anchor<6> {
@@ -223,9 +222,12 @@ impl Ramp {
         let (mut sought, mut nearest) = (from_other.rounded(), 2);
         let mut i = 0;
         while i < 2 {
-            let mass = seen_from(side, self.flats[i].mass);
-            let from_end = if mass.hi < 0.0 { from_other } else { target };
-            let from_flat = from_end.difference(mass);
+            let flat = &self.flats[i];
+            let from_flat = if flat.end().is(side) {
+                target.difference(flat.mass)
+            } else {
+                from_other.difference(flat.mass.negated())
+            };
             if from_flat.abs() < sought.abs() {
                 (sought, nearest) = (from_flat, i);
             }
@@ -233,21 +235,20 @@ impl Ramp {
         }
         // |sought| is the least of the table's last three.
         if target.hi <= sought.abs() {
-            let c = self.mass_in_single(side);
-            return Anchor { place: Pair::ZERO, back: 0, c, sought: target.hi, rounding: ROUNDING };
+            return Anchor::end(self.mass_in_single(side), target.hi);
         }
         if nearest == 2 {
             let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
             return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER };
         }
         let flat = &self.flats[nearest & 1];
-        let is_other = (flat.place < 0.0) != side.is_end();
-        let [.., c5, c6] = self.mass_in_single(side.other_if(is_other));
+        let [.., c5, c6] = self.mass_in_single(flat.end());
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
         // Around `from_end` the fifth coefficient is c5 + 6 c6 from_end, and the sixth c6.
         let c5 = c5 + 6.0 * c6 * from_end;
-        let (base, counts_back) = if is_other { (LAST_PLACE, BACK) } else { (0.0, 0) };
+        // Do the powers count back, from the other end?
+        let (base, counts_back) = if flat.end().is(side) { (0.0, 0) } else { (LAST_PLACE, BACK) };
         let place = Pair::sum(base, flipped(from_end, counts_back));
         let back = sought.to_bits() & BACK;
         // Mirrored if the powers count away from the target: with x for -x, and the mass negated, 3x + 2x² + x³ becomes
@@ -256,13 +257,6 @@ impl Ramp {
         let c = [c1, flipped(c2, mirror), c3, flipped(c4, mirror), c5, flipped(c6, mirror)];
         Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }
     }
-}
-
-/// Stored, what counts from the ramp's later end is negative. Seen from a side, what counts from the end that does not
-/// face it is negative. This leads from either to the other.
-#[inline(always)]
-const fn seen_from(side: Side, x: Pair) -> Pair {
-    x.flipped(side.sign())
 }
 
 /// Coefficients of powers of `p`, which is 0 to 1, become those of powers of the place, times `scale`. Fills `pairs`

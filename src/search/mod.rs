@@ -3,7 +3,8 @@
 //! A series increases along the ramp. It is known twice: in pairs from one end of the ramp, to measure by, and in
 //! single precision from an [`Anchor`] near the target, to search by. A search
 //!
-//! 1. takes Halley's steps in single precision, each of limited length, until less than 2⁻¹³ of `sought` is missing,
+//! 1. takes Halley's steps in single precision, each of limited length, until less than 2⁻¹³ of `sought` is missing
+//!    ([`Anchor::approach`]),
 //! 2. measures in pairs what is missing,
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
@@ -18,6 +19,7 @@ pub(crate) mod guess;
 use crate::number::pair::{Pair, flipped};
 use crate::number::series::Series;
 use crate::number::units::LAST_PLACE;
+use guess::guess;
 
 /// After so many evaluations every place is measured in pairs, and halves the bracket. No search for an `f32` in the
 /// tests takes more than half as many.
@@ -63,21 +65,86 @@ pub(crate) struct Anchor<const N: usize> {
 }
 
 impl<const N: usize> Anchor<N> {
+    /// The end of the ramp from which the pairs count.
+    #[inline(always)]
+    pub(crate) const fn end(c: [f32; N], sought: f32) -> Self {
+        Self { place: Pair::ZERO, back: 0, c, sought, rounding: ROUNDING }
+    }
+
     /// From the anchor to the place `p`.
     #[inline(always)]
     const fn distance(&self, p: f32) -> f32 {
         flipped((p - self.place.hi) - self.place.lo, self.back)
     }
 
-    /// From the anchor to the end of the ramp.
+    /// The distance at which less than a share [`PAIRS_BELOW`] of what is sought is missing, with the series there, and
+    /// the evaluations that took. It ends early after [`FREE_EVALUATIONS`].
     #[inline(always)]
-    const fn reach(&self) -> f32 {
-        if self.back == 0 { LAST_PLACE - self.place.hi } else { self.place.hi }
+    const fn approach(&self, wanted: f32) -> (Taylor, u32) {
+        // In bits: comparing integers does not wait for the FPU, and a NaN is too much.
+        let hardly_any = (PAIRS_BELOW * self.sought + wanted).to_bits() as i32;
+        // To the end of the ramp.
+        let reach = if self.back == 0 { LAST_PLACE - self.place.hi } else { self.place.hi };
+        let most_reach = reach.to_bits() as i32;
+        let guess = guess(&self.c, self.sought);
+        // Not all of the reach: at the ramp's end the density may be 0.
+        let mut x = if guess < 0.75 * reach { guess } else { 0.75 * reach };
+        let mut evaluations = 0;
+        loop {
+            let local = Taylor::new(&self.c, x);
+            evaluations += 1;
+            let missing = self.sought - local.value;
+            if missing.abs().to_bits() as i32 <= hardly_any || evaluations >= FREE_EVALUATIONS {
+                return (local, evaluations);
+            }
+            // In bits, so that the limits stop a NaN, too.
+            let next = (x + local.step(missing)).to_bits() as i32;
+            let bits = x.to_bits() as i32;
+            let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
+            let least = least & !(least >> 31); // max(least, 0)
+            let most = if most < most_reach { most } else { most_reach };
+            let next = if next < least { least } else { next };
+            x = f32::from_bits(if next < most { next } else { most } as u32);
+        }
     }
 }
 
-/// The first Taylor coefficients around a place: `S`, `S'` and `S'' / 2`.
+/// What a search may leave.
+pub(crate) struct Tolerance {
+    pub(crate) wanted: f32,
+    /// Enough if the last step is at most 2⁻²³ of the place, one to two ulp: as near as a bracket of neighbours comes.
+    pub(crate) accepted: f32,
+}
+
+/// What a search found.
+pub(crate) struct Found {
+    pub(crate) place: Pair,
+    pub(crate) evaluations: u32,
+}
+
+/// Two places, and the target between them, by their bits: so a half of the bracket has half of its `f32`.
+struct Bracket {
+    low: i32,
+    high: i32,
+}
+
+impl Bracket {
+    /// A NaN is outside.
+    #[inline(always)]
+    const fn holds(&self, p: f32) -> bool {
+        let bits = p.to_bits() as i32;
+        bits >= self.low && bits <= self.high
+    }
+
+    #[inline(always)]
+    const fn middle(&self) -> f32 {
+        f32::from_bits((self.low + (self.high - self.low) / 2) as u32)
+    }
+}
+
+/// The first Taylor coefficients around `x`: `S`, `S'` and `S'' / 2`.
 pub(crate) struct Taylor {
+    x: f32,
     pub(crate) value: f32,
     pub(crate) d1: f32,
     pub(crate) d2: f32,
@@ -92,7 +159,7 @@ impl Taylor {
         let value = c[0] * x;
         horner(&mut c, x, 0); // c[0] = Q + x Q' = S'
         horner(&mut c, x, 1); // c[1] = S'' / 2
-        Self { value, d1: c[0], d2: c[1] }
+        Self { x, value, d1: c[0], d2: c[1] }
     }
 
     /// Halley's step for `missing`: `n / (1 + b)`, with Newton's step `n` and `b = n d2 / d1`. Up to `b = 1/2` it is
@@ -125,7 +192,7 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
     }
 }
 
-/// A bound of what is missing after the step `s` from `x`, where `x` may be rounded by `moved`:
+/// A bound of what is missing after the step `s` from `x + moved`, by the series around `x`:
 ///
 /// ```text
 ///   |missing - s (d1 + d2 s)|    left by the first two Taylor terms, as they are computed
@@ -142,8 +209,8 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
     c: &[f32; N],
-    [x, moved]: [f32; 2],
     local: &Taylor,
+    moved: f32,
     missing: f32,
     s: f32,
     rounding: f32,
@@ -151,7 +218,7 @@ pub(crate) const fn left<const N: usize>(
     // Loaded anew, or the compiler would keep all of `c` in registers.
     let c = core::hint::black_box(c);
     let size = s.abs();
-    let y = x.abs() + size;
+    let y = local.x.abs() + size;
     let (mut cubes, mut j) = (0.0, N);
     while j > 2 {
         cubes = cubes * y + j as f32 * c[j - 1].abs();
@@ -163,85 +230,49 @@ pub(crate) const fn left<const N: usize>(
     first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, and the evaluations that took.
-///
-/// The last step leaves at most 3/4 of `wanted`; or of `accepted`, if it is at most 2⁻²³ of the place, one to two ulp,
-/// which is as near as a bracket of neighbours comes. The last quarter is for measuring. At the cap there is no bound.
+/// The place where `series` reaches `target`. The last step leaves at most 3/4 of what it may; the last quarter is for
+/// measuring. At the cap there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,
     target: Pair,
     anchor: &Anchor<N>,
-    guess: f32,
-    [wanted, accepted]: [f32; 2],
-) -> (Pair, u32) {
-    let Anchor { place, back, c, sought, rounding } = *anchor;
+    error: &Tolerance,
+) -> Found {
+    let Anchor { place, back, ref c, sought, rounding } = *anchor;
     // Exit: the anchor itself.
-    if sought <= 0.5 * wanted {
-        return (place, 0);
+    if sought <= 0.5 * error.wanted {
+        return Found { place, evaluations: 0 };
     }
-    // In bits: comparing integers does not wait for the FPU, and a NaN is too much.
-    let hardly_any = (PAIRS_BELOW * sought + wanted).to_bits() as i32;
-    let reach = anchor.reach();
-    let mut evaluations = 0;
-    // The distance from the anchor. Not all of the reach: at the ramp's end the density may be 0.
-    let mut x = if guess < 0.75 * reach { guess } else { 0.75 * reach };
-    let most_reach = reach.to_bits() as i32;
-    let mut local;
-    loop {
-        local = Taylor::new(&c, x);
-        evaluations += 1;
-        let missing = sought - local.value;
-        if missing.abs().to_bits() as i32 <= hardly_any || evaluations >= FREE_EVALUATIONS {
-            break;
-        }
-        // In bits, so that the limits stop a NaN, too.
-        let next = (x + local.step(missing)).to_bits() as i32;
-        let bits = x.to_bits() as i32;
-        let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
-        let least = least & !(least >> 31); // max(least, 0)
-        let most = if most < most_reach { most } else { most_reach };
-        let next = if next < least { least } else { next };
-        x = f32::from_bits(if next < most { next } else { most } as u32);
-    }
+    let (mut local, mut evaluations) = anchor.approach(error.wanted);
     // Only an `f32` can be measured: `p`, at `x + moved` from the anchor. If that is far from `x`, the slopes differ.
-    let mut p = place.hi + flipped(x, back);
-    let distance = anchor.distance(p);
-    let mut moved = distance - x;
-    let mut needs_slopes = moved.abs() > MOVED * x;
-    if needs_slopes {
-        (x, moved) = (distance, 0.0);
-    }
-    // The answer's bracket, in bits.
-    let (mut low, mut high) = (0, LAST_PLACE.to_bits() as i32);
+    let mut p = place.hi + flipped(local.x, back);
+    let mut moved = anchor.distance(p) - local.x;
+    let mut needs_slopes = moved.abs() > MOVED * local.x;
+    let mut bracket = Bracket { low: 0, high: LAST_PLACE.to_bits() as i32 };
     loop {
         if needs_slopes {
-            local = Taylor::new(&c, x);
+            (local, moved) = (Taylor::new(c, anchor.distance(p)), 0.0);
             evaluations += 1;
         }
         let missing = target.difference(series.at(p));
         evaluations += 1;
-        *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
+        *(if missing > 0.0 { &mut bracket.low } else { &mut bracket.high }) = p.to_bits() as i32;
         let missing = flipped(missing, back);
         let step = local.short_step(missing);
         let way = flipped(step, back);
-        let end = p + way;
-        // A NaN is outside.
-        let bits = end.to_bits() as i32;
-        let is_inside = bits >= low && bits <= high;
-        let error = if step.abs() <= ULP * p { accepted } else { wanted };
+        let is_inside = bracket.holds(p + way);
+        let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };
         // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the
         // target at most (proofs/solve.py): enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
-        if is_inside && left(&c, [x, moved], &local, missing, step, rounding) <= 0.75 * error {
-            return (Pair::sum(p, way), evaluations);
+        if is_inside && left(c, &local, moved, missing, step, rounding) <= 0.75 * most {
+            return Found { place: Pair::sum(p, way), evaluations };
         }
         // Exit: the cap, since another round takes two evaluations. There is no proof.
         if evaluations >= MAX_EVALUATIONS - 1 {
-            return (Pair::new(p), evaluations);
+            return Found { place: Pair::new(p), evaluations };
         }
-        // In bits, so that half of the bracket's `f32` lie on either side.
-        let middle = f32::from_bits((low + (high - low) / 2) as u32);
-        p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { middle };
-        (x, moved, needs_slopes) = (anchor.distance(p), 0.0, true);
+        p = if is_inside && evaluations < FREE_EVALUATIONS { p + way } else { bracket.middle() };
+        needs_slopes = true;
     }
 }

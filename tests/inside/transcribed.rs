@@ -68,7 +68,7 @@ fn bounds() {
         let c = [c1, c2, c3, c4, c5, c6];
         let local = Taylor::new(&c, x);
         assert_eq!([local.d1, local.d2], [d1, d2]);
-        assert_eq!(left(&c, [x, moved], &local, missing, s, ROUNDING), bound);
+        assert_eq!(left(&c, &local, moved, missing, s, ROUNDING), bound);
     }
 }
 
