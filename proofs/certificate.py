@@ -420,7 +420,7 @@ code("pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {", """let singl
     loop { p += step; if !(p > 0.0 && p < 1.0) { return if up { 1.0 } else { 0.0 }; } let missing = u - value(&self.fraction, p);
     if if up { missing <= 0.0 } else { missing >= 0.0 } { return p; } step *= 2.0; } }""")
 code("let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];", "let places = [path.place(ends[0], false), path.place(ends[1], true)];")
-code("let is_joined = if ramp.is(side)", "{ last >= 1.0 } else { first <= 0.0 };")
+code("let is_joined = if self.ramp.is(self.side)", "{ last >= 1.0 } else { first <= 0.0 };")
 # Places count from the end that faces the side: of the near ramp the inner end is 1, which the last place may be, of the far ramp 0.
 place, fraction, u = z3.Reals("place fraction u")
 inside = z3.And(place > 0, place < 1)
@@ -439,7 +439,7 @@ code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", "
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
     while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
     let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * differences as f64 }""")
-code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(ramp, most) * per_exposure) as f32 } else { 0.0 },")
+code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.
 f0, f1, f2, f3, q = z3.Reals("f0 f1 f2 f3 q")
 weights = [1 - (1 - q) * (1 - q) * (1 - q), 3 * q * q - 2 * q * q * q, q * q * q]

@@ -36,75 +36,84 @@ pub(crate) const fn build(
     side: Side,
     octaves: &mut [Octave],
 ) -> [u8; 2] {
-    let view = View { exposure, shapes, side, unit };
     let (mut tops, mut first, mut i) = ([0; 2], 0, 0);
     while i < 2 {
         let ramp = [side.other(), side][i];
-        let (top, end) = view.of_ramp(ramp, octaves, first);
+        let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
+        let (top, count) = View { exposure, shapes, side, ramp, unit }.octaves(rest);
         // A stored top is below 8 = 2³, and so less than 31 · 8 = 248 steps above 2⁻²⁸: it fits a byte. For let the far
         // ramp have n octaves, the first with a top f < 1, the last with l = 2 f / 2ⁿ. Then l is above the near ramp's
         // join and above LEAST_TOP / 2. The near ramp's top is below twice its join or below 2 LEAST_TOP, so below 4 l;
         // stored, times 2ⁿ, it is below 8 f. (Without octaves it is less.)
         tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
-        first = end;
+        first += count;
         i += 1;
     }
     tops
 }
 
 impl View<'_> {
-    /// Builds the octaves of a ramp from the index `first` on. Returns the bits of its first top, and the index after
-    /// its last octave.
+    /// Builds the ramp's octaves. Returns the bits of its first top, and how many octaves it has.
     #[inline(never)]
-    const fn of_ramp(&self, ramp: Side, octaves: &mut [Octave], first: usize) -> (u32, usize) {
-        let range = range(self.exposure, self.side, ramp);
+    const fn octaves(&self, octaves: &mut [Octave]) -> (u32, usize) {
+        let range = range(self.exposure, self.side, self.ramp);
         if range[0] >= range[1] {
             // No octaves. A far ramp without any is never looked up. For a near one without any, the fractions up to
             // FINE are, its own and the plateau's (see `range`). Its top is at or above all of these, so their index is
-            // at least `first`; from there on all is NONE, and a search answers.
+            // behind the far ramp's octaves; there all is NONE, and a search answers.
             let far = self.exposure.joins(self.side)[1];
-            return (
-                top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0),
-                first,
-            );
+            return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
         }
-        let (path, mut trial) = (self.path(ramp), 0);
+        let (path, mut trial) = (self.path(), 0);
         loop {
-            let highest = top_beyond(range, MOVES[trial % MOVES.len()]);
+            let top = top_beyond(range, MOVES[trial % MOVES.len()]);
             trial += 1;
-            let (mut index, mut end) = (first, first);
-            while index < octaves.len() {
-                octaves[index] = Octave::NONE;
-                let top = below(highest, index - first);
-                if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-                    // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the
-                    // far ramp's `a` just below its last octave would find the near ramp's first one: as with a join at
-                    // 0.7, a far top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
-                    end = index + 1;
-                }
-                if let Some(span) = Span::new(range, top) {
-                    octaves[index] = self.certified(ramp, &path, &span);
-                    if !octaves[index].exists() && trial < MOVES.len() {
-                        // Try the next of MOVES.
-                        break;
-                    }
-                }
-                index += 1;
-            }
-            if index >= octaves.len() {
-                return (highest, end);
+            if let Some(count) = self.try_top(top, trial >= MOVES.len(), range, &path, octaves) {
+                return (top, count);
             }
         }
     }
 
+    /// Builds the ramp's octaves from a first top on, and returns their number. None at the first that has no
+    /// polynomial, unless this is the last try.
+    #[inline(never)]
+    const fn try_top(
+        &self,
+        first: u32,
+        is_last: bool,
+        range: [f64; 2],
+        path: &Path,
+        octaves: &mut [Octave],
+    ) -> Option<usize> {
+        let (mut index, mut count) = (0, 0);
+        while index < octaves.len() {
+            octaves[index] = Octave::NONE;
+            let top = below(first, index);
+            if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
+                // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the far
+                // ramp's `a` just below its last octave would find the near ramp's first one: as with a join at 0.7, a
+                // far top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
+                count = index + 1;
+            }
+            if let Some(span) = Span::new(range, top) {
+                octaves[index] = self.certified(path, &span);
+                if !octaves[index].exists() && !is_last {
+                    return None;
+                }
+            }
+            index += 1;
+        }
+        Some(count)
+    }
+
     /// The octave of a span, without a polynomial if the candidate has no certificate.
     #[inline(never)]
-    const fn certified(&self, ramp: Side, path: &Path, span: &Span) -> Octave {
+    const fn certified(&self, path: &Path, span: &Span) -> Octave {
         let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
         let places = [path.place(ends[0], false), path.place(ends[1], true)];
         let stretch = span.counted(path.stretch(places));
         let Some(candidate) = self.candidate(span, &stretch) else { return Octave::NONE };
-        let shares = self.certificate(&candidate, span, stretch, ramp, places);
+        let shares = self.certificate(&candidate, span, stretch, places);
         if shares.are_certain() { candidate.octave } else { Octave::NONE }
     }
 }

@@ -73,12 +73,12 @@ impl View<'_> {
             k = k - 1;
         }
         let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
-        // Nearly a time of the ramp. Where it is at most 2⁶², as `start` is, the sum below fits.
+        // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
         if middle.unsigned_abs() > 1 << 62 {
             return None;
         }
-        let start = fixed(self.exposure.end(self.side), self.unit);
-        octave.middle = if self.side.is_end() { start - middle } else { start + middle };
+        let end = fixed(self.exposure.end(self.side), self.unit);
+        octave.middle = if self.side.is_end() { end - middle } else { end + middle };
         octave.factor = if self.side.is_end() { -factor } else { factor };
         Some(Candidate {
             octave,

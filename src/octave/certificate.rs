@@ -1,7 +1,7 @@
 //! The certificate of an octave: bounds of its polynomial's errors. docs/proofs.md, "An octave's certificate", has the
 //! argument.
 
-use crate::fraction::Side::{self, End, Start};
+use crate::fraction::Side::{End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{Errors, SAMPLE_OFF, SPARSEST, Sampled, errors};
 use crate::octave::candidate::Candidate;
@@ -62,11 +62,10 @@ impl View<'_> {
         candidate: &Candidate,
         span: &Span,
         mut along: Path,
-        ramp: Side,
         [first, last]: [f64; 2],
     ) -> Shares {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
-        let (exposure, side) = (self.exposure, self.side);
+        let exposure = self.exposure;
         let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
         let (off, ulp) = (
             OFF[0] + OFF[1] * span.to,
@@ -95,7 +94,7 @@ impl View<'_> {
         // An offset beyond its word would wrap. It is greatest at an end.
         let [x0, x1, x2, x3, x4, x5, x6] = offset;
         let fits = (x0 + x2 + x4 + x6).abs() + (x1 + x3 + x5).abs() < MOST_OFFSET;
-        let is_joined = if ramp.is(side) { last >= 1.0 } else { first <= 0.0 };
+        let is_joined = if self.ramp.is(self.side) { last >= 1.0 } else { first <= 0.0 };
         let limits = Limits {
             rounding: truncated
                 + SAMPLE_OFF
@@ -104,7 +103,7 @@ impl View<'_> {
             per_size: if per_size[0] > per_size[1] { per_size[0] } else { per_size[1] },
             beyond: if is_joined {
                 let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));
-                (self.greatest_beyond(ramp, most) * per_exposure) as f32
+                (self.greatest_beyond(most) * per_exposure) as f32
             } else {
                 0.0
             },
@@ -142,14 +141,14 @@ impl View<'_> {
         if size < end - start { size } else { end - start }
     }
 
-    /// A bound of the openness for a `time` beyond a ramp's join: 1 on a plateau, or else the other ramp's.
+    /// A bound of the openness for a `time` beyond the ramp's join: 1 on a plateau, or else the other ramp's.
     #[inline(never)]
-    pub(crate) const fn greatest_beyond(&self, ramp: Side, time: f32) -> f64 {
+    pub(crate) const fn greatest_beyond(&self, time: f32) -> f64 {
         if self.exposure.has_plateau() {
             return 1.0;
         }
         // Seen from the join, where it has the openness `at_join`.
-        let (other, is_back) = (&self.shapes[ramp.other() as usize], ramp.is_end());
+        let (other, is_back) = (&self.shapes[self.ramp.other() as usize], self.ramp.is_end());
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
         let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
         // From the join to the place `p` the other ramp takes at least `time`, or `p` is 1.

@@ -15,19 +15,14 @@ const MOST_STEPS: usize = 40;
 /// The first step outwards of [`Path::place`], as a share of the place.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
-/// A side of the curve, for which octaves are built.
+/// A ramp, seen from a side of the curve, for which octaves are built.
 pub(crate) struct View<'a> {
     pub(crate) exposure: &'a Exposure,
     pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
+    pub(crate) ramp: Side,
     /// The plan's unit of time is `2^unit`.
     pub(crate) unit: i32,
-}
-
-impl View<'_> {
-    pub(crate) const fn path(&self, ramp: Side) -> Path {
-        Path::new(self.exposure, &self.shapes[ramp as usize], self.side, ramp)
-    }
 }
 
 /// A ramp, by powers of a place from 0, at the end that faces the side, to 1. Or a *stretch* of it, by powers of an `s`
@@ -41,10 +36,10 @@ pub(crate) struct Path {
     pub(crate) fraction: [f64; 7],
 }
 
-impl Path {
-    /// The `ramp`, which has this `shape`, seen from `side`.
-    pub(crate) const fn new(exposure: &Exposure, shape: &Shape, side: Side, ramp: Side) -> Self {
-        let shape = shape.from(side);
+impl View<'_> {
+    pub(crate) const fn path(&self) -> Path {
+        let Self { exposure, shapes, side, ramp, .. } = *self;
+        let shape = shapes[ramp as usize].from(side);
         let way = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
         // At place 0: the side's end, or the far ramp's join.
         let (t0, u0) =
@@ -55,9 +50,11 @@ impl Path {
         // Masses over the area; `u0` is a fraction already.
         let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
-        Self { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
+        Path { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
     }
+}
 
+impl Path {
     /// A place of the ramp with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is
     /// near, not the nearest: farther out, a certificate is only stricter.
     #[inline(never)]

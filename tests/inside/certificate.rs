@@ -50,15 +50,15 @@ impl Truth {
         let (exact, unit) =
             (Exact::new(curve), time_unit(exposure.end(Side::Start), exposure.end(Side::End)));
         for side in Side::BOTH {
-            let this = View { exposure: &exposure, shapes: &shapes, side, unit };
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let (range, path) = (range(&exposure, side, ramp), this.path(ramp));
+                let this = View { exposure: &exposure, shapes: &shapes, side, ramp, unit };
+                let (range, path) = (range(&exposure, side, ramp), this.path());
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(top(steps), index)) {
                         self.octaves += 1;
-                        this.judge(octave, ramp, &path, &span, &exact, samples, &mut self.greatest);
+                        this.judge(octave, &path, &span, &exact, samples, &mut self.greatest);
                     }
                 }
             }
@@ -79,7 +79,6 @@ impl View<'_> {
     fn judge(
         &self,
         octave: &Octave,
-        ramp: Side,
         path: &Path,
         span: &Span,
         exact: &Exact,
@@ -88,12 +87,12 @@ impl View<'_> {
     ) {
         let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
-        let bounds = self.certificate(&candidate, span, stretch, ramp, places);
+        let bounds = self.certificate(&candidate, span, stretch, places);
         let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
         // The span itself rounds its end.
-        let end = range(self.exposure, self.side, ramp)[1].min(f64::from(span.to));
+        let end = range(self.exposure, self.side, self.ramp)[1].min(f64::from(span.to));
         for i in 0..=samples {
             // Evenly, and so also next to both ends.
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
@@ -197,7 +196,7 @@ fn an_offset_beyond_its_word_is_refused() {
     let unit = time_unit(exposure.end(Side::Start), exposure.end(Side::End));
     let mut judged = 0;
     for side in Side::BOTH {
-        let this = View { exposure: &exposure, shapes: &shapes, side, unit };
+        let this = View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit };
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, unit, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
@@ -206,7 +205,7 @@ fn an_offset_beyond_its_word_is_refused() {
             else {
                 continue;
             };
-            let (candidate, stretch, places) = this.built(&span, &this.path(side));
+            let (candidate, stretch, places) = this.built(&span, &this.path());
             let (center, per_position) = span.offsets();
             let offset =
                 |along: &Path, place| (value(&along.fraction, place) - center) * per_position;
@@ -215,7 +214,7 @@ fn an_offset_beyond_its_word_is_refused() {
                     // Moved until its end is there.
                     let mut moved = stretch;
                     moved.fraction[0] += (end * to - offset(&stretch, end)) / per_position;
-                    let bounds = this.certificate(&candidate, &span, moved, side, places);
+                    let bounds = this.certificate(&candidate, &span, moved, places);
                     let is_refused = bounds == Shares::REFUSED;
                     assert_eq!(is_refused, to > 0.4999, "{to} at {end}: {bounds:?}");
                     judged += 1;
@@ -238,8 +237,8 @@ fn the_openness_beyond_a_join_is_bounded() {
         let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else { return };
         let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
         let bounds = Side::BOTH.map(|ramp| {
-            View { exposure: &exposure, shapes: &shapes, side: ramp, unit: 0 }
-                .greatest_beyond(ramp, time)
+            View { exposure: &exposure, shapes: &shapes, side: ramp, ramp, unit: 0 }
+                .greatest_beyond(time)
         });
         assert_eq!(bounds[0], bounds[1], "a mirrored curve, {t:?} {f:?} {time:e}");
         let shape = shapes[1];
