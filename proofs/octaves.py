@@ -10,7 +10,7 @@ code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usiz
     let octave = &self.octaves[side as usize][index];
     let borrowed = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
     Some((octave, borrowed.wrapping_add(borrowed & !(borrowed >> 31)))) }""")
-code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
+code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle as f64, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
@@ -47,9 +47,10 @@ code("pub(crate) fn nearer(u: f32) -> (Side, u32) {", """let (bits, late) = (u.t
     (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits)) }""")
 code("const fn by_octave(&self, side: Side, bits: u32, ramp: Side) -> Option<i64> {", """match self.look_up(side, ramp, bits) {
     Some((octave, position)) if octave.exists() => { Some(octave.time(octave.offset(position))) } _ => None, } }""")
-code("last_before_far: [ floor_bits(", """exposure.joins(Start)[1]), floor_bits(exposure.joins(End)[1]), ],""")
-code("let last = if plan.last_before_far[side] < before_end {", """plan.last_before_far[side] } else { before_end };
-    let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);""")
+code("last_before_far: [ last_before(", """exposure.joins(Start)[1]), last_before(exposure.joins(End)[1]), ],""")
+code("const fn last_before(join: f64) -> u32 {", """let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
+    if join < before_end { join } else { before_end } }""")
+code("let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);", "")
 
 SHIFT = int(source(r"const SHIFT: u32 = (\d+);"))
 STEP = 1 << int(source(r"const TOP_STEP: u32 = 1 << (\d+);"))
@@ -255,4 +256,4 @@ require(not gappa(horner(float(least + near), float(most))) and not gappa(horner
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
 require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);", "")
+code("let middle = fixed(c[0] - MEAN_TRUNCATION * step, self.unit);", "")

@@ -11,14 +11,14 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     #[doc(hidden)]
     #[must_use]
     pub fn is_direct(&self, u: f32) -> bool {
-        self.plan.is_direct(u)
+        self.plan.evaluations(u).is_none()
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`.
     #[doc(hidden)]
     #[must_use]
     pub fn evaluations(&self, u: f32) -> u32 {
-        self.plan.evaluations(u)
+        self.plan.evaluations(u).unwrap_or(0)
     }
 }
 

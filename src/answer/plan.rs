@@ -22,9 +22,7 @@ use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::Moment;
 use crate::number::pair::Pair;
-use crate::number::units::{
-    FINE, WHOLE, exponent, fixed, fixed_f64, floor_bits, power_of_two, time_unit,
-};
+use crate::number::units::{FINE, WHOLE, exponent, fixed, floor_bits, power_of_two, time_unit};
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
@@ -69,8 +67,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             exposure,
             scale: power_of_two(unit + 32),
             last_before_far: [
-                floor_bits(exposure.joins(Start)[1]),
-                floor_bits(exposure.joins(End)[1]),
+                last_before(exposure.joins(Start)[1]),
+                last_before(exposure.joins(End)[1]),
             ],
             on_line_count: [0; 2],
             base: 0,
@@ -80,25 +78,17 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         };
         if plan.exposure.has_plateau() {
             // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
-            plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
-            plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
+            plan.base = fixed(open as f64, unit) - fixed(shapes[0].area(), unit);
+            plan.slope = fixed(close as f64, unit) + fixed(shapes[1].area(), unit) - plan.base;
             // Without a line nothing may be direct: a fraction on the plateau would be looked up in a ramp's octave.
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
             }
             let mut side = 0;
             while side < 2 {
-                // Below 1, which has the exact end.
-                let before_end = 1.0f32.to_bits() - 1;
-                let last = if plan.last_before_far[side] < before_end {
-                    plan.last_before_far[side]
-                } else {
-                    before_end
-                };
                 let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);
                 let before = if near < FINE.to_bits() { FINE.to_bits() } else { near };
-                plan.last_before_far[side] = last;
-                plan.on_line_count[side] = last.saturating_sub(before);
+                plan.on_line_count[side] = plan.last_before_far[side].saturating_sub(before);
                 side += 1;
             }
         } else if plan.exposure.half_is_beyond_join() {
@@ -131,7 +121,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
 
     /// The time of the curve's end at a side, in units.
     pub(crate) const fn end_in_units(&self, side: Side) -> i64 {
-        fixed(self.exposure.end(side), self.unit())
+        fixed(self.exposure.end(side) as f64, self.unit())
     }
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
@@ -294,21 +284,15 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         self.searched_moment(side, a).time().to_bits()
     }
 
-    /// Is no search needed for `u`?
-    pub(crate) fn is_direct(&self, u: f32) -> bool {
+    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
+    pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         let (side, bits) = Self::nearer(u);
         let ramp = Side::end_if(until_far >> 31 == 1);
-        until_far < self.on_line_count[0] || self.by_octave(side, bits, ramp).is_some()
-    }
-
-    /// The evaluations of the mass that [`inverse_cdf`](Self::inverse_cdf) takes: 0 where no search is needed.
-    pub(crate) fn evaluations(&self, u: f32) -> u32 {
-        let (side, bits) = Self::nearer(u);
-        if self.is_direct(u) {
-            0
+        if until_far < self.on_line_count[0] || self.by_octave(side, bits, ramp).is_some() {
+            None
         } else {
-            self.searched_moment(side, f32::from_bits(bits)).evaluations
+            Some(self.searched_moment(side, f32::from_bits(bits)).evaluations)
         }
     }
 
@@ -342,6 +326,12 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         }
         least
     }
+}
+
+/// The bits of the last `f32` before a join, and before 1, which has the exact end.
+const fn last_before(join: f64) -> u32 {
+    let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
+    if join < before_end { join } else { before_end }
 }
 
 /// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².

@@ -11,7 +11,7 @@
 //!
 //! Samples go the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
-use crate::number::units::{WORD, fixed_f64};
+use crate::number::units::{WORD, fixed};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
 
@@ -106,7 +106,7 @@ impl Sampled {
 const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     let (mut are_counted, mut k) = (true, 0);
     while k < c.len() && k < counted.len() {
-        counted[k] = fixed_f64(c[k], -bits);
+        counted[k] = fixed(c[k], -bits);
         are_counted &= counted[k].unsigned_abs() >> 60 == 0;
         k += 1;
     }
