@@ -13,9 +13,9 @@ import z3
 
 from common import *
 
-code("const fn ellipse(rho: f32) -> [f32; 3] {", """let square = 1.0 / (rho * rho);
+code("const fn ellipse(rho: f32) -> Ellipse {", """let square = 1.0 / (rho * rho);
     let twelfth = square * square * square * square * square * square;
-    [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)] }""")
+    Ellipse { axis: 0.5 * (rho + 1.0 / rho), tail: 2.0 * twelfth / (rho - 1.0), square } }""")
 code("const COSINES: &[i32; POINTS / 2 + 1] = &{", """
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() { cosines[i] = (cosine * PLACE as f64 + 0.5) as i32;
@@ -28,21 +28,21 @@ code("let (mut seen, mut i) = ([0.0; KINDS], 0);", """
     let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
     let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
     let error = error / (1 << TIME_BITS) as f32;""")
-code("if place <= 0 { break; }", "place = -place; } i += step; }")
+code("if place <= 0 { break; }", "place = -place; } i += stride; }")
 code("counted[k] = fixed(c[k], -bits);", "are_counted &= counted[k].unsigned_abs() >> 60 == 0;")
 code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut c) = (0, c);
     while let [lower @ .., next] = c { let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
     value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next; c = lower; } value }""")
 code("let noise = noise * absolute(&weights[kind], 1.0);", """least[kind] -= noise;
-    most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);""")
-code("let [axis, _, first] = ELLIPSES[i];", "tails[i] = SLACK * first * off_line(octave, x, axis);")
-code("let [axis, square, _] = ELLIPSES[i];", """
+    most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], stride);""")
+code("let Ellipse { axis, tail, .. } = ELLIPSES[i];", "tails[i] = SLACK * tail * off_line(octave, x, axis);")
+code("let Ellipse { axis, square, .. } = ELLIPSES[i];", """
     let mut tail = tails[i] * absolute(weight, axis);
-    let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
+    let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * stride, DEGREES);
     while degrees > 0 && k < COSINES.len() {
     let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
     degrees = if bound < last { degrees - 1 } else { 0 };
-    least = if bound < least { bound } else { least }; (last, tail) = (bound, tail * square); k += step; }""")
+    least = if bound < least { bound } else { least }; (last, tail) = (bound, tail * square); k += stride; }""")
 code("let linear = x0.abs() + x1.abs() * axis;", """let curve = absolute(curved, axis) * axis * axis;
     let (mut power, mut more, mut sum) = (linear, curve, 0.0);
     let [above @ .., _] = &octave.c; let mut c: &[i32] = above;
@@ -57,9 +57,9 @@ DEGREES = int(source(r"const DEGREES: usize = (\d+);"))
 SLACK = 1 + 1 / Fraction(2 ** int(source(r"const SLACK: f32 = 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
 MOST_POINTS = int(source(r"const POINTS: usize = (\d+);"))
 COSINE = float(source(r"const COSINE: f64 = ([\d.]+);"))
-code("step = if is_decided { 0 }", "else { step / 2 }; }")
+code("stride = if is_decided { 0 }", "else { stride / 2 }; }")
 # Every fourth point, every second, and all.
-STEPS = [int(source(r"pub\(crate\) const SPARSEST: usize = (\d+);")) >> halvings for halvings in range(3)]
+STEPS = [int(source(r"pub\(crate\) const FIRST_STRIDE: usize = (\d+);")) >> halvings for halvings in range(3)]
 PLACES = 2 ** int(source(r"const PLACE: f32 = \(1 << (\d+)\) as f32;"))
 RHOS = [float(rho) for rho in re.findall(r"ellipse\(([\d.]+)\)", source(r"const ELLIPSES: [^=]*=\s*\[([^;]*)\];"))]
 require(STEPS == [4, 2, 1] and MOST_POINTS % 8 == 0 and len(RHOS) == 6, "points and ellipses")
@@ -415,7 +415,7 @@ proven("slowest: its 8 roundings of 2^-24, each of at most all terms, are below 
 
 # --- The inner end of a ramp: is it part of the stretch, and what may be open beyond it?
 code("pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {", """let single = singles(&self.fraction, u, 1.0);
-    let [p, slope] = root(&single, [0.0, 1.0], 0.5); let (mut p, slope) = (p as f64, slope as f64);
+    let (p, slope) = root(&single, [0.0, 1.0], 0.5); let (mut p, slope) = (p as f64, slope as f64);
     p += (u - value(&self.fraction, p)) / slope; let mut step = if up { p * OUTWARDS } else { -p * OUTWARDS };
     loop { p += step; if !(p > 0.0 && p < 1.0) { return if up { 1.0 } else { 0.0 }; } let missing = u - value(&self.fraction, p);
     if if up { missing <= 0.0 } else { missing >= 0.0 } { return p; } step *= 2.0; } }""")
@@ -435,10 +435,9 @@ require(more > 4 * ulp_error, f"{float(more)} ulp")
 proven(f"is_joined wherever a way may leave the ramp by its inner end: else it would collect {float(more):.2f} ulp until the stretch ends, and {float(ulp_error)} are allowed")
 
 code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", """
-    let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
     while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
-    let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); at_join as f64 + 3.0 * p as f64 * differences as f64 }""")
+    let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); f0 as f64 + 3.0 * p as f64 * differences as f64 }""")
 code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.
 f0, f1, f2, f3, q = z3.Reals("f0 f1 f2 f3 q")

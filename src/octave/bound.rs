@@ -1,15 +1,14 @@
-//! The greatest error of a polynomial on a stretch, bounded from samples.
+//! The greatest error of a polynomial on a stretch, bounded from samples (docs/proofs.md, "An octave's certificate", 3
+//! and 4).
 //!
-//! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`:
-//! the offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. With
-//! the openness `f` beside it, `R f` is the error in exposure, of degree 51, but with little above degree 12.
+//! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`: the
+//! offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. It is
+//! sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
 //!
-//! A polynomial of degree `n` is nowhere greater than its greatest value at the N + 1 points `cos(k π / N)`, over
-//! `cos(n π / 2N)` (Ehlich and Zeller 1964). For `n = 12` that is 1.41 times the greatest of 25 samples, or 1.02 times
-//! that of 97. What `R` has above degree `n` is at most a *tail*, by a bound on an ellipse around [-1, 1] ([`off_line`]).
-//! So `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`: docs/proofs.md, "An octave's certificate", 3 and 4.
+//! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
 //!
-//! Samples go the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
+//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go the
+//! answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
 use crate::number::units::{WORD, fixed};
 use crate::octave::Octave;
@@ -20,7 +19,7 @@ const POINTS: usize = 96;
 const COSINE: f64 = 0.9994645874763657;
 
 /// At first every fourth point is sampled; then every second, then all, if that is not enough.
-pub(crate) const SPARSEST: usize = 4;
+pub(crate) const FIRST_STRIDE: usize = 4;
 
 /// `cos(i π / 96)` for `i` from 0 to 48, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
 const COSINES: &[i32; POINTS / 2 + 1] = &{
@@ -35,15 +34,24 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
 /// The place 1: the place of a sample, an `s`, counts 2⁻³⁰.
 const PLACE: f32 = (1 << 30) as f32;
 
-/// `[A, 1/ρ², 2 ρ⁻¹² / (ρ - 1)]`: an ellipse's greater half axis; a tail's factor for two degrees more; the tail for
-/// degree 12 and a bound of 1. Ellipses and degrees were found by trial: any would do.
-const ELLIPSES: [[f32; 3]; 6] =
+/// An ellipse around [-1, 1], with half axes `(ρ ± 1/ρ) / 2`.
+struct Ellipse {
+    /// The greater one.
+    axis: f32,
+    /// The tail for degree 12 and a bound of 1.
+    tail: f32,
+    /// A tail's factor for two degrees more.
+    square: f32,
+}
+
+/// Found by trial, as the degrees: any would do.
+const ELLIPSES: [Ellipse; 6] =
     [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
 
-const fn ellipse(rho: f32) -> [f32; 3] {
+const fn ellipse(rho: f32) -> Ellipse {
     let square = 1.0 / (rho * rho);
     let twelfth = square * square * square * square * square * square;
-    [0.5 * (rho + 1.0 / rho), square, 2.0 * twelfth / (rho - 1.0)]
+    Ellipse { axis: 0.5 * (rho + 1.0 / rho), tail: 2.0 * twelfth / (rho - 1.0), square }
 }
 
 /// Half of the least degree, and the number of degrees, two apart.
@@ -54,18 +62,19 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The number of [`Errors`], and of the *weights* by which `R` is multiplied for each: cubics of `s`, and 1.
-const KINDS: usize = 3;
-
-/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them.
+/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a *weight*,
+/// a cubic of `s`.
 pub(crate) struct Errors {
-    /// `R`
+    /// By 1.
     pub(crate) time: f32,
-    /// `R` times the openness.
+    /// By the openness.
     pub(crate) exposure: f32,
-    /// `R` times a bound of 1 / size.
+    /// By a bound of 1 / size.
     pub(crate) relative: f32,
 }
+
+/// The number of errors.
+const KINDS: usize = 3;
 
 impl Errors {
     const fn new([time, exposure, relative]: [f32; KINDS]) -> Self {
@@ -126,7 +135,7 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// Bounds of the greatest errors along a stretch, with weights in the order of [`Errors`], from every `step`-th point.
+/// Bounds of the greatest errors along a stretch, with weights in the order of [`Errors`], from every `stride`-th point.
 /// `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
@@ -135,7 +144,7 @@ pub(crate) const fn errors(
     x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
-    step: usize,
+    stride: usize,
 ) -> Bounds {
     let (mut seen, mut i) = ([0.0; KINDS], 0);
     while i < COSINES.len() {
@@ -161,40 +170,40 @@ pub(crate) const fn errors(
             }
             place = -place;
         }
-        i += step;
+        i += stride;
     }
     let (mut tails, mut i) = ([0.0; ELLIPSES.len()], 0);
     while i < ELLIPSES.len() {
-        let [axis, _, first] = ELLIPSES[i];
-        tails[i] = SLACK * first * off_line(octave, x, axis);
+        let Ellipse { axis, tail, .. } = ELLIPSES[i];
+        tails[i] = SLACK * tail * off_line(octave, x, axis);
         i += 1;
     }
     let (mut least, mut most, mut kind) = (seen, seen, 0);
     while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
         least[kind] -= noise;
-        most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], step);
+        most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], stride);
         kind += 1;
     }
     Bounds { least: Errors::new(least), most: Errors::new(most) }
 }
 
-/// The bound that follows from the greatest sample `seen`, of every `step`-th point, by the best ellipse and degree.
+/// The bound that follows from the greatest sample `seen`, of every `stride`-th point, by the best ellipse and degree.
 #[inline(never)]
-const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], step: usize) -> f32 {
+const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], stride: usize) -> f32 {
     let (mut least, mut i) = (f32::INFINITY, 0);
     while i < ELLIPSES.len() {
-        let [axis, square, _] = ELLIPSES[i];
+        let Ellipse { axis, square, .. } = ELLIPSES[i];
         let mut tail = tails[i] * absolute(weight, axis);
-        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * step, DEGREES);
+        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * stride, DEGREES);
         while degrees > 0 && k < COSINES.len() {
-            // COSINES[k] is cos(n π / 2N) for N = 96 / step, n = 2 k / step; 0, and no bound, for n = N.
+            // COSINES[k] is cos(n π / 2N) for N = 96 / stride, n = 2 k / stride; 0, and no bound, for n = N.
             let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
             // The bound is convex in `n`: once it does not fall, no further one is less.
             degrees = if bound < last { degrees - 1 } else { 0 };
             least = if bound < least { bound } else { least };
             (last, tail) = (bound, tail * square);
-            k += step;
+            k += stride;
         }
         i += 1;
     }

@@ -103,7 +103,7 @@ impl Span {
         while i <= DEGREE {
             // Single precision is enough: any nodes interpolate, and near Chebyshev's the error is small.
             offset[0] = x0 - (even + odd * NODES[i]);
-            let [place, _] = root(&offset, [-1.0, 1.0], NODES[i]);
+            let (place, _) = root(&offset, [-1.0, 1.0], NODES[i]);
             let place = place as f64;
             x[i] = (value(&along.fraction, place) - center) * per_position;
             d[i] = value(&along.time, place);

@@ -3,7 +3,7 @@
 
 use crate::fraction::Side::{End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{Errors, SAMPLE_OFF, SPARSEST, Sampled, errors};
+use crate::octave::bound::{Errors, FIRST_STRIDE, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -25,7 +25,7 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without
+/// By how much rounding changes a weight ([`Errors`]) at a sample, as a share of the openness's coefficients without
 /// signs, or of `Limits::per_size`.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
@@ -72,8 +72,8 @@ impl View<'_> {
             power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
         );
         let single_step = step as f32;
-        // The share `backward` of an error of one step at openness 1, in `f64`, since an area may be 2⁻¹²⁶. `ULP_ERROR * ulp` is
-        // above `off`, since no span begins below LEAST_TOP / 2 (proofs/certificate.py).
+        // The share `backward` of an error of one step at openness 1, in `f64`, since an area may be 2⁻¹²⁶. As no span
+        // begins below LEAST_TOP / 2, `ULP_ERROR * ulp` is above `off` (proofs/certificate.py).
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - off) as f64;
         // The share `forward` of an error of one step, at both ends.
         let per_size = [
@@ -113,14 +113,14 @@ impl View<'_> {
         let weights = [[1.0, 0.0, 0.0, 0.0], openness, per_size_along];
         // A sample's position is rounded by 1/2 and a trace.
         let noise = limits.rounding + 0.5002 * steep * per_position as f32;
-        let (mut step, mut shares) = (SPARSEST, Shares::REFUSED);
+        let (mut stride, mut shares) = (FIRST_STRIDE, Shares::REFUSED);
         let (Some(sampled), true) = (Sampled::new(&along), fits) else { return shares };
-        while step > 0 {
-            let errors = errors(octave, &sampled, &offset, &weights, noise, step);
+        while stride > 0 {
+            let errors = errors(octave, &sampled, &offset, &weights, noise, stride);
             shares = limits.shares(&errors.most);
             // More samples cannot help where those seen are too wrong.
             let is_decided = shares.are_certain() || !limits.shares(&errors.least).are_certain();
-            step = if is_decided { 0 } else { step / 2 };
+            stride = if is_decided { 0 } else { stride / 2 };
         }
         shares
     }
@@ -147,10 +147,9 @@ impl View<'_> {
         if self.exposure.has_plateau() {
             return 1.0;
         }
-        // Seen from the join, where it has the openness `at_join`.
-        let (other, is_back) = (&self.shapes[self.ramp.other() as usize], self.ramp.is_end());
+        // Seen from the join, where its openness is f0.
+        let other = self.shapes[self.ramp.other() as usize].from(self.ramp);
         let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());
-        let (at_join, d0, d2) = if is_back { (f3, d2, d0) } else { (f0, d0, d2) };
         // From the join to the place `p` the other ramp takes at least `time`, or `p` is 1.
         let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
         while doublings > 0
@@ -161,7 +160,7 @@ impl View<'_> {
         }
         // |f'| <= 3 differences
         let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();
-        at_join as f64 + 3.0 * p as f64 * differences as f64
+        f0 as f64 + 3.0 * p as f64 * differences as f64
     }
 }
 

@@ -60,7 +60,7 @@ impl Path {
     #[inline(never)]
     pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
-        let [p, slope] = root(&single, [0.0, 1.0], 0.5);
+        let (p, slope) = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
         p += (u - value(&self.fraction, p)) / slope;
         // Outwards, each step twice the one before, until the fraction is past `u`.
@@ -147,10 +147,10 @@ pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
     single
 }
 
-/// `[x, slope]` where an increasing polynomial is nearly 0, in `[low, high]`: by Newton's method, or by bisection where
+/// `(x, slope)` where an increasing polynomial is nearly 0, in `[low, high]`: by Newton's method, or by bisection where
 /// that would leave the bracket.
 #[inline(never)]
-pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> [f32; 2] {
+pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> (f32, f32) {
     let (mut x, mut last, mut steps) = (guess, 0.0, 0);
     while steps < MOST_STEPS {
         let (mut value, mut slope, mut left): (f32, f32, &[f32]) = (0.0, 0.0, c);
@@ -166,7 +166,7 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
         (x, last) = (next, slope);
         steps = if is_there { MOST_STEPS } else { steps + 1 };
     }
-    [x, last]
+    (x, last)
 }
 
 /// `Σ |c[k]| x^k`, which bounds the polynomial on [-x, x].
