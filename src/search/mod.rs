@@ -239,7 +239,7 @@ pub(crate) const fn solve<const N: usize>(
     anchor: &Anchor<N>,
     error: &Tolerance,
 ) -> Found {
-    let Anchor { place, back, ref c, sought, rounding } = *anchor;
+    let Anchor { place, back, c, sought, rounding } = *anchor;
     // Exit: the anchor itself.
     if sought <= 0.5 * error.wanted {
         return Found { place, evaluations: 0 };
@@ -252,7 +252,7 @@ pub(crate) const fn solve<const N: usize>(
     let mut bracket = Bracket { low: 0, high: LAST_PLACE.to_bits() as i32 };
     loop {
         if needs_slopes {
-            (local, moved) = (Taylor::new(c, anchor.distance(p)), 0.0);
+            (local, moved) = (Taylor::new(&c, anchor.distance(p)), 0.0);
             evaluations += 1;
         }
         let missing = target.difference(series.at(p));
@@ -261,18 +261,19 @@ pub(crate) const fn solve<const N: usize>(
         let missing = flipped(missing, back);
         let step = local.short_step(missing);
         let way = flipped(step, back);
-        let is_inside = bracket.holds(p + way);
+        let end = p + way;
+        let is_inside = bracket.holds(end);
         let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };
         // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the
         // target at most (proofs/solve.py): enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
-        if is_inside && left(c, &local, moved, missing, step, rounding) <= 0.75 * most {
+        if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * most {
             return Found { place: Pair::sum(p, way), evaluations };
         }
         // Exit: the cap, since another round takes two evaluations. There is no proof.
         if evaluations >= MAX_EVALUATIONS - 1 {
             return Found { place: Pair::new(p), evaluations };
         }
-        p = if is_inside && evaluations < FREE_EVALUATIONS { p + way } else { bracket.middle() };
+        p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { bracket.middle() };
         needs_slopes = true;
     }
 }
