@@ -69,7 +69,8 @@ impl Exposure {
             return Err(error);
         }
         let plateau = close as f64 - open as f64;
-        let area = (Shape::new(opening).area() + Shape::new(closing).area()) + plateau;
+        let shapes = [Shape::new(opening), Shape::new(closing)];
+        let area = (shapes[0].area() + shapes[1].area()) + plateau;
         if area <= 0.0 {
             return Err(CurveError::ZeroArea);
         }
@@ -77,7 +78,8 @@ impl Exposure {
         if !(area as f32).is_normal() {
             return Err(CurveError::AreaOutOfRange);
         }
-        let ramps = [Ramp::new(opening, area), Ramp::new(closing, area)];
+        let ramps =
+            [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
         let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
         Ok(Self { ramps, plateau, area })
     }

@@ -29,7 +29,6 @@ use crate::number::series::Series;
 use crate::number::units::{
     DARK, LAST_PLACE, WHOLE, mass_per_fraction, power_of_two_f64, ramp_unit,
 };
-use crate::ramp::bezier::CubicBezier;
 use crate::ramp::cubic::integral;
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, ROUNDING, Tolerance, solve};
@@ -101,10 +100,8 @@ pub(crate) struct Ramp {
 }
 
 impl Ramp {
-    /// A ramp of a curve with this area.
-    pub(crate) const fn new(curve: &CubicBezier, area: f64) -> Self {
-        let [start, _, _, end] = curve.times();
-        let shape = Shape::new(curve);
+    /// The ramp between two times, on a curve with this area.
+    pub(crate) const fn new([start, end]: [f32; 2], shape: &Shape, area: f64) -> Self {
         let share = shape.area() / area * WHOLE as f64;
         let share = Pair::from_f64(if share < DARK as f64 { 0.0 } else { share });
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
