@@ -50,6 +50,17 @@ pub enum CurveError {
     AreaOutOfRange,
 }
 
+/// `?` for a `const fn`.
+macro_rules! tried {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+pub(crate) use tried;
+
 macro_rules! at {
     ($ramp:expr, $reason:literal) => {
         match $ramp {

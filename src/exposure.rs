@@ -4,7 +4,7 @@
 //! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
 //! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
 
-use crate::error::{CurveError, Part};
+use crate::error::{CurveError, Part, tried};
 use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
@@ -43,12 +43,8 @@ impl Exposure {
         opening: &CubicBezier,
         closing: &CubicBezier,
     ) -> Result<Self, CurveError> {
-        if let Err(error) = check_finite(opening, Part::Opening) {
-            return Err(error);
-        }
-        if let Err(error) = check_finite(closing, Part::Closing) {
-            return Err(error);
-        }
+        tried!(check_finite(opening, Part::Opening));
+        tried!(check_finite(closing, Part::Closing));
         let [start, _, _, open] = opening.times();
         let [close, _, _, end] = closing.times();
         if !(start <= open && open <= close && close <= end) {
@@ -62,12 +58,8 @@ impl Exposure {
         if !(length >= 1.0 / DOUBLE_WORD && length <= DOUBLE_WORD) {
             return Err(CurveError::IntervalOutOfRange);
         }
-        if let Err(error) = check_ramp(opening, Part::Opening) {
-            return Err(error);
-        }
-        if let Err(error) = check_ramp(closing, Part::Closing) {
-            return Err(error);
-        }
+        tried!(check_ramp(opening, Part::Opening));
+        tried!(check_ramp(closing, Part::Closing));
         let plateau = close as f64 - open as f64;
         let shapes = [Shape::new(opening), Shape::new(closing)];
         let area = (shapes[0].area() + shapes[1].area()) + plateau;

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::answer::plan::Plan;
-use crate::error::{CurveError, Part};
+use crate::error::{CurveError, Part, tried};
 use crate::fraction::Side;
 use crate::number::moment::rounded;
 use crate::number::pair::Pair;
@@ -157,10 +157,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        match Plan::new(&opening, &closing) {
-            Ok(plan) => Ok(Self { plan }),
-            Err(error) => Err(error),
-        }
+        Ok(Self { plan: tried!(Plan::new(&opening, &closing)) })
     }
 
     /// When the shutter starts to open, in the unit of the curve's times.

@@ -16,7 +16,7 @@
 //! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of
 //! the distance between neighbours, or a quarter for a search (docs/internals/proofs.md, "An octave's certificate", 7).
 
-use crate::error::CurveError;
+use crate::error::{CurveError, tried};
 use crate::exposure::{Exposure, INVERSE_ERROR};
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
@@ -56,10 +56,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     ) -> Result<Self, CurveError> {
         // A fraction of 0 has no octave: by its bits it is 99 octaves or more below every top.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
-        let exposure = match Exposure::new(opening, closing) {
-            Ok(exposure) => exposure,
-            Err(error) => return Err(error),
-        };
+        let exposure = tried!(Exposure::new(opening, closing));
         let shapes = [Shape::new(opening), Shape::new(closing)];
         let unit = time_unit(exposure.end(Start), exposure.end(End));
         let [open, close] = [exposure.join(Start), exposure.join(End)];

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::error::ScheduleError;
+use crate::error::{ScheduleError, tried};
 use crate::shutter::ShutterCurve;
 use crate::trigger::iterator::iterate;
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks};
@@ -48,10 +48,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if !(duty > 0.0 && duty <= 1.0) {
             return Err(ScheduleError::DutyOutOfRange);
         }
-        match Ticks::new(&self.plan, n, ticks_per_unit) {
-            Ok(ticks) => Ok(PulseTicks { frame: Pulses { ticks, duty }, left: 0..n }),
-            Err(error) => Err(error),
-        }
+        let ticks = tried!(Ticks::new(&self.plan, n, ticks_per_unit));
+        Ok(PulseTicks { frame: Pulses { ticks, duty }, left: 0..n })
     }
 
     /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of
@@ -82,10 +80,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if pulses.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let frame = match self.pulse_ticks(pulses.len() as u32, duty, ticks_per_unit) {
-            Ok(PulseTicks { frame, .. }) => frame,
-            Err(error) => return Err(error),
-        };
+        let n = pulses.len() as u32;
+        let PulseTicks { frame, .. } = tried!(self.pulse_ticks(n, duty, ticks_per_unit));
         let (mut i, mut last) = (0, 0);
         while i < pulses.len() {
             let pulse = frame.at(i as u32);

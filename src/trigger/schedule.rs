@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::error::ScheduleError;
+use crate::error::{ScheduleError, tried};
 use crate::fraction::Side;
 use crate::number::units::DOUBLE_WORD;
 use crate::shutter::ShutterCurve;
@@ -99,10 +99,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         n: u32,
         ticks_per_unit: u32,
     ) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
-        match Ticks::new(&self.plan, n, ticks_per_unit) {
-            Ok(frame) => Ok(TriggerTicks { frame, left: 0..n }),
-            Err(error) => Err(error),
-        }
+        let frame = tried!(Ticks::new(&self.plan, n, ticks_per_unit));
+        Ok(TriggerTicks { frame, left: 0..n })
     }
 
     /// A checked schedule: as many triggers as `ticks` has places, at the ticks of
@@ -133,10 +131,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if ticks.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let frame = match Ticks::new(&self.plan, ticks.len() as u32, ticks_per_unit) {
-            Ok(frame) => frame,
-            Err(error) => return Err(error),
-        };
+        let frame = tried!(Ticks::new(&self.plan, ticks.len() as u32, ticks_per_unit));
         let (mut i, mut last) = (0, 0);
         while i < ticks.len() {
             let tick = frame.at(i as u32);
@@ -173,10 +168,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         min_gap_ticks: u32,
     ) -> Result<[u32; N], ScheduleError> {
         let mut ticks = [0; N];
-        match self.schedule_into(&mut ticks, ticks_per_unit, min_gap_ticks) {
-            Ok(()) => Ok(ticks),
-            Err(error) => Err(error),
-        }
+        tried!(self.schedule_into(&mut ticks, ticks_per_unit, min_gap_ticks));
+        Ok(ticks)
     }
 
     /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers; with the feature `heapless-v0_9`.
@@ -229,9 +222,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         ticks_per_unit: u32,
         min_gap_ticks: u32,
     ) -> Result<u32, ScheduleError> {
-        if let Err(error) = Ticks::new(&self.plan, wanted, ticks_per_unit) {
-            return Err(error);
-        }
+        let mut frame = tried!(Ticks::new(&self.plan, wanted, ticks_per_unit));
         if wanted <= 1 || min_gap_ticks == 0 {
             return Ok(wanted);
         }
@@ -239,10 +230,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         // One trigger keeps any gap.
         let (mut keep, mut fail, mut n, mut step) = (1, wanted + 1, wanted, 0u32);
         while fail - keep > 1 {
-            let keeps = match self.keeps(n, ticks_per_unit, min_gap_ticks) {
-                Ok(keeps) => keeps,
-                Err(error) => return Err(error),
-            };
+            frame.n = n;
+            let keeps = frame.keeps(min_gap_ticks);
             *(if keeps { &mut keep } else { &mut fail }) = n;
             n = if step == 0 {
                 guess as u32
@@ -257,28 +246,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
             step = step.saturating_mul(2) | 1;
         }
         Ok(keep)
-    }
-
-    /// Do the ticks of `n` triggers keep the gap?
-    const fn keeps(
-        &self,
-        n: u32,
-        ticks_per_unit: u32,
-        min_gap_ticks: u32,
-    ) -> Result<bool, ScheduleError> {
-        let frame = match Ticks::new(&self.plan, n, ticks_per_unit) {
-            Ok(frame) => frame,
-            Err(error) => return Err(error),
-        };
-        let (mut i, mut last) = (1, frame.at(0));
-        while i < n {
-            let tick = frame.at(i);
-            if tick.saturating_sub(last) < min_gap_ticks {
-                return Ok(false);
-            }
-            (i, last) = (i + 1, tick);
-        }
-        Ok(true)
     }
 }
 

@@ -14,7 +14,7 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 #[derive(Clone)]
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     plan: &'a Plan<OCTAVES>,
-    n: u32,
+    pub(crate) n: u32,
     scale: TickScale,
 }
 
@@ -52,6 +52,19 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     #[inline(always)]
     pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
         self.scale.tick(self.plan.time_at(self.fraction(i, more)))
+    }
+
+    /// Do all triggers keep a gap?
+    pub(crate) const fn keeps(&self, min_gap: u32) -> bool {
+        let (mut i, mut last) = (1, self.at(0));
+        while i < self.n {
+            let tick = self.at(i);
+            if tick.saturating_sub(last) < min_gap {
+                return false;
+            }
+            (i, last) = (i + 1, tick);
+        }
+        true
     }
 
     /// Does trigger `i` need no search?
