@@ -8,8 +8,8 @@ code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """
     position.wrapping_sub(self.center as i32) << (self.center & SHIFT) }""")
 code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usize; if index >= OCTAVES { return None; }
     let octave = &self.octaves[side as usize][index];
-    let borrowed = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
-    Some((octave, borrowed.wrapping_add(borrowed & !(borrowed >> 31)))) }""")
+    let word = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
+    Some((octave, word.wrapping_add(word & !(word >> 31)))) }""")
 code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle as f64, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };

@@ -97,7 +97,7 @@ impl Exposure {
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();
-        // So far down the inverse would bisect.
+        // 0 as an `f32`. The inverse of so little would bisect.
         if nearest < DARK {
             return 0.0;
         }

@@ -235,8 +235,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits))
     }
 
-    /// The octave of an `a` with these bits on a ramp, and the position of `a` in it. None for 0, outside [0, 1] and for
-    /// NaN.
+    /// The octave of an `a` with these bits on a ramp, and its position there. None for 0, outside [0, 1] and for NaN.
     #[inline(always)]
     pub(crate) const fn look_up(
         &self,
@@ -251,14 +250,14 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             return None;
         }
         let octave = &self.octaves[side as usize][index];
-        // Below the octave's power `a` is less than 1 in units of it, so its position is its significand less 1. That is
-        // where `top - bits` borrows from the exponent, and bit 23 of top ^ bits ^ below is 1. In (0.1875, 0.375]:
+        // Let a = (1 + f) 2^e. If 2^e is the octave's power, the position is f. If it is half of that, the position is
+        // (f - 1) / 2. That is where `top - bits` borrows from the exponent: where bit 23 of top ^ bits ^ below is 1.
+        // With f in the upper bits of a word, and that bit as its sign, the word is f / 2 or (f - 1) / 2 in 2⁻³²:
         //   top    0.375   0 01111101 100...
-        //   bits   0.3     0 01111101 00110...   no borrow:  0.2 · 2³¹
-        //   bits   0.2     0 01111100 10011...   a borrow:  -0.2 · 2³²
-        let borrowed = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
-        // Above the power an `f32` counts twice as much.
-        Some((octave, borrowed.wrapping_add(borrowed & !(borrowed >> 31))))
+        //   bits   0.3     0 01111101 00110...   no borrow:  0.2 / 2, and the position is 0.2
+        //   bits   0.2     0 01111100 10011...   a borrow:  (0.6 - 1) / 2 = -0.2, which is the position
+        let word = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
+        Some((octave, word.wrapping_add(word & !(word >> 31))))
     }
 
     /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².
@@ -277,6 +276,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     fn searched(&self, u: f32) -> u32 {
         let (side, bits) = Self::nearer(u);
         let a = f32::from_bits(bits);
+        // For 0, 1, what is beyond, and NaN: an end.
         let side = if a > 0.0 { side } else { Side::end_if(u >= 1.0) };
         self.searched_moment(side, a).time().to_bits()
     }

@@ -7,8 +7,8 @@
 //!
 //! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
 //!
-//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go the
-//! answer's own way, from a position to a value in 32 bits: what is certified is what is served.
+//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go
+//! the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
 use crate::number::units::{WORD, fixed};
 use crate::octave::Octave;
@@ -62,8 +62,8 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a *weight*,
-/// a cubic of `s`.
+/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a
+/// *weight*, a cubic of `s`.
 pub(crate) struct Errors {
     /// By 1.
     pub(crate) time: f32,
@@ -135,7 +135,7 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// Bounds of the greatest errors along a stretch, with weights in the order of [`Errors`], from every `stride`-th point.
+/// Bounds of the greatest errors along a stretch, by every `stride`-th point; weights are in the order of [`Errors`].
 /// `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(

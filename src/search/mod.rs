@@ -77,8 +77,8 @@ impl<const N: usize> Anchor<N> {
         flipped((p - self.place.hi) - self.place.lo, self.back)
     }
 
-    /// The distance at which less than a share [`PAIRS_BELOW`] of what is sought is missing, with the series there, and
-    /// the evaluations that took. It ends early after [`FREE_EVALUATIONS`].
+    /// Steps from the guess until less than [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are
+    /// used up. Returns the series around the last distance, and the evaluations.
     #[inline(always)]
     const fn approach(&self, wanted: f32) -> (Taylor, u32) {
         // In bits: comparing integers does not wait for the FPU, and a NaN is too much.
@@ -197,14 +197,13 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// ```text
 ///   |missing - s (d1 + d2 s)|    left by the first two Taylor terms, as they are computed
 /// + |s| rounding slopes          their rounding
-/// + |s| 5 |moved| squares          what `moved` changes of them
+/// + |s| 5 |moved| squares        what `moved` changes of them
 /// + |s| 3.4 cubes s²             all further terms
 /// ```
 ///
-/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`, `slopes = |c_1| + squares y`,
-/// and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second derivative `5 squares`, the third
-/// `20 cubes`, as `j <= 6`; 3.4 covers the rounding of the bound itself (docs/proofs.md, "What a step of the search
-/// leaves").
+/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`,
+/// `slopes = |c_1| + squares y`, and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second
+/// derivative `5 squares`, the third `20 cubes`, as `j <= 6` (docs/proofs.md, "What a step of the search leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(

@@ -80,28 +80,22 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if pulses.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let n = pulses.len() as u32;
+        let (n, min_pulse) = (pulses.len() as u32, min_pulse_ticks);
         let PulseTicks { frame, .. } = tried!(self.pulse_ticks(n, duty, ticks_per_unit));
-        let (mut i, mut last) = (0, 0);
+        // No pulse is before the first.
+        let (mut i, mut last, mut min_gap) = (0, 0, 0);
         while i < pulses.len() {
             let pulse = frame.at(i as u32);
             let length = pulse.off.saturating_sub(pulse.on);
-            if length < min_pulse_ticks {
-                let pulse = i as u32;
-                return Err(ScheduleError::PulseTooShort {
-                    pulse,
-                    length,
-                    min_pulse: min_pulse_ticks,
-                });
+            if length < min_pulse {
+                return Err(ScheduleError::PulseTooShort { pulse: i as u32, length, min_pulse });
             }
             let gap = pulse.on.saturating_sub(last);
-            if i > 0 && gap < min_gap_ticks {
-                let pulse = i as u32;
-                return Err(ScheduleError::PulsesTooClose { pulse, gap, min_gap: min_gap_ticks });
+            if gap < min_gap {
+                return Err(ScheduleError::PulsesTooClose { pulse: i as u32, gap, min_gap });
             }
             pulses[i] = pulse;
-            last = pulse.off;
-            i += 1;
+            (i, last, min_gap) = (i + 1, pulse.off, min_gap_ticks);
         }
         Ok(())
     }

@@ -132,23 +132,23 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
         let frame = tried!(Ticks::new(&self.plan, ticks.len() as u32, ticks_per_unit));
-        let (mut i, mut last) = (0, 0);
+        // No trigger is before the first.
+        let (mut i, mut last, mut min_gap) = (0, 0, 0);
         while i < ticks.len() {
             let tick = frame.at(i as u32);
             let gap = tick.saturating_sub(last);
-            if i > 0 && gap < min_gap_ticks {
+            if gap < min_gap {
                 let trigger = i as u32;
-                return Err(ScheduleError::GapTooSmall { trigger, gap, min_gap: min_gap_ticks });
+                return Err(ScheduleError::GapTooSmall { trigger, gap, min_gap });
             }
             ticks[i] = tick;
-            last = tick;
-            i += 1;
+            (i, last, min_gap) = (i + 1, tick, min_gap_ticks);
         }
         Ok(())
     }
 
-    /// [`schedule_into`](Self::schedule_into) an array of its own: in a constant, the ticks of a frame that never changes,
-    /// checked by the compiler.
+    /// [`schedule_into`](Self::schedule_into) an array of its own: in a constant, the ticks of a frame that never
+    /// changes, checked by the compiler.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
