@@ -14,9 +14,9 @@ code("pub(crate) const fn mass(&self) -> Pair {", """
     let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.place_from_start());
     mass.scaled(fraction_per_mass(self.ramp.share.hi)) }""")
 code("pub(crate) fn noise(&self, side: Side) -> f32 {", """let place_from_start = self.place_from_start().hi;
-    let terms = |side: Side| { let x = if side.is(Start) { place_from_start } else { LAST_PLACE - place_from_start };
+    let terms_from = |side: Side| { let x = if side.is(Start) { place_from_start } else { LAST_PLACE - place_from_start };
     let c = self.ramp.mass_in_single(side); c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
-    let terms = terms(Start) + terms(side);
+    let terms = terms_from(Start) + terms_from(side);
     terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32 }""")
 code("if ramp.is(Start) { part } else {", """self.ramps[0].share.plus(self.plateau).plus(part) };
     self.nearest(t, mass, |side| point.noise(side)) }""")

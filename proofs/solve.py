@@ -181,8 +181,9 @@ proven(f"where the slope cancels there, that costs at most {float(part):.4f} of 
 
 # A quick place, quick.rs: the same two Taylor coefficients, at an exact distance from an end. Whatever the guess, the step and the
 # reciprocals are, an accepted step leaves 0.75 of the error. A quarter is left for measuring.
-code("pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Option<Pair> {", """
-    let single = [c[0].hi, c[1].hi, c[2].hi]; let [c1, c2, _] = single; let sought = target.hi;
+code("pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {", """
+    let Series { c, last } = self.time_since(side);
+    let (c, single) = ([c[0], c[1], last], [c[0].hi, c[1].hi, last.hi]); let [c1, c2, _] = single; let sought = target.hi;
     let x = sought * c1 / (c1 * c1 + c2 * sought); let local = Taylor::new(&single, x);
     let inverse = 1.0 / local.d1; let newton = (sought - local.value) * inverse; let bend = local.d2 * newton * inverse;
     let x = upper(x + newton * (1.0 - bend * (1.0 - bend))); let local = Taylor::new(&single, x);
@@ -191,8 +192,7 @@ code("pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) ->
     let step = newton * (1.0 - local.d2 * newton * inverse); let place = Pair::sum(x, step);
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
     let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-    if is_inside & (left <= 0.75 * error) { Some(place) } else { None } }""")
-code("quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)", "}")
+    if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None } }""")
 # Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most
 # TERMS times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
 TERMS = int(documented(r"the terms of a time are at most (\d+) times the time"))

@@ -94,17 +94,21 @@ code("let delay = time.wrapping_sub(self.start);", """let delay = if delay > 0 {
     let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
     let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF); let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
     (((product >> (self.down & 63)) + 1) >> 1) as u32 }""")
-code("let ticks = length as u128 * ticks_per_unit as u128;", "u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }")
+code("let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);", """
+    let ticks = high * rate + (low * rate).div_ceil(1 << 32); 96 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }""")
 code("if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {", "return Err(too_high(length, ticks_per_unit, unit)); }")
 code("let most = if end - start > most { end - start } else { most };", "(most.to_bits() >> 52) as i32 - 1023 - 61 }")
 MOST_TICKS = int(source(r"const MOST_TICKS: i32 = (\d+);"))
 SHORTEST, LONGEST = 61 - 24, 62
 ticks = BitVec("ticks", 128)
+upper = LShR(ticks + (2**32 - 1), 32)
 for e in range(97):
     solver = Solver()
-    solver.add(UGT(ticks, 0), ULT(ticks, 1 << 96), (LShR(ticks - 1, e) == 0) != ULE(ticks, BitVecVal(1 << e, 128)))
+    solver.add(UGE(ticks, 1 << SHORTEST), ULT(ticks, 1 << 96))
+    solver.add((LShR(upper - 1, e - 32) == 0 if e >= 32 else BoolVal(False)) != ULE(ticks, BitVecVal(1 << e, 128)))
     require(solver.check() == unsat, "exponent_of_ticks")
-proven("exponent_of_ticks: the least power of two that is not below, for every number of ticks below 2^96")
+require(2 ** (LONGEST - 32) * (2**32 - 1) + 2**32 < 2**64, "exponent_of_ticks: the upper 64 bits")
+proven("exponent_of_ticks: the least power of two that is not below, for every number of ticks from 2^37 units to 2^96")
 downs = set()
 for exponent in range(SHORTEST, LONGEST + 1):
     up = 62 - exponent if exponent < 61 else 0

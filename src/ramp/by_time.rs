@@ -38,25 +38,42 @@ impl Ramp {
 
     /// The side of the nearer end, and the exact time between it and `t`, in the ramp's unit.
     #[inline(always)]
-    const fn since(&self, t: f32) -> (Side, Pair) {
+    pub(crate) const fn since(&self, t: f32) -> (Side, Pair) {
         let [start, end] = [self.time(Start), self.time(End)];
         let side = Side::end_if(t - start > end - t);
         let way = if side.is_end() { Pair::sum(end, -t) } else { Pair::sum(t, -start) };
         (side, way.shifted(-self.unit()))
     }
 
-    /// The place at which `target` has passed since the end that faces a side, if a few steps lead there.
+    /// The place at which `target` has passed since the end that faces a side, within [`TIME_ERROR`]; `None` where time
+    /// nearly stands still, and only a search finds it. After two of Halley's steps in single precision about a
+    /// thousandth is missing. That is measured in pairs, and a third step leaves about its cube; a bound ([`left`])
+    /// accepts the place or not.
     #[inline(always)]
-    const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {
+    pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {
         let Series { c, last } = self.time_since(side);
-        quick_place([c[0], c[1], last], target, TIME_ERROR * target.hi)
-    }
-
-    /// The side from which `t` is counted, and whether a few steps lead to its place.
-    #[cfg(test)]
-    pub(crate) fn way(&self, t: f32) -> (Side, bool) {
-        let (side, target) = self.since(self.on_grid(t));
-        (side, self.quick_place(side, target).is_some())
+        let (c, single) = ([c[0], c[1], last], [c[0].hi, c[1].hi, last.hi]);
+        let [c1, c2, _] = single;
+        let sought = target.hi;
+        // Halley's step n / (1 + b) from the end, with n = sought / c1 and b = n c2 / c1.
+        let x = sought * c1 / (c1 * c1 + c2 * sought);
+        let local = Taylor::new(&single, x);
+        let inverse = 1.0 / local.d1;
+        let newton = (sought - local.value) * inverse;
+        let bend = local.d2 * newton * inverse;
+        // Halley's second step leads to an `x` of 12 bits: so `value` takes fewer operations.
+        let x = upper(x + newton * (1.0 - bend * (1.0 - bend)));
+        let local = Taylor::new(&single, x);
+        let missing = target.difference(value(c, x));
+        // inverse = 1 / local.d1, by a step of Newton's from the one before.
+        let inverse = inverse * (2.0 - local.d1 * inverse);
+        let newton = missing * inverse;
+        let step = newton * (1.0 - local.d2 * newton * inverse);
+        let place = Pair::sum(x, step);
+        // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
+        let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
+        let left = left(&single, &local, 0.0, missing, step, ROUNDING);
+        if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None }
     }
 
     /// The place at which `target` has passed, by a search.
@@ -129,12 +146,12 @@ impl RampPoint<'_> {
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
-        let terms = |side: Side| {
+        let terms_from = |side: Side| {
             let x = if side.is(Start) { place_from_start } else { LAST_PLACE - place_from_start };
             let c = self.ramp.mass_in_single(side);
             c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x)
         };
-        let terms = terms(Start) + terms(side);
+        let terms = terms_from(Start) + terms_from(side);
         terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32
     }
 }
@@ -174,35 +191,6 @@ const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {
     let thrice = c.thrice().times(x);
     let slope = thrice.plus(b.scaled(2.0)).times(x).plus(a);
     [slope.rounded(), thrice.plus(b).rounded(), c.hi]
-}
-
-/// The place at which `c[0] x + c[1] x² + c[2] x³` reaches `target`, within `error`; `None` where time nearly stands
-/// still, and only a search finds it. After two of Halley's steps in single precision about a thousandth is missing.
-/// That is measured in pairs, and a third step leaves about its cube; a bound ([`left`]) accepts the place or not.
-#[inline(always)]
-pub(crate) const fn quick_place(c: [Pair; 3], target: Pair, error: f32) -> Option<Pair> {
-    let single = [c[0].hi, c[1].hi, c[2].hi];
-    let [c1, c2, _] = single;
-    let sought = target.hi;
-    // Halley's step n / (1 + b) from the end, with n = sought / c1 and b = n c2 / c1.
-    let x = sought * c1 / (c1 * c1 + c2 * sought);
-    let local = Taylor::new(&single, x);
-    let inverse = 1.0 / local.d1;
-    let newton = (sought - local.value) * inverse;
-    let bend = local.d2 * newton * inverse;
-    // Halley's second step leads to an `x` of 12 bits: so `value` takes fewer operations.
-    let x = upper(x + newton * (1.0 - bend * (1.0 - bend)));
-    let local = Taylor::new(&single, x);
-    let missing = target.difference(value(c, x));
-    // inverse = 1 / local.d1, by a step of Newton's from the one before.
-    let inverse = inverse * (2.0 - local.d1 * inverse);
-    let newton = missing * inverse;
-    let step = newton * (1.0 - local.d2 * newton * inverse);
-    let place = Pair::sum(x, step);
-    // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
-    let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-    let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-    if is_inside & (left <= 0.75 * error) { Some(place) } else { None }
 }
 
 /// The cubic's value at an `x` of 12 bits, as [`Series::at`] computes it.

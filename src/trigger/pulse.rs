@@ -80,10 +80,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if pulses.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let (n, min_pulse) = (pulses.len() as u32, min_pulse_ticks);
+        let (n, min_pulse, min_gap) = (pulses.len() as u32, min_pulse_ticks, min_gap_ticks);
         let PulseTicks { frame, .. } = tried!(self.pulse_ticks(n, duty, ticks_per_unit));
-        // No pulse is before the first.
-        let (mut i, mut last, mut min_gap) = (0, 0, 0);
+        let (mut i, mut last) = (0, 0);
         while i < pulses.len() {
             let pulse = frame.at(i as u32);
             let length = pulse.off.saturating_sub(pulse.on);
@@ -91,11 +90,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
                 return Err(ScheduleError::PulseTooShort { pulse: i as u32, length, min_pulse });
             }
             let gap = pulse.on.saturating_sub(last);
-            if gap < min_gap {
+            if i > 0 && gap < min_gap {
                 return Err(ScheduleError::PulsesTooClose { pulse: i as u32, gap, min_gap });
             }
             pulses[i] = pulse;
-            (i, last, min_gap) = (i + 1, pulse.off, min_gap_ticks);
+            (i, last) = (i + 1, pulse.off);
         }
         Ok(())
     }

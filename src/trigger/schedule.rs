@@ -132,17 +132,16 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
         let frame = tried!(Ticks::new(&self.plan, ticks.len() as u32, ticks_per_unit));
-        // No trigger is before the first.
-        let (mut i, mut last, mut min_gap) = (0, 0, 0);
+        let (mut i, mut last) = (0, 0);
         while i < ticks.len() {
             let tick = frame.at(i as u32);
             let gap = tick.saturating_sub(last);
-            if gap < min_gap {
+            if i > 0 && gap < min_gap_ticks {
                 let trigger = i as u32;
-                return Err(ScheduleError::GapTooSmall { trigger, gap, min_gap });
+                return Err(ScheduleError::GapTooSmall { trigger, gap, min_gap: min_gap_ticks });
             }
             ticks[i] = tick;
-            (i, last, min_gap) = (i + 1, tick, min_gap_ticks);
+            (i, last) = (i + 1, tick);
         }
         Ok(())
     }

@@ -80,9 +80,10 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
 /// The least `e` for which a `length`, in units of `2^unit` of the curve's time, is at most 2^e ticks.
 const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, unit: i32) -> i32 {
-    // Below 2⁹⁶.
-    let ticks = length as u128 * ticks_per_unit as u128;
-    u128::BITS as i32 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
+    // Of the 96 bits of length · rate the upper 64, rounded up.
+    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);
+    let ticks = high * rate + (low * rate).div_ceil(1 << 32);
+    96 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
 }
 
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.

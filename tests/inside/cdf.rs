@@ -4,6 +4,7 @@
 use crate::ShutterCurve;
 use crate::exposure::Exposure;
 use crate::fraction::Side;
+use crate::ramp::Ramp;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::cases::shutter;
 use crate::support::curves::{Rng, named, random_hard, random_typical};
@@ -27,6 +28,14 @@ const CHANGES: [&str; 7] = [
     "place to search",
     "across time 0",
 ];
+
+impl Ramp {
+    /// The side from which `t` is counted, and whether a few steps lead to its place.
+    fn way(&self, t: f32) -> (Side, bool) {
+        let (side, target) = self.since(self.on_grid(t));
+        (side, self.quick_place(side, target).is_some())
+    }
+}
 
 fn way(exposure: &Exposure, t: f32) -> Way {
     let [start, open, close, end] = [
