@@ -135,12 +135,12 @@ pub(crate) const fn value(c: &[f64], x: f64) -> f64 {
     value
 }
 
-/// The polynomial less `shift`, times `factor`, in single precision; zeros fill the seven coefficients.
+/// The polynomial less `constant`, times `factor`, in single precision; zeros fill the seven coefficients.
 #[inline(never)]
-pub(crate) const fn singles(c: &[f64], shift: f64, factor: f64) -> [f32; 7] {
+pub(crate) const fn singles(c: &[f64], constant: f64, factor: f64) -> [f32; 7] {
     let (mut single, mut k) = ([0.0; 7], 0);
     while k < c.len() && k < single.len() {
-        let c = if k == 0 { c[k] - shift } else { c[k] };
+        let c = if k == 0 { c[k] - constant } else { c[k] };
         single[k] = (c * factor) as f32;
         k += 1;
     }

@@ -9,10 +9,9 @@
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
-//! step between them is accepted: its bound is at most 2⁻²⁷·⁷ of a mass, 2⁻³⁶·⁶ of a time (docs/internals/proofs.md, "The end of
-//! a search"). It is not proven that the step stays between them: where next to no light falls, noise may be all that
-//! is missing. So [`MAX_EVALUATIONS`] end a search, without a proof. No search for an `f32` is known to take so many. A
-//! cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
+//! step between them is accepted. It is not proven that the step stays between them, since noise may be all that is
+//! missing (docs/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No search for
+//! an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
 
 pub(crate) mod guess;
 
