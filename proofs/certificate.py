@@ -29,7 +29,7 @@ code("let (mut seen, mut i) = ([0.0; KINDS], 0);", """
     let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
     let error = error / (1 << TIME_BITS) as f32;""")
 code("if place <= 0 { break; }", "place = -place; } i += stride; }")
-code("counted[k] = fixed(c[k], -bits);", "are_counted &= counted[k].unsigned_abs() >> 60 == 0;")
+code("counted[k] = fixed_f64(c[k], -bits);", "are_counted &= counted[k].unsigned_abs() >> 60 == 0;")
 code("const fn at(c: &[i64], place: i32) -> i64 {", """let (mut value, mut c) = (0, c);
     while let [lower @ .., next] = c { let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
     value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next; c = lower; } value }""")

@@ -10,7 +10,7 @@ code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usiz
     let octave = &self.octaves[side as usize][index];
     let word = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
     Some((octave, word.wrapping_add(word & !(word >> 31)))) }""")
-code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle as f64, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
+code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
@@ -256,4 +256,4 @@ require(not gappa(horner(float(least + near), float(most))) and not gappa(horner
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
 require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("let middle = fixed(c[0] - MEAN_TRUNCATION * step, self.unit);", "")
+code("let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);", "")

@@ -55,9 +55,9 @@ end, ulp = single(single(exact)[0] / 2052)
 require(abs(end - exact / 2052) > Fraction(148, 100) * ulp, "an end that is farther off than 1.48 ulp")
 
 # --- Times in whole units: rounded down as one number, and from either end of a section in order.
-code("let Pair { hi, lo } = self.way.shifted(self.unit - unit);", """let whole = fixed(hi as f64, 0);
-    let rest = (hi - whole as f32) + lo; let down = fixed(rest as f64, 0); let way = whole + down - ((down as f32) > rest) as i64;
-    let [base, until] = [fixed(self.base as f64, unit), fixed(self.until as f64, unit)]; let time = if self.back { base - way } else { base + way };
+code("let Pair { hi, lo } = self.way.shifted(self.unit - unit);", """let whole = fixed(hi, 0);
+    let rest = (hi - whole as f32) + lo; let down = fixed(rest, 0); let way = whole + down - ((down as f32) > rest) as i64;
+    let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)]; let time = if self.back { base - way } else { base + way };
     let is_beyond = if self.back { time < until } else { time > until }; if is_beyond { until } else { time }""")
 hi, lo, lost = Reals("hi lo lost")
 cut = lambda x: If(x >= 0, ToInt(x), -ToInt(-x))

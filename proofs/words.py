@@ -112,8 +112,24 @@ valid(
 # `exponent`, `fixed` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
 # with the bits of a significand is the same for all: a shift.
 code("pub(crate) const fn exponent(x: f32) -> i32 {", "(x.to_bits() >> 23 & 0xFF) as i32 - 127 }")
+code("pub(crate) const fn fixed(x: f32, e: i32) -> i64 {", """let (bits, exponent) = (x.to_bits(), exponent(x));
+    let significand = (bits & 0x7F_FFFF) as i64;
+    let (significand, exponent) = if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
+    let up = exponent - 23 - e;
+    let units = if up >= 0 { significand << (up & 63) } else if up > -24 { significand >> (-up & 63) } else { 0 };
+    if x < 0.0 { -units } else { units } }""")
 up, sig = BitVec("up", 64), BitVec("sig", 64)
-code("pub(crate) const fn fixed(x: f64, e: i32) -> i64 {", """let bits = x.to_bits();
+# A number below 2^63 units: sig 2^up < 2^63, so up is at most 62 where sig is not 0.
+fits = And(up <= 62, up >= -400, ULT(sig, 1 << 24), Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= sig))
+units = If(up >= 0, sig << (up & 63), If(up > -24, sig >> (-up & 63), BitVecVal(0, 64)))
+down = If(-up > 60, BitVecVal(60, 64), -up)
+floor = And(units << down <= sig, sig - (units << down) < BitVecVal(1, 64) << down)
+valid(
+    "fixed: the whole units of a number below 2^63 of them, rounded towards 0",
+    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
+    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
+)
+code("pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {", """let bits = x.to_bits();
     let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
     let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;
     let units = if up > 10 { i64::MAX } else if up >= 0 { significand << (up & 63) } else if up > -64 { significand >> (-up & 63) } else { 0 };
@@ -124,11 +140,11 @@ units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
 valid(
-    "fixed: the whole units of a double below 2^63 of them, rounded towards 0",
+    "fixed_f64: the whole units of a double below 2^63 of them, rounded towards 0",
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
 )
-code("const fn rounded(x: f64, e: i32) -> i32 {", "let halves = fixed(x, e - 1); ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32 }")
+code("const fn rounded(x: f64, e: i32) -> i32 {", "let halves = fixed_f64(x, e - 1); ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32 }")
 units = Real("units")
 valid(
     "rounded: from whole halves of a unit to the nearest unit; the other sign mirrors it",

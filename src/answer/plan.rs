@@ -22,7 +22,9 @@ use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::Moment;
 use crate::number::pair::Pair;
-use crate::number::units::{FINE, WHOLE, exponent, fixed, floor_bits, power_of_two, time_unit};
+use crate::number::units::{
+    FINE, WHOLE, exponent, fixed, fixed_f64, floor_bits, power_of_two, time_unit,
+};
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
@@ -75,8 +77,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         };
         if plan.exposure.has_plateau() {
             // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
-            plan.base = fixed(open as f64, unit) - fixed(shapes[0].area(), unit);
-            plan.slope = fixed(close as f64, unit) + fixed(shapes[1].area(), unit) - plan.base;
+            plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
+            plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
             // Without a line nothing may be direct: a fraction on the plateau would be looked up in a ramp's octave.
             if !Self::is_fine(plan.slope) {
                 return Ok(plan);
@@ -118,7 +120,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
 
     /// The time of the curve's end at a side, in units.
     pub(crate) const fn end_in_units(&self, side: Side) -> i64 {
-        fixed(self.exposure.end(side) as f64, self.unit())
+        fixed(self.exposure.end(side), self.unit())
     }
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.

@@ -97,11 +97,11 @@ impl Moment {
         let Pair { hi, lo } = self.way.shifted(self.unit - unit);
         // way = floor(hi + lo), but for what rounds `rest`: ways of at least 2²⁴ units keep their order, since there
         // `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
-        let whole = fixed(hi as f64, 0);
+        let whole = fixed(hi, 0);
         let rest = (hi - whole as f32) + lo;
-        let down = fixed(rest as f64, 0);
+        let down = fixed(rest, 0);
         let way = whole + down - ((down as f32) > rest) as i64;
-        let [base, until] = [fixed(self.base as f64, unit), fixed(self.until as f64, unit)];
+        let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)];
         // Next to a dark end the little mass by which a search may err is a long time: never beyond `until`.
         let time = if self.back { base - way } else { base + way };
         let is_beyond = if self.back { time < until } else { time > until };

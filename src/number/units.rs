@@ -73,10 +73,29 @@ pub(crate) const fn time_unit(start: f32, end: f32) -> i32 {
     (most.to_bits() >> 52) as i32 - 1023 - 61
 }
 
-/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN.
+/// `x / 2^e`, which has to be below 2⁶³, rounded towards 0.
 // proofs/words.py: fixed
+pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
+    let (bits, exponent) = (x.to_bits(), exponent(x));
+    let significand = (bits & 0x7F_FFFF) as i64;
+    let (significand, exponent) =
+        if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
+    let up = exponent - 23 - e;
+    let units = if up >= 0 {
+        significand << (up & 63)
+    } else if up > -24 {
+        significand >> (-up & 63)
+    } else {
+        0
+    };
+    if x < 0.0 { -units } else { units }
+}
+
+/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN. (Of an `f32` it would be slower: a frame begins
+/// with two such conversions.)
+// proofs/words.py: fixed_f64
 #[inline(never)]
-pub(crate) const fn fixed(x: f64, e: i32) -> i64 {
+pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {
     let bits = x.to_bits();
     let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
     let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;

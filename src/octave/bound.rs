@@ -10,7 +10,7 @@
 //! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go
 //! the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
 
-use crate::number::units::{WORD, fixed};
+use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
 
@@ -115,7 +115,7 @@ impl Sampled {
 const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     let (mut are_counted, mut k) = (true, 0);
     while k < c.len() && k < counted.len() {
-        counted[k] = fixed(c[k], -bits);
+        counted[k] = fixed_f64(c[k], -bits);
         are_counted &= counted[k].unsigned_abs() >> 60 == 0;
         k += 1;
     }

@@ -1,6 +1,6 @@
 //! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
-use crate::number::units::{exponent, fixed, power_of_two_f64};
+use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
 use crate::octave::path::{Path, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
@@ -72,12 +72,12 @@ impl View<'_> {
             octave.c[DEGREE - k] = rounded(c[k], exponent);
             k = k - 1;
         }
-        let middle = fixed(c[0] - MEAN_TRUNCATION * step, self.unit);
+        let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
         // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
         if middle.unsigned_abs() > 1 << 62 {
             return None;
         }
-        let end = fixed(self.exposure.end(self.side) as f64, self.unit);
+        let end = fixed(self.exposure.end(self.side), self.unit);
         octave.middle = if self.side.is_end() { end - middle } else { end + middle };
         octave.factor = if self.side.is_end() { -factor } else { factor };
         Some(Candidate {
@@ -153,6 +153,6 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
 
 /// `x` in units of `2^e`, to the nearest; halves away from 0.
 const fn rounded(x: f64, e: i32) -> i32 {
-    let halves = fixed(x, e - 1);
+    let halves = fixed_f64(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32
 }

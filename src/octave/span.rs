@@ -50,7 +50,7 @@ impl Span {
 
     /// The position of the middle plus 2³², the shift in its lowest bits. Its lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
-        fixed(self.middle as f64, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64
+        fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64
     }
 
     /// The stretch with positions for its fractions.

@@ -88,7 +88,7 @@ impl View<'_> {
         let (candidate, stretch, places) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = self.certificate(&candidate, span, stretch, places);
-        let start = fixed(f64::from(self.exposure.end(self.side)), self.unit);
+        let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
         // The span itself rounds its end.
