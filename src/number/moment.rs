@@ -4,8 +4,8 @@ use crate::number::pair::Pair;
 use crate::number::units::{fixed, power_of_two};
 
 /// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once (but for 2⁻²⁴ of the rest, where base and way
-/// nearly cancel: docs/proofs.md). `way` is at most 2¹⁰⁵ (a plateau's). `unit` is at least -252, so that half of it is
-/// the exponent of a normal number, and at most 22 unless `way` is 0.
+/// nearly cancel: docs/internals/proofs.md). `way` is at most 2¹⁰⁵ (a plateau's). `unit` is at least -252, so that half
+/// of it is the exponent of a normal number, and at most 22 unless `way` is 0.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {

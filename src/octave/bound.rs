@@ -1,5 +1,5 @@
-//! The greatest error of a polynomial on a stretch, bounded from samples (docs/proofs.md, "An octave's certificate", 3
-//! and 4).
+//! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
+//! certificate", 3 and 4).
 //!
 //! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`: the
 //! offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. It is

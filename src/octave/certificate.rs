@@ -1,5 +1,5 @@
-//! The certificate of an octave: bounds of its polynomial's errors. docs/proofs.md, "An octave's certificate", has the
-//! argument.
+//! The certificate of an octave: bounds of its polynomial's errors. docs/internals/proofs.md, "An octave's certificate",
+//! has the argument.
 
 use crate::fraction::Side::{End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
@@ -179,8 +179,8 @@ struct Limits {
 }
 
 impl Limits {
-    /// The shares that follow from the greatest errors, with what rounding adds (docs/proofs.md, "From time to
-    /// exposure").
+    /// The shares that follow from the greatest errors, with what rounding adds (docs/internals/proofs.md,
+    /// "From time to exposure").
     #[inline(never)]
     const fn shares(&self, &Errors { time, exposure, relative }: &Errors) -> Shares {
         let error = time + self.rounding;

@@ -10,8 +10,8 @@
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
 //! step between them is accepted. It is not proven that the step stays between them, since noise may be all that is
-//! missing (docs/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No search for
-//! an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
+//! missing (docs/internals/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No
+//! search for an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
 
 pub(crate) mod guess;
 
@@ -202,7 +202,8 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 ///
 /// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`,
 /// `slopes = |c_1| + squares y`, and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second
-/// derivative `5 squares`, the third `20 cubes`, as `j <= 6` (docs/proofs.md, "What a step of the search leaves").
+/// derivative `5 squares`, the third `20 cubes`, as `j <= 6` (docs/internals/proofs.md, "What a step of the search
+/// leaves").
 // proofs/solve.py, for each kind of anchor
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
