@@ -29,8 +29,8 @@ code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c
     anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
 code("let error = TIME_ERROR * target.hi;", "solve(series, target, &anchor, &Tolerance { wanted: error, accepted: error }).place }")
 code("let (mut local, mut evaluations) = anchor.approach(error.wanted);", """let mut p = place.hi + flipped(local.x, back);
-    let mut moved = anchor.distance(p) - local.x; let mut needs_slopes = moved.abs() > MOVED * local.x;""")
-code("if needs_slopes {", """(local, moved) = (Taylor::new(&c, anchor.distance(p)), 0.0); evaluations += 1; }
+    let mut distance = anchor.distance(p); let mut moved = distance - local.x; let mut needs_slopes = moved.abs() > MOVED * local.x;""")
+code("if needs_slopes {", """(local, moved) = (Taylor::new(&c, distance), 0.0); evaluations += 1; }
     let missing = target.difference(series.at(p));""")
 code("let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };", """
     if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * most {""")

@@ -1,5 +1,5 @@
-//! The certificate of an octave: bounds of its polynomial's errors. docs/internals/proofs.md, "An octave's certificate",
-//! has the argument.
+//! The certificate of an octave: bounds of its polynomial's errors (docs/internals/proofs.md, "An octave's
+//! certificate").
 
 use crate::fraction::Side::{End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};

@@ -11,7 +11,7 @@
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
 //! step between them is accepted. It is not proven that the step stays between them, since noise may be all that is
 //! missing (docs/internals/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No
-//! search for an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that error can be less than the noise.
+//! search for an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that can be less than the noise.
 
 pub(crate) mod guess;
 
@@ -246,12 +246,13 @@ pub(crate) const fn solve<const N: usize>(
     let (mut local, mut evaluations) = anchor.approach(error.wanted);
     // Only an `f32` can be measured: `p`, at `x + moved` from the anchor. If that is far from `x`, the slopes differ.
     let mut p = place.hi + flipped(local.x, back);
-    let mut moved = anchor.distance(p) - local.x;
+    let mut distance = anchor.distance(p);
+    let mut moved = distance - local.x;
     let mut needs_slopes = moved.abs() > MOVED * local.x;
     let mut bracket = Bracket { low: 0, high: LAST_PLACE.to_bits() as i32 };
     loop {
         if needs_slopes {
-            (local, moved) = (Taylor::new(&c, anchor.distance(p)), 0.0);
+            (local, moved) = (Taylor::new(&c, distance), 0.0);
             evaluations += 1;
         }
         let missing = target.difference(series.at(p));
@@ -273,6 +274,6 @@ pub(crate) const fn solve<const N: usize>(
             return Found { place: Pair::new(p), evaluations };
         }
         p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { bracket.middle() };
-        needs_slopes = true;
+        (distance, needs_slopes) = (anchor.distance(p), true);
     }
 }
