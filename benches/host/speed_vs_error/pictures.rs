@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
-use crate::methods::Method::{Octaves8, Octaves16, Table256, Table1024};
+use crate::methods::Method::{Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024};
 use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
 use crate::report::{Measured, cycles, name, time};
 use crate::support::cases::{judge, shutter};
@@ -151,10 +151,13 @@ pub fn frontier(path: &str, measured: &Measured) {
                 draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
                 let (dx, dy, h) = match method {
-                    Octaves16 => (-18, 0, HPos::Right),
-                    Octaves8 => (0, -26, HPos::Center),
+                    Octaves16 => (4, -26, HPos::Right),
+                    Octaves8 => (-4, -26, HPos::Left),
                     Table256 => (-18, -10, HPos::Right),
                     Table1024 => (-18, 14, HPos::Right),
+                    RootFpu => (-18, 0, HPos::Right),
+                    // Below its ring.
+                    RootLibm => (0, 104, HPos::Center),
                     _ => (18, 0, HPos::Left),
                 };
                 let label = method.name().replace('`', "");
@@ -168,7 +171,10 @@ pub fn frontier(path: &str, measured: &Measured) {
                 ("greatest error", INK.filled()),
                 ("mean error", INK.stroke_width(4)),
             ];
-            legend(&mut graph, &keys, SeriesLabelPosition::MiddleLeft);
+            // Where the second has room.
+            if *name == panels[1].0 {
+                legend(&mut graph, &keys, SeriesLabelPosition::MiddleRight);
+            }
         }
     });
 }
