@@ -151,8 +151,8 @@ pub fn frontier(path: &str, measured: &Measured) {
                 draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
                 let (dx, dy, h) = match method {
-                    Octaves16 => (4, -26, HPos::Right),
-                    Octaves8 => (-4, -26, HPos::Left),
+                    Octaves16 => (0, -26, HPos::Right),
+                    Octaves8 => (8, -26, HPos::Left),
                     Table256 => (-18, -10, HPos::Right),
                     Table1024 => (-18, 14, HPos::Right),
                     RootFpu => (-18, 0, HPos::Right),
