@@ -164,8 +164,8 @@ impl Measured {
         (count == TYPICAL as u32).then(|| sum / f64::from(count))
     }
 
-    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
-    /// ones, too; with its curve and its fraction.
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs, if they were measured, and the
+    /// typical ones with uniform ones; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
         self.over(function, Inputs::Hard, octaves).next()?;
         let ran = [Inputs::Uniform, Inputs::Hard]
@@ -194,8 +194,9 @@ impl Measured {
         Some(self.code.stack_bytes(self.instance(function, octaves)?))
     }
 
-    /// The same as painted.
+    /// The same as painted, if hard inputs were among those that painted.
     pub fn stack_painted(&self, function: Function, octaves: usize) -> Option<u32> {
+        self.over(function, Inputs::Hard, octaves).next()?;
         let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, octaves));
         all.map(|ran| ran.depth).max()
     }

@@ -67,7 +67,7 @@ pub fn short() -> Result {
     println!(
         "Mean instructions:\n\n{everywhere}\n\n\
          Bytes of a curve, and errors as shares of the interval:\n\n{curves}\n\n\
-         Mean cycles of a Cortex-M4F by a model, without wait states, and bytes:\n\n{calls}"
+         Mean cycles of a Cortex-M4F by a model, without wait states, and bytes of code:\n\n{calls}"
     );
     Ok(())
 }
