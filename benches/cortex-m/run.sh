@@ -20,4 +20,4 @@ END
 # By the machine's own compiler, which is faster than the one that has the targets.
 cargo build --quiet --release
 target=${CARGO_TARGET_DIR:-target}
-exec $tools "$target/release/shutter-curve-cost" "$@"
+TOOLS="" exec $tools "$target/release/shutter-curve-cost" "$@"
