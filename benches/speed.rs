@@ -29,8 +29,8 @@ const TICK_HZ: u32 = 1 << 24;
 
 fn main() {
     println!(
-        "Times are of one call, at random fractions of the exposure. Behind a name: the largest error and the mean one, as shares of\n\
-         the interval (of `cdf`: of the exposure), and the bytes of a curve. Without octaves each answer is a search.\n"
+        "Times are of one call, at random fractions of the exposure. Behind a name: the largest error and the mean one, as\n\
+         shares of the interval (of `cdf`: of the exposure), and the bytes of a curve. With 0 octaves each answer is a search.\n"
     );
     Divan::default().min_time(Duration::from_millis(300)).config_with_args().main();
 }

@@ -222,7 +222,7 @@ fn introduction(cores: &[&Measured]) -> String {
     format!(
         "The calls with `OCTAVES = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
 over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *trapezoid* a third in straight ramps,
-*typical* is the mean over {TYPICAL} curves. The square roots serve straight ramps alone, one from the nearer end for each `u` on a ramp.
+*typical* is the mean over {TYPICAL} curves. The square roots serve straight ramps alone: one, from the nearer end, for a `u` on a ramp.
 *Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that needs no search, as all of a frame of
 `direct_triggers()` are. Calls go through an opaque reference, but in the second row: there each curve is a `static`, as firmware
 has it, whose values the compiler puts into the code. Its worst are over the typical curves. A schedule is of {TRIGGERS} triggers, checked.

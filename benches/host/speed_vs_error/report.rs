@@ -146,8 +146,8 @@ end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instru
 
 ### Cost
 
-`soft` has a third of its mass in ramps, `all ramp` all of it, `trapezoid` a third in straight ramps, `box` none. Cycles are a model of a Cortex-M4F without
-wait states, over uniform `u`, where `cost.md` has them.
+`soft` has a third of its mass in ramps, `all ramp` all of it, `trapezoid` a third in straight ramps, `box` none. Cycles
+are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.md` has them.
 
 {costs}
 
