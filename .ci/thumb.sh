@@ -4,7 +4,8 @@
 #
 #   .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
-#   TOOLS=gcc .ci/thumb.sh boards/c/run.sh     with a compiler for C as well
+#   TOOLS=gcc .ci/thumb.sh boards/c/run.sh     with a compiler for C instead of the log decoder
+#   TOOLS= .ci/thumb.sh COMMAND                with neither
 #
 # What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm,
 # llvm-objdump and defmt-print). What is missing is unpacked from Debian's packages, or built, into a
@@ -177,7 +178,8 @@ for target in "${targets[@]}"; do
     break
 done
 
-if [[ " ${TOOLS:-} " = *" gcc "* ]] && ! command -v arm-none-eabi-gcc >/dev/null && [ ! -x "$bin/arm-none-eabi-gcc" ]; then
+extras=" ${TOOLS-log} "
+if [[ $extras = *" gcc "* ]] && ! command -v arm-none-eabi-gcc >/dev/null && [ ! -x "$bin/arm-none-eabi-gcc" ]; then
     # Neither other languages nor other processors' libraries, three quarters of it.
     gcc='./usr/lib/gcc/arm-none-eabi/*'
     without=(--exclude "$gcc/cc1plus" --exclude "$gcc/lto1" --exclude './usr/bin/*-lto-dump' --exclude "$gcc/arm")
@@ -202,7 +204,7 @@ if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     fi
 fi
 
-if ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
+if [[ $extras = *" log "* ]] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
     RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" defmt-print --version '^1' >&2 ||

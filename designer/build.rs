@@ -11,7 +11,7 @@ fn main() {
     let (_, calls) = cost
         .split_once("The calls with `OCTAVES = 8`")
         .expect("docs/internals/cost.md: the table of calls");
-    let call = |name: &str| row(calls, name, 5);
+    let call = |name: &str| row(calls, name, 6);
     // Of a call: typical, worst, code.
     let rows = [
         ("a trigger's tick", call("a tick")),
@@ -21,7 +21,7 @@ fn main() {
     let rows = rows.map(|(name, cells)| {
         format!(
             "Cost {{ call: {name:?}, typical: {}, worst: {}, code: {} }}",
-            cells[3], cells[4], cells[6]
+            cells[4], cells[5], cells[7]
         )
     });
     // Of the bytes: OCTAVES = 0, then 8.

@@ -26,6 +26,8 @@ mod measured;
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!(
-        "this is firmware: cargo run --release --target thumbv7em-none-eabihf --example trigger"
+        "This is firmware for a Cortex-M4F. Type this to run it in QEMU, with what it needs fetched into a cache:\n\n    \
+         .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger\n\n\
+         On this machine run another example: density, trapezoid or motion_blur."
     );
 }

@@ -1,5 +1,5 @@
-//! The two usual ways to invert a shutter's cdf, written from their public descriptions, as baselines:
-//! Newton's method in `f32` on sextics in powers of the Bezier's parameter, and a table of the inverse.
+//! The usual ways to invert a shutter's cdf, written from their public descriptions, as baselines: Newton's method in
+//! `f32` on sextics in powers of the Bezier's parameter, a table of the inverse, and square roots for straight ramps.
 //!
 //! The microcontroller's benchmark takes this file in by its path; hence only `core`.
 
@@ -160,5 +160,47 @@ impl<const N: usize> InverseTable<N> {
         // The last line serves its own end too; the cast saturates.
         let i = (place as usize).min(N - 2);
         self.t[i] + (self.t[i + 1] - self.t[i]) * (place - i as f32)
+    }
+}
+
+/// Ramps that are straight, from 0 to 1 and back: one square root a side, from the nearer end.
+#[derive(Clone, Copy)]
+pub struct StraightRamps {
+    start: f32,
+    end: f32,
+    /// The square of a ramp's time from its end for all of the exposure: twice its length times the area.
+    squares: [f32; 2],
+    /// The middle of the opening ramp: there a box with the same exposure would open.
+    middle: f32,
+    area: f32,
+    /// The fractions of the exposure at which the plateau starts and ends.
+    plateau: [f32; 2],
+}
+
+impl StraightRamps {
+    /// The shutter that starts to open, is open, starts to close and is closed at these times; nothing is checked.
+    pub const fn new([start, open, close, end]: [f32; 4]) -> Self {
+        let [opening, closing] = [open - start, end - close];
+        let area = (close - open) + 0.5 * (opening + closing);
+        Self {
+            start,
+            end,
+            squares: [2.0 * opening * area, 2.0 * closing * area],
+            middle: 0.5 * (start + open),
+            area,
+            plateau: [0.5 * opening / area, 1.0 - 0.5 * closing / area],
+        }
+    }
+
+    /// The time by which the fraction `u` of the exposure is collected, by this square root.
+    #[inline]
+    pub fn inverse_cdf(&self, u: f32, sqrt: impl Fn(f32) -> f32) -> f32 {
+        if u < self.plateau[0] {
+            self.start + sqrt(u * self.squares[0])
+        } else if u <= self.plateau[1] {
+            self.middle + u * self.area
+        } else {
+            self.end - sqrt((1.0 - u) * self.squares[1])
+        }
     }
 }

@@ -12,7 +12,7 @@ use Function::{Cdf, Construct, InverseCdf, Newton, Openness, Schedule, Static, T
 /// The places of [`ROWS`].
 const SOFT: usize = 0;
 const ALL_RAMP: usize = 1;
-const BOX: usize = 2;
+const BOX: usize = 3;
 
 /// Mean cycles of a Cortex-M4F, by the curve and the octaves. A `static` is as firmware has it: the compiler sees the curve.
 const CYCLES: [(Function, usize, usize, f64); 12] = [

@@ -48,6 +48,13 @@ const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
 /// without a common ancestor of Arm's.
 pub const CORES: [Core; 10] = [M0, IMC, I686, S390X, WASM, M4F, M33, IMAFC, RISCV64, POWERPC];
 
+impl Core {
+    /// Does it compute in `f32`?
+    pub fn has_fpu(self) -> bool {
+        [M4F, M33, IMAFC].contains(&self)
+    }
+}
+
 pub const QEMU: &str = "qemu-system-arm";
 pub const OBJDUMP: &str = "llvm-objdump";
 

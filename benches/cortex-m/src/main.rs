@@ -1,8 +1,9 @@
 //! What the crate costs on a microcontroller: instructions, cycles, bytes and stack, in tables.
 //!
 //! ```text
-//! cargo run --release              # prints the report and writes ../../docs/internals/cost.md; some minutes
-//! cargo run --release -- --short   # the budgets alone: exits with 1 where one is broken
+//! cargo run --release              # the short tables, of a Cortex-M4F and a Cortex-M0+
+//! cargo run --release -- --write-docs # all of it, in ../../docs/internals/cost.md; some minutes
+//! cargo run --release -- --budgets # exits with 1 where one is broken
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
 //! cargo run --release -- --silicon # the model against cycles that others have measured on boards
@@ -30,8 +31,9 @@ type Result<T = (), E = Error> = std::result::Result<T, E>;
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => report::run(),
-        ["--short"] => budget::run(),
+        [] => report::short(),
+        ["--write-docs"] => report::write(),
+        ["--budgets"] => budget::run(),
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
         ["--silicon"] => silicon::run(),

@@ -3,7 +3,9 @@
 use std::fs::{File, write};
 
 use measured::roots::ROOTS;
-use measured::{CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TYPICAL};
+use measured::{
+    CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TRAPEZOID, TYPICAL,
+};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
@@ -11,7 +13,7 @@ use crate::disassembly::Disassembly;
 use crate::firmware::{Core, build, output};
 use crate::trace::{Call, replay};
 
-use Function::{Construct, InverseCdf, Root, Static, TickStep};
+use Function::{Construct, InverseCdf, Root, SqrtFpu, Static, TickStep};
 
 /// What functions are measured on.
 #[derive(Clone, Copy, PartialEq)]
@@ -42,6 +44,8 @@ pub fn series(functions: &[Function], octaves: &[usize], on: On) -> Vec<Series> 
         };
         for (i, inputs) in Inputs::ALL.into_iter().enumerate() {
             let curves = 0..curves[i].min(most[i]);
+            let serves = |curve: &usize| !function.is_for_straight_ramps() || *curve == TRAPEZOID;
+            let curves = curves.filter(serves);
             all.extend(curves.map(|curve| Series { function, octaves, inputs, curve }));
         }
     }
@@ -107,6 +111,8 @@ pub struct Measured {
 impl Measured {
     pub fn new(core: Core, level: &str, series: &[Series]) -> Result<Self> {
         eprintln!("measuring a {} ...", core.name);
+        let has = |series: &&Series| series.function != SqrtFpu || core.has_fpu();
+        let series: Vec<Series> = series.iter().filter(has).copied().collect();
         let elf = build(core, "cost", level)?;
         let (code, curves) = (Disassembly::of(core, &elf)?, output(core, &elf)?);
         if curves.len() != CURVE_BYTES.iter().sum::<usize>() * CURVES.len() * SCALES.len() {
@@ -146,7 +152,7 @@ impl Measured {
         self.over(function, Inputs::Uniform, octaves).find(|ran| ran.series.curve == curve)
     }
 
-    /// The mean over all typical curves.
+    /// The mean over all typical curves, if it is measured on them.
     pub fn typical(
         &self,
         function: Function,
@@ -155,12 +161,13 @@ impl Measured {
     ) -> Option<f64> {
         let means = self.over(function, Inputs::Uniform, octaves).map(|ran| of(ran).mean);
         let (count, sum) = means.fold((0, 0.0), |(count, sum), mean| (count + 1, sum + mean));
-        (count > 0).then(|| sum / f64::from(count))
+        (count == TYPICAL as u32).then(|| sum / f64::from(count))
     }
 
-    /// The most cycles of a call that was not searched for, over all curves with hard inputs and the typical ones with uniform
-    /// ones, too; with its curve and its fraction.
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs, if they were measured, and the
+    /// typical ones with uniform ones; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
+        self.over(function, Inputs::Hard, octaves).next()?;
         let ran = [Inputs::Uniform, Inputs::Hard]
             .into_iter()
             .flat_map(|i| self.over(function, i, octaves));
@@ -187,8 +194,9 @@ impl Measured {
         Some(self.code.stack_bytes(self.instance(function, octaves)?))
     }
 
-    /// The same as painted.
+    /// The same as painted, if hard inputs were among those that painted.
     pub fn stack_painted(&self, function: Function, octaves: usize) -> Option<u32> {
+        self.over(function, Inputs::Hard, octaves).next()?;
         let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, octaves));
         all.map(|ran| ran.depth).max()
     }

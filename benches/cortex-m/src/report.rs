@@ -1,8 +1,12 @@
-//! The whole report, as Markdown: printed, and written to `docs/internals/cost.md`. First what most readers want.
+//! The whole report, as Markdown, in `docs/internals/cost.md`; and what most readers want, which it begins with.
 
-use measured::baseline::{InverseTable, TextbookNewton};
+use measured::baseline::{InverseTable, StraightRamps, TextbookNewton};
 use measured::roots::{DIVISOR, ROOTS, dividend};
-use measured::{CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, OCTAVES, ROWS, TRIGGERS, TYPICAL};
+use measured::{
+    CURVE_BYTES, CURVES, DEFAULT, Function, Inputs, OCTAVES, ROWS, TRAPEZOID, TRIGGERS, TYPICAL,
+    uniform,
+};
+use micromath::F32Ext;
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
@@ -10,7 +14,8 @@ use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
 use crate::measure::{Measured, On, Ran, series};
 
 use Function::{
-    Cdf, Construct, InverseCdf, Newton, Openness, Root, Schedule, Static, Table, TickStep,
+    Cdf, Construct, InverseCdf, Newton, Openness, Root, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath,
+    Static, Table, TickStep,
 };
 
 const METHOD: &str = "## How it is measured
@@ -31,7 +36,7 @@ The other columns are mean instructions: on a Cortex-M33 and a riscv32imafc, whi
 on a Cortex-M0+ and a riscv32imc.";
 
 /// The calls as the reader knows them; the last are the baselines.
-const CALLS: [(&str, Function); 8] = [
+const CALLS: [(&str, Function); 11] = [
     ("`inverse_cdf`", InverseCdf),
     ("`inverse_cdf` of a `static`", Static),
     ("`cdf`", Cdf),
@@ -40,12 +45,62 @@ const CALLS: [(&str, Function); 8] = [
     ("a schedule", Schedule),
     ("textbook Newton in `f32`", Newton),
     ("linear table of 256", Table),
+    ("`libm::sqrtf`", SqrtLibm),
+    ("`micromath` `sqrt`", SqrtMicromath),
+    ("the FPU's square root", SqrtFpu),
 ];
 
-pub fn run() -> Result {
+/// Those for straight ramps.
+const SQUARE_ROOTS: [Function; 3] = [SqrtLibm, SqrtMicromath, SqrtFpu];
+
+/// Prints what most readers want, of the processor with an FPU and the one without, in a minute.
+pub fn short() -> Result {
+    let measured = [M4F, M0].into_iter().map(|core| {
+        let functions = CALLS.map(|(_, function)| function);
+        let plan =
+            [series(&functions, &[DEFAULT], On::Rows), series(&[InverseCdf], &[0], On::Rows)];
+        Measured::new(core, OPT_LEVEL, &plan.concat())
+    });
+    let measured = measured.collect::<Result<Vec<_>>>()?;
+    let [calls, everywhere, curves] =
+        overview(&measured.iter().collect::<Vec<_>>()).map(|table| aligned(&table));
+    println!(
+        "Mean instructions:\n\n{everywhere}\n\n\
+         Bytes of a curve, and errors as shares of the interval:\n\n{curves}\n\n\
+         Mean cycles of a Cortex-M4F by a model, without wait states, and bytes of code:\n\n{calls}"
+    );
+    Ok(())
+}
+
+/// A table as a terminal shows it, without the columns that hold nothing.
+fn aligned(table: &str) -> String {
+    let cells = |line: &str| -> Vec<String> {
+        let line = line.trim_matches('|').replace('`', "");
+        line.split('|').map(|cell| cell.trim().to_owned()).collect()
+    };
+    let rows: Vec<_> = table.lines().filter(|line| !line.contains("--:")).map(cells).collect();
+    let widths = (0..rows[0].len()).map(|column| {
+        let is_empty = rows[1..].iter().all(|row| matches!(row[column].as_str(), "-" | ""));
+        let widest = rows.iter().map(|row| row[column].chars().count()).max();
+        if is_empty { 0 } else { widest.unwrap_or(0) }
+    });
+    let widths: Vec<usize> = widths.collect();
+    let lines = rows.iter().map(|row| {
+        let mut line = format!("{:1$}", row[0], widths[0]);
+        for (cell, width) in row.iter().zip(&widths).skip(1).filter(|(_, width)| **width > 0) {
+            line += &format!("  {cell:>width$}");
+        }
+        line
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Writes the whole report.
+pub fn write() -> Result {
     let plan = [
         series(&[InverseCdf, TickStep, Schedule], &OCTAVES, On::All),
         series(&[Static, Cdf, Openness, Newton, Table], &[DEFAULT], On::All),
+        series(&SQUARE_ROOTS, &[DEFAULT], On::All),
         series(&[Construct], &OCTAVES, On::All),
         series(&[Root], &[DEFAULT], On::All),
     ];
@@ -55,6 +110,7 @@ pub fn run() -> Result {
         series(&[InverseCdf], &[0, 4, 16], On::Rows),
         series(&[TickStep, Schedule, Construct], &OCTAVES, On::Rows),
         series(&[Cdf, Openness, Newton, Table], &[DEFAULT], On::Rows),
+        series(&SQUARE_ROOTS, &[DEFAULT], On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
     let others = others.into_iter().collect::<Result<Vec<_>>>()?;
@@ -63,8 +119,8 @@ pub fn run() -> Result {
     let building = series(&[Construct], &[16], On::All);
     let for_size = Measured::new(M4F, "z", &building)?.code_bytes(Construct, 16);
     let report = [
-        overview(&cores),
-        format!("Made by `cargo run --release` in `benches/cortex-m`, with {}.", made_with()?),
+        introduction(&cores),
+        format!("Made by `benches/cortex-m/run.sh --write-docs`, with {}.", made_with()?),
         METHOD.into(),
         calls(&cores),
         bytes(&cores, for_size),
@@ -72,7 +128,6 @@ pub fn run() -> Result {
         roots(&m4f),
     ];
     let report = format!("# What it costs on a microcontroller\n\n{}\n", report.join("\n\n"));
-    print!("{report}");
     Ok(std::fs::write(folder().join("../../docs/internals/cost.md"), report)?)
 }
 
@@ -103,14 +158,15 @@ fn names(cores: &[&Measured]) -> String {
     figures(cores.iter().map(|core| Some(core.name.replace("Cortex-", ""))))
 }
 
-/// The first screen: what a call costs, beside the baselines.
-fn overview(cores: &[&Measured]) -> String {
+/// The tables of the first screen: what a call costs, beside the baselines; its instructions everywhere; what a curve takes.
+fn overview(cores: &[&Measured]) -> [String; 3] {
     let m4f = cores[0];
     let calls = CALLS.map(|(name, function)| (name, function, DEFAULT));
     let without = ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0);
     let rows = calls.into_iter().chain([without]).map(|(name, function, octaves)| {
-        let on_rows = [0, 1, 2].map(|row| Some(m4f.on(function, row, octaves)?.cycles().mean));
-        let means = on_rows.into_iter().chain([m4f.typical(function, octaves, Ran::cycles)]);
+        let on_rows =
+            (0..ROWS.len()).map(|row| Some(m4f.on(function, row, octaves)?.cycles().mean));
+        let means = on_rows.chain([m4f.typical(function, octaves, Ran::cycles)]);
         let counts = [
             m4f.worst(function, octaves).map(|(cycles, _)| cycles),
             m4f.worst_direct(function, octaves).map(|(cycles, _)| cycles),
@@ -120,38 +176,53 @@ fn overview(cores: &[&Measured]) -> String {
         let means = means.map(|mean| Some(format!("{:.0}", mean?)));
         format!("{name} | {} | {}", figures(means), figures(counts))
     });
-    let header =
-        "call | soft | all ramp | box | typical | worst | direct | code, bytes | stack, bytes";
-    let calls = table(header, 1, rows);
+    let header = format!(
+        "call | {} | typical | worst | direct | code, bytes | stack, bytes",
+        ROWS.join(" | ")
+    );
+    let calls = table(&header, 1, rows);
 
     let mut rows = Vec::new();
-    for (name, function) in &CALLS[..2] {
-        for (row, curve) in ["soft", "all ramp", "typical"].into_iter().enumerate() {
-            let counts = cores.iter().map(|core| {
-                let mean = match curve {
-                    "typical" => core.typical(*function, DEFAULT, Ran::instructions),
-                    _ => core.on(*function, row, DEFAULT).map(|ran| ran.instructions().mean),
-                };
-                mean.map(grouped)
+    for (row, curve) in ["soft", "all ramp", "trapezoid", "typical"].into_iter().enumerate() {
+        // The inverse in all ways.
+        for (name, function) in CALLS[..2].iter().chain(&CALLS[6..]) {
+            let counts = cores.iter().map(|core| match curve {
+                "typical" => core.typical(*function, DEFAULT, Ran::instructions),
+                _ => core.on(*function, row, DEFAULT).map(|ran| ran.instructions().mean),
             });
-            rows.push(format!("{curve}: {name} | {}", figures(counts)));
+            let counts: Vec<_> = counts.map(|count| count.map(grouped)).collect();
+            if counts.iter().flatten().count() > 1 {
+                rows.push(format!("{curve}: {name} | {}", figures(counts)));
+            }
         }
     }
     let everywhere = table(&format!("mean instructions | {}", names(cores)), 1, rows);
 
     let [with_0, with_4, with_8, with_16] = CURVE_BYTES;
-    let baselines = [size_of::<TextbookNewton>(), size_of::<InverseTable<256>>()];
+    let ramps = size_of::<StraightRamps>();
+    let baselines = [size_of::<TextbookNewton>(), size_of::<InverseTable<256>>(), ramps, ramps];
     let bytes = [with_0, with_8, with_4, with_16].into_iter().chain(baselines).map(Some);
-    let errors = [0, 1].map(|row| {
-        let errors = [Newton, Table].map(|function| Some(format!("{:.1e}", error(row, function))));
-        format!("largest error on {} | | | | | {}", ROWS[row], figures(errors))
+    let errors = [0, 1, TRAPEZOID].into_iter().flat_map(|row| {
+        let errors = [Newton, Table, SqrtLibm, SqrtMicromath].map(|function| errors(row, function));
+        [("largest", 0), ("mean", 1)].map(|(which, i)| {
+            let errors = errors.map(|errors| Some(format!("{:.1e}", errors?[i])));
+            format!("{which} error on {} | | | | | {}", ROWS[row], figures(errors))
+        })
     });
     let bytes = format!("bytes of a curve | {}", figures(bytes));
-    let header = "| `OCTAVES = 0` | 8 | 4 | 16 | textbook Newton in `f32` | linear table of 256";
+    let header = "| `OCTAVES = 0` | 8 | 4 | 16 | textbook Newton in `f32` | linear table of 256 \
+                  | square root: `libm`, FPU | `micromath`";
     let curves = table(header, 1, [bytes].into_iter().chain(errors));
+    [calls, everywhere, curves]
+}
+
+/// The first screen.
+fn introduction(cores: &[&Measured]) -> String {
+    let [calls, everywhere, curves] = overview(cores);
     format!(
         "The calls with `OCTAVES = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
-over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *typical* is the mean over {TYPICAL} curves.
+over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *trapezoid* a third in straight ramps,
+*typical* is the mean over {TYPICAL} curves. The square roots serve straight ramps alone: one, from the nearer end, for a `u` on a ramp.
 *Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that needs no search, as all of a frame of
 `direct_triggers()` are. Calls go through an opaque reference, but in the second row: there each curve is a `static`, as firmware
 has it, whose values the compiler puts into the code. Its worst are over the typical curves. A schedule is of {TRIGGERS} triggers, checked.
@@ -162,25 +233,50 @@ The same on other cores, in instructions:
 
 {everywhere}
 
-What a curve takes, and the largest error over 65 537 equally spaced `u`, as a share of the interval:
+What a curve takes, and the errors over a million uniform `u`, as a share of the interval:
 
 {curves}"
     )
 }
 
-/// The largest error of a baseline, as a share of the interval.
-fn error(row: usize, function: Function) -> f64 {
+/// The largest and the mean error of a baseline on a curve that it serves, as shares of the interval.
+fn errors(row: usize, function: Function) -> Option<[f64; 2]> {
+    const COUNT: u32 = 1 << 20;
     let curve = &CURVES[row];
     let (opening, closing) = curve.ramps(false);
-    let exact = ShutterCurve::<8>::with_octaves(opening, closing).expect("a good curve");
+    let ours = ShutterCurve::<8>::with_octaves(opening, closing).expect("a good curve");
     let newton = TextbookNewton::new(curve.opening, curve.closing);
-    let table = InverseTable::<256>::new(|u| exact.inverse_cdf(u));
-    let length = f64::from(exact.close_end()) - f64::from(exact.open_start());
-    let errors = (0..=1 << 16).map(|i| i as f32 / (1 << 16) as f32).map(|u| {
-        let t = if function == Newton { newton.inverse_cdf(u) } else { table.inverse_cdf(u) };
-        (f64::from(t) - f64::from(exact.inverse_cdf(u))).abs() / length
+    let table = InverseTable::<256>::new(|u| ours.inverse_cdf(u));
+    let ramps = curve.straight();
+    let [start, end] = [ours.open_start(), ours.close_end()].map(f64::from);
+    let errors = (0..COUNT).map(uniform).map(|u| {
+        let t = match function {
+            Newton => newton.inverse_cdf(u),
+            Table => table.inverse_cdf(u),
+            SqrtMicromath => ramps.inverse_cdf(u, F32Ext::sqrt),
+            _ => ramps.inverse_cdf(u, libm::sqrtf),
+        };
+        // The error of a square root is too near to this crate's to be held against that.
+        let exact = if row == TRAPEZOID { of_trapezoid(u) } else { ours.inverse_cdf(u).into() };
+        (f64::from(t) - exact).abs() / (end - start)
     });
-    errors.fold(0.0, f64::max)
+    let (most, sum) = errors.fold((0.0f64, 0.0), |(most, sum), e| (most.max(e), sum + e));
+    let is_served = !function.is_for_straight_ramps() || row == TRAPEZOID;
+    is_served.then_some([most, sum / f64::from(COUNT)])
+}
+
+/// The exact inverse of *trapezoid*, which opens from 0 to 1/4 and closes from 3/4 to 1.
+fn of_trapezoid(u: f32) -> f64 {
+    let u = f64::from(u);
+    let ramp = |u: f64| (0.375 * u).sqrt();
+    let share = 0.125 / 0.75;
+    if u < share {
+        ramp(u)
+    } else if u > 1.0 - share {
+        1.0 - ramp(1.0 - u)
+    } else {
+        0.125 + 0.75 * u
+    }
 }
 
 /// Every call on each core, and the worst on one.

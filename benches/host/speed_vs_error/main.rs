@@ -1,8 +1,8 @@
-//! Speed against error: the report `docs/internals/speed-vs-error.md` and its pictures, from one run.
+//! Speed against error: a report and its pictures, from one run.
 //!
-//! `cargo bench -p benches --bench speed_vs_error`, and after `--`: `--quick` for seconds instead of minutes and a
-//! report in `target/speed-vs-error`, `--search N` to look for the worst of N curves, `--every-f32` to try every
-//! `f32` on a dozen curves. The last two leave tables in `docs`, which the next report takes in.
+//! `cargo bench -p benches` leaves rough figures in `target/speed-vs-error`, after seconds. With `-- --write-docs` it takes
+//! minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md`. `--search N` looks for the
+//! worst of N curves, `--every-f32` tries every `f32` on a dozen: with `--write-docs` they leave tables for the next report.
 
 mod accuracy;
 mod every_f32;
@@ -23,6 +23,11 @@ use methods::CURVES;
 use report::Measured;
 use support::rendering::{PULSES, Picture, Pulses};
 
+/// Where documents are; what other runs left is read from there.
+const DOCS: &str = "docs/internals";
+const SEARCH: &str = "search.csv";
+const EVERY_F32: &str = "every-f32.csv";
+
 type Result<T = (), E = Box<dyn std::error::Error>> = std::result::Result<T, E>;
 
 fn main() -> Result {
@@ -30,19 +35,22 @@ fn main() -> Result {
     std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
     // The report says how long so many took.
     rayon::ThreadPoolBuilder::new().num_threads(2).build_global()?;
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let mut arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let asked = arguments.len();
+    arguments.retain(|argument| argument != "--write-docs");
+    let is_kept = arguments.len() < asked;
+    let folder = if is_kept { DOCS } else { "target/speed-vs-error" };
+    std::fs::create_dir_all(folder)?;
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => report("docs/internals", 200, 4000, 101),
-        // Rough figures are to be looked at, not to be kept.
-        ["--quick"] => report("target/speed-vs-error", 20, 500, 5),
-        ["--search", curves] => save("docs/internals/search.csv", &search::search(curves.parse()?)),
-        ["--every-f32"] => every_f32::every_f32(|rows| save("docs/internals/every-f32.csv", rows)),
+        [] if is_kept => report(folder, 200, 4000, 101),
+        [] => report(folder, 20, 500, 5),
+        ["--search", curves] => save(folder, SEARCH, &search::search(curves.parse()?)),
+        ["--every-f32"] => every_f32::every_f32(|rows| save(folder, EVERY_F32, rows)),
         _ => Err("usage: see speed_vs_error/main.rs".into()),
     }
 }
 
 fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
-    std::fs::create_dir_all(folder)?;
     let curves = accuracy::curves(random);
     let scene = Picture::new(&CURVES[0].1);
     let rendering =
@@ -52,10 +60,10 @@ fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
         samples,
         figures: accuracy::measure(&curves, samples),
         times: CURVES.map(|(_, curve)| timing::times(&curve, repeats)),
-        cost: std::fs::read_to_string("docs/internals/cost.md")?,
+        cost: std::fs::read_to_string(format!("{DOCS}/cost.md"))?,
         rendering: rendering.collect(),
-        search: table::read("docs/internals/search.csv")?,
-        every_f32: table::read("docs/internals/every-f32.csv")?,
+        search: table::read(&format!("{DOCS}/{SEARCH}"))?,
+        every_f32: table::read(&format!("{DOCS}/{EVERY_F32}"))?,
     };
     pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
     pictures::rendering(&format!("{folder}/rendering.svg"));
@@ -73,8 +81,8 @@ fn rendered(scene: &Picture, pulses: Pulses, n: u32) -> f64 {
     (squares.sum::<f64>() / seeds as f64).sqrt()
 }
 
-fn save<T: serde::Serialize>(path: &str, rows: &[T]) -> Result {
-    let mut file = csv::Writer::from_path(path)?;
+fn save<T: serde::Serialize>(folder: &str, name: &str, rows: &[T]) -> Result {
+    let mut file = csv::Writer::from_path(format!("{folder}/{name}"))?;
     rows.iter().try_for_each(|row| file.serialize(row))?;
     Ok(file.flush()?)
 }

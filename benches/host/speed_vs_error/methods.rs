@@ -1,17 +1,18 @@
-//! The methods under comparison, each behind the same trait, and the curves that they are timed on.
+//! The methods under comparison, and the curves that they are timed on; `cargo bench` has them from here, too.
 
 use std::hint::black_box;
 
-use shutter_curve::ShutterCurve;
+use micromath::F32Ext;
+use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::support::baseline::{InverseTable, TextbookNewton};
+use crate::support::baseline::{InverseTable, StraightRamps, TextbookNewton};
 use crate::support::cases::shutter;
 use crate::support::curves::Rng;
-use crate::support::oracle::Curve;
+use crate::support::oracle::{Curve, Points};
 use crate::support::peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
 
-/// About a third of the mass in ramps; all of it; none.
-pub const CURVES: [(&str, Curve); 3] = [
+/// About a third of the mass in ramps; all of it; a third in straight ramps; none.
+pub const CURVES: [(&str, Curve); 4] = [
     (
         "soft",
         Curve {
@@ -26,8 +27,19 @@ pub const CURVES: [(&str, Curve); 3] = [
             closing: [(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)],
         },
     ),
+    (
+        "trapezoid",
+        Curve {
+            opening: CubicBezier::line((0.0, 0.0), (0.25, 1.0)).points(),
+            closing: CubicBezier::line((0.75, 1.0), (1.0, 0.0)).points(),
+        },
+    ),
     ("box", Curve { opening: [(0.0, 1.0); 4], closing: [(1.0, 1.0); 4] }),
 ];
+
+/// The places of two of them.
+pub const SOFT: usize = 0;
+pub const TRAPEZOID: usize = 2;
 
 /// Fractions in no order: more than a branch predictor learns by heart, so that every branch on u is taken by surprise.
 pub fn fractions() -> Vec<f32> {
@@ -67,63 +79,179 @@ impl<F: Fn(f32) -> (f32, u32)> Inverse for F {
     }
 }
 
-pub struct Method {
-    pub name: &'static str,
-    /// Its call and number of octaves in `docs/internals/cost.md`, the table of cycles.
-    pub cost: [&'static str; 2],
-    pub is_ours: bool,
-    pub bytes: usize,
-    pub build: fn(&Curve) -> Box<dyn Inverse>,
+/// What is done with an inverse, whose type the compiler knows there.
+pub trait Task {
+    type Answer;
+    fn on(self, inverse: impl Inverse + 'static) -> Self::Answer;
 }
 
-const fn peer<T>(
-    name: &'static str,
-    cost: &'static str,
-    build: fn(&Curve) -> Box<dyn Inverse>,
-) -> Method {
-    Method { name, cost: [cost, "8"], is_ours: false, bytes: size_of::<T>(), build }
+struct Boxed;
+
+impl Task for Boxed {
+    type Answer = Box<dyn Inverse>;
+    fn on(self, inverse: impl Inverse + 'static) -> Self::Answer {
+        Box::new(inverse)
+    }
 }
 
-const fn ours<const OCTAVES: usize>(name: &'static str, octaves: &'static str) -> Method {
-    let bytes = size_of::<ShutterCurve<OCTAVES>>();
-    let cost = ["`inverse_cdf`", octaves];
-    Method { name, cost, is_ours: true, bytes, build: |c| Box::new(shutter::<OCTAVES>(c)) }
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    Octaves0,
+    Octaves4,
+    Octaves8,
+    Octaves16,
+    Textbook,
+    Bracketed,
+    Doubles,
+    Table256,
+    Table1024,
+    CubicTable,
+    RootLibm,
+    RootMicromath,
+    RootFpu,
 }
 
-/// The place of the textbook Newton, against which times are taken.
-pub const TEXTBOOK: usize = 4;
+use Method::*;
 
-/// Tables are made from exact entries, so that only their own error is seen.
-pub const METHODS: [Method; 10] = [
-    ours::<0>("`OCTAVES = 0`", "0"),
-    ours::<4>("`OCTAVES = 4`", "4"),
-    ours::<8>("`OCTAVES = 8`", "8"),
-    ours::<16>("`OCTAVES = 16`", "16"),
-    peer::<TextbookNewton>("textbook Newton", "textbook Newton in `f32`", |c| {
-        let newton = TextbookNewton::new(c.opening, c.closing);
-        Box::new(move |u| newton.solve(u))
-    }),
-    peer::<Parts<f32>>("bracketed Newton", "", |c| {
-        let parts = Parts::<f32>::new(c.opening, c.closing);
-        Box::new(move |u| parts.inverse_cdf(u, bracketed))
-    }),
-    peer::<InverseTable<256>>("table of 256", "linear table of 256", table::<256>),
-    peer::<InverseTable<1024>>("table of 1024", "", table::<1024>),
-    peer::<MonotoneCubicTable<64>>("cubic table of 64", "", |c| {
-        let exact = shutter::<16>(c);
-        let table = MonotoneCubicTable::<64>::new(|u| exact.inverse_cdf(u));
-        Box::new(move |u| (table.inverse_cdf(u), 0))
-    }),
-    peer::<Parts<f64>>("Newton in f64", "", |c| {
-        let parts = Parts::<f64>::new(c.opening, c.closing);
-        Box::new(move |u| parts.inverse_cdf(u, doubles))
-    }),
+/// This crate's, those for every curve, and those for straight ramps alone.
+pub const METHODS: [Method; 13] = [
+    Octaves0,
+    Octaves4,
+    Octaves8,
+    Octaves16,
+    Textbook,
+    Bracketed,
+    Doubles,
+    Table256,
+    Table1024,
+    CubicTable,
+    RootLibm,
+    RootMicromath,
+    RootFpu,
 ];
 
-fn table<const N: usize>(curve: &Curve) -> Box<dyn Inverse> {
-    let exact = shutter::<16>(curve);
-    let table = InverseTable::<N>::new(|u| exact.inverse_cdf(u));
-    Box::new(move |u| (table.inverse_cdf(u), 0))
+impl Method {
+    pub const fn is_ours(self) -> bool {
+        matches!(self, Octaves0 | Octaves4 | Octaves8 | Octaves16)
+    }
+
+    /// Only straight ramps have a square root for an inverse.
+    pub const fn is_root(self) -> bool {
+        matches!(self, RootLibm | RootMicromath | RootFpu)
+    }
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Octaves0 => "`OCTAVES = 0`",
+            Octaves4 => "`OCTAVES = 4`",
+            Octaves8 => "`OCTAVES = 8`",
+            Octaves16 => "`OCTAVES = 16`",
+            Textbook => "textbook Newton",
+            Bracketed => "bracketed Newton",
+            Doubles => "Newton in f64",
+            Table256 => "table of 256",
+            Table1024 => "table of 1024",
+            CubicTable => "cubic table of 64",
+            RootLibm => "`libm::sqrtf`",
+            RootMicromath => "`micromath` `sqrt`",
+            RootFpu => "the FPU's square root",
+        }
+    }
+
+    /// Its call and number of octaves in the table of cycles.
+    pub const fn cost(self) -> [&'static str; 2] {
+        match self {
+            Octaves0 => ["`inverse_cdf`", "0"],
+            Octaves4 => ["`inverse_cdf`", "4"],
+            Octaves8 => ["`inverse_cdf`", "8"],
+            Octaves16 => ["`inverse_cdf`", "16"],
+            Textbook => ["textbook Newton in `f32`", "8"],
+            Table256 => ["linear table of 256", "8"],
+            _ => [self.name(), "8"],
+        }
+    }
+
+    pub const fn bytes(self) -> usize {
+        match self {
+            Octaves0 => size_of::<ShutterCurve<0>>(),
+            Octaves4 => size_of::<ShutterCurve<4>>(),
+            Octaves8 => size_of::<ShutterCurve<8>>(),
+            Octaves16 => size_of::<ShutterCurve<16>>(),
+            Textbook => size_of::<TextbookNewton>(),
+            Bracketed => size_of::<Parts<f32>>(),
+            Doubles => size_of::<Parts<f64>>(),
+            Table256 => size_of::<InverseTable<256>>(),
+            Table1024 => size_of::<InverseTable<1024>>(),
+            CubicTable => size_of::<MonotoneCubicTable<64>>(),
+            RootLibm | RootMicromath | RootFpu => size_of::<StraightRamps>(),
+        }
+    }
+
+    /// Does something with the inverse of a curve, if it has one. Tables are made from exact entries, so that only their
+    /// own error is seen.
+    pub fn on<T: Task>(self, c: &Curve, task: T) -> Option<T::Answer> {
+        let exact = || {
+            let exact = shutter::<16>(c);
+            move |u| exact.inverse_cdf(u)
+        };
+        Some(match self {
+            Octaves0 => task.on(shutter::<0>(c)),
+            Octaves4 => task.on(shutter::<4>(c)),
+            Octaves8 => task.on(shutter::<8>(c)),
+            Octaves16 => task.on(shutter::<16>(c)),
+            Textbook => {
+                let newton = TextbookNewton::new(c.opening, c.closing);
+                task.on(move |u| newton.solve(u))
+            }
+            Bracketed => {
+                let parts = Parts::<f32>::new(c.opening, c.closing);
+                task.on(move |u| parts.inverse_cdf(u, bracketed))
+            }
+            Doubles => {
+                let parts = Parts::<f64>::new(c.opening, c.closing);
+                task.on(move |u| parts.inverse_cdf(u, doubles))
+            }
+            Table256 => {
+                let table = InverseTable::<256>::new(exact());
+                task.on(move |u| (table.inverse_cdf(u), 0))
+            }
+            Table1024 => {
+                let table = InverseTable::<1024>::new(exact());
+                task.on(move |u| (table.inverse_cdf(u), 0))
+            }
+            CubicTable => {
+                let table = MonotoneCubicTable::<64>::new(exact());
+                task.on(move |u| (table.inverse_cdf(u), 0))
+            }
+            RootLibm => {
+                let ramps = straight(c)?;
+                task.on(move |u| (ramps.inverse_cdf(u, libm::sqrtf), 0))
+            }
+            RootMicromath => {
+                let ramps = straight(c)?;
+                task.on(move |u| (ramps.inverse_cdf(u, F32Ext::sqrt), 0))
+            }
+            RootFpu => {
+                let ramps = straight(c)?;
+                task.on(move |u| (ramps.inverse_cdf(u, f32::sqrt), 0))
+            }
+        })
+    }
+
+    pub fn build(self, curve: &Curve) -> Option<Box<dyn Inverse>> {
+        self.on(curve, Boxed)
+    }
+}
+
+/// The curve, if its ramps are straight, from 0 to 1 and back, or have no length.
+fn straight(curve: &Curve) -> Option<StraightRamps> {
+    let is_line = |ramp: Points, [from, to]: [f32; 2]| {
+        let [start, .., end] = ramp.map(|point| point.0);
+        start == end || ramp == CubicBezier::line((start, from), (end, to)).points()
+    };
+    let is_straight = is_line(curve.opening, [0.0, 1.0]) && is_line(curve.closing, [1.0, 0.0]);
+    let times = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+    is_straight.then(|| StraightRamps::new(times))
 }
 
 /// Answers for times, and how they are prepared.

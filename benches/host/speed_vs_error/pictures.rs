@@ -7,8 +7,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
-use crate::methods::{CURVES, METHODS};
-use crate::report::{Measured, cycles, name};
+use crate::methods::Method::{Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024};
+use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
+use crate::report::{Measured, cycles, name, time};
 use crate::support::cases::{judge, shutter};
 use crate::support::curves::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
@@ -106,11 +107,12 @@ fn superscript(n: i32) -> String {
 /// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a sample
 /// costs.
 pub fn frontier(path: &str, measured: &Measured) {
-    let times = measured.times[0].0.iter().map(|time| Some(*time));
-    let cycles = (0..METHODS.len()).map(|method| Some(cycles(measured, method)?[0]));
-    let panels: [(&str, Vec<Option<f64>>); 2] = [
-        ("nanoseconds a sample on the host, soft curve", times.collect()),
-        ("mean cycles a sample on a Cortex-M4F (model), soft curve", cycles.collect()),
+    let on = |method: Method| if method.is_root() { TRAPEZOID } else { SOFT };
+    let times = METHODS.map(|method| time(&measured.times[on(method)].0, method));
+    let cycles = METHODS.map(|method| Some(cycles(measured, method, on(method))?[0]));
+    let panels = [
+        ("nanoseconds a sample on the host, soft curve", times),
+        ("mean cycles a sample on a Cortex-M4F (model), soft curve", cycles),
     ];
     let title = "Error against time and against cycles: this crate and its peers";
     picture(path, (1240, 520), title, |root| {
@@ -136,7 +138,11 @@ pub fn frontier(path: &str, measured: &Measured) {
             let mut graph = graph(area, &x, &y);
             for ((method, figures), cost) in METHODS.iter().zip(&measured.figures).zip(costs) {
                 let Some(cost) = cost else { continue };
-                let color = if method.is_ours { BLUE } else { VERMILION };
+                let color = match method {
+                    method if method.is_ours() => BLUE,
+                    method if method.is_root() => GREY,
+                    _ => VERMILION,
+                };
                 let (most, mean) = figures.of_interval;
                 let at = |error: f64| (cost.log2(), error.max(1e-10).log10());
                 let line = PathElement::new([at(most), at(mean)], color.mix(0.4).stroke_width(4));
@@ -144,24 +150,31 @@ pub fn frontier(path: &str, measured: &Measured) {
                 draw(&mut graph, [Circle::new(at(most), 10, color.filled())]);
                 draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
-                let (dx, dy, h) = match method.name {
-                    "`OCTAVES = 16`" => (-18, 0, HPos::Right),
-                    "`OCTAVES = 8`" => (0, -26, HPos::Center),
-                    "table of 256" => (-18, -10, HPos::Right),
-                    "table of 1024" => (-18, 14, HPos::Right),
+                let (dx, dy, h) = match method {
+                    Octaves16 => (0, -26, HPos::Right),
+                    Octaves8 => (8, -26, HPos::Left),
+                    Table256 => (-18, -10, HPos::Right),
+                    Table1024 => (-18, 14, HPos::Right),
+                    RootFpu => (-18, 0, HPos::Right),
+                    // Below its ring.
+                    RootLibm => (0, 104, HPos::Center),
                     _ => (18, 0, HPos::Left),
                 };
-                let label = method.name.replace('`', "");
+                let label = method.name().replace('`', "");
                 let label = Text::new(label, (dx, dy), text(13, h, VPos::Center));
                 draw(&mut graph, [EmptyElement::at(at(most)) + label]);
             }
             let keys = [
                 ("this crate", BLUE.filled()),
-                ("others", VERMILION.filled()),
+                ("others, for every curve", VERMILION.filled()),
+                ("square roots, on a trapezoid", GREY.filled()),
                 ("greatest error", INK.filled()),
                 ("mean error", INK.stroke_width(4)),
             ];
-            legend(&mut graph, &keys, SeriesLabelPosition::MiddleLeft);
+            // Where the second has room.
+            if *name == panels[1].0 {
+                legend(&mut graph, &keys, SeriesLabelPosition::MiddleRight);
+            }
         }
     });
 }

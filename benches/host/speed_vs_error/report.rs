@@ -1,7 +1,8 @@
 //! The report's text.
 
 use crate::accuracy::Figures;
-use crate::methods::{CURVES, FORWARDS, METHODS, TEXTBOOK};
+use crate::methods::Method::{Table256, Textbook};
+use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
 use crate::support::cases::{CASES, judge, shutter};
 use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
@@ -16,7 +17,7 @@ pub struct Measured {
     pub samples: usize,
     pub figures: Vec<Figures>,
     /// By curve.
-    pub times: [Times; 3],
+    pub times: [Times; CURVES.len()],
     /// The text of `docs/internals/cost.md`.
     pub cost: String,
     /// The error of the pictures in so many pulses.
@@ -42,7 +43,7 @@ fn introduction(measured: &Measured) -> String {
     format!(
         "# Speed against error
 
-Written by `cargo bench -p benches --bench speed_vs_error`; nothing here is typed by hand. Times are from one {} core of
+Written by `cargo bench -p benches -- --write-docs`; nothing here is typed by hand. Times are from one {} core of
 an ordinary machine, medians of interleaved repeats, in short runs, over 65 536 random `u`, so that no branch on `u` is ever
 predicted; on another machine trust the ratios.
 
@@ -51,7 +52,7 @@ as scenes hold them), {} fractions each: half of them uniform, a quarter towards
 octaves, since that is where tables and absolute tolerances fail.
 
 - *forward*: |t - exact| in ulp(t);
-- *of the interval*: the same as a share of `close_end - open_start`;
+- *of the interval*: the same as a share of `close_end - open_start`, its mean over the uniform half;
 - *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, once the rounding of the exact time
   to `t` is forgiven. It holds everywhere, however flat the curve;
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
@@ -74,39 +75,48 @@ Full dots are the greatest error, rings the mean.",
 
 /// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's.
 pub fn ratios(measured: &Measured) -> String {
-    let ours = METHODS.iter().enumerate().filter(|(_, method)| method.is_ours);
-    let rows = ours.map(|(index, method)| {
-        let shares = measured.times[..2].iter();
-        let shares = shares.map(|(times, _)| format!("{:.2}", times[index] / times[TEXTBOOK]));
-        [method.name.into()].into_iter().chain(shares).collect()
+    let rows = METHODS.iter().filter(|method| method.is_ours()).map(|method| {
+        let shares = measured.times[..2].iter().map(|(times, _)| {
+            let share = time(times, *method).zip(time(times, Textbook)).map(|(own, one)| own / one);
+            share.map_or_else(|| "-".into(), |share| format!("{share:.2}"))
+        });
+        [method.name().into()].into_iter().chain(shares).collect()
     });
     table(&format!("| {} | {}", CURVES[0].0, CURVES[1].0), 1, rows)
 }
 
-/// A method's mean and greatest cycles on the soft curve, where `docs/internals/cost.md` has them.
-pub fn cycles(measured: &Measured, method: usize) -> Option<[f64; 2]> {
+/// A method's time among those of all.
+pub fn time(times: &[Option<f64>], method: Method) -> Option<f64> {
+    times[METHODS.iter().position(|one| *one == method)?]
+}
+
+/// A method's mean and greatest cycles on a curve, where `docs/internals/cost.md` has them.
+pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<[f64; 2]> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
     let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;
     let mean = head.iter().position(|name| *name == "mean")?;
-    let [call, octaves] = METHODS[method].cost;
-    let row = rows
-        .find(|row| row.len() > mean && row[..3] == [&format!("| {call}"), CURVES[0].0, octaves])?;
+    let [call, octaves] = method.cost();
+    let head = [&format!("| {call}"), CURVES[curve].0, octaves];
+    let row = rows.find(|row| row.len() > mean && row[..3] == head)?;
     // Behind it the 99 %, then the greatest.
     let cycles = [mean, mean + 2].map(|column| row[column].trim_matches('*').parse().ok());
     Some([cycles[0]?, cycles[1]?])
 }
 
 fn methods(measured: &Measured) -> String {
-    let costs = METHODS.iter().enumerate().map(|(index, method)| {
-        let times = measured.times.iter().map(|(times, _)| format!("{:.1}", times[index]));
-        let cycles = cycles(measured, index);
-        let cycles = [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])));
-        let head = [method.name.to_owned(), method.bytes.to_string()];
+    let costs = METHODS.iter().map(|method| {
+        let times = measured.times.iter().map(|(times, _)| time(times, *method));
+        let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
+        let cycles = [SOFT, TRAPEZOID].into_iter().flat_map(|curve| {
+            let cycles = cycles(measured, *method, curve);
+            [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])))
+        });
+        let head = [method.name().to_owned(), method.bytes().to_string()];
         head.into_iter().chain(times).chain(cycles).collect()
     });
     let timed = CURVES.map(|(name, ..)| format!("{name}, ns")).join(" | ");
-    let costs =
-        table(&format!("method | bytes | {timed} | M4F cycles, soft: mean | max"), 1, costs);
+    let cycles = "M4F cycles, soft: mean | max | trapezoid: mean | max";
+    let costs = table(&format!("method | bytes | {timed} | {cycles}"), 1, costs);
     let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let numbers = [
             figures.quantile(1.0),
@@ -120,7 +130,7 @@ fn methods(measured: &Measured) -> String {
             figures.evaluations.0,
         ];
         let worst = figures.evaluations.1.to_string();
-        [method.name.into()].into_iter().chain(numbers.map(number)).chain([worst]).collect()
+        [method.name().into()].into_iter().chain(numbers.map(number)).chain([worst]).collect()
     });
     let header = "method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) \
                   | steps back | failures | evaluations: mean | worst";
@@ -131,12 +141,13 @@ fn methods(measured: &Measured) -> String {
 The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
 of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer); Newton inside a bracket until an
 absolute 1e-6 (another renderer); tables of the exact inverse at equally spaced `u`, joined by lines or by monotone
-cubics; and Newton in doubles.
+cubics; and Newton in doubles. The last three are for straight ramps alone, which take one square root, from the nearer
+end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
 
 ### Cost
 
-`soft` has a third of its mass in ramps, `all ramp` all of it, `box` none. Cycles are a model of a Cortex-M4F without
-wait states, over uniform `u`, where `cost.md` has them.
+`soft` has a third of its mass in ramps, `all ramp` all of it, `trapezoid` a third in straight ramps, `box` none. Cycles
+are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.md` has them.
 
 {costs}
 
@@ -144,12 +155,14 @@ wait states, over uniform `u`, where `cost.md` has them.
 
 {errors}
 
-Evaluations are of the mass, a polynomial of degree 6. This crate's polynomials of octaves and its plateau take none.
+Evaluations are of the mass, a polynomial of degree 6. This crate's polynomials of octaves and its plateau take none. The square
+roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
 
 ![Worst cases](worst-cases.svg)
 
 Each random curve's worst `u`, over about 1000 that are likely to be bad: octave ends, section bounds with their
-neighbours, the smallest numbers, random ones. Where several lie at one place, it has one dot."
+neighbours, the smallest numbers, random ones. Where several lie at one place, it has one dot.",
+        straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
 
@@ -178,9 +191,10 @@ fn hard_cases() -> String {
     let rows = CASES.iter().map(|case| {
         let curve = case.curve();
         let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
-        let [textbook, by_table] = [TEXTBOOK, TEXTBOOK + 2].map(|i| (METHODS[i].build)(&curve));
-        let [textbook, by_table] =
-            [textbook, by_table].map(|m| judge(&exact, |u| m.inverse_cdf(u)));
+        let [textbook, by_table] = [Textbook, Table256].map(|method| {
+            let inverse = method.build(&curve).expect("it serves every curve");
+            judge(&exact, |u| inverse.inverse_cdf(u))
+        });
         let own = judge(&exact, |u| ours.inverse_cdf(u));
         let evaluations = hard_us(&exact, 4, 400).iter().map(|u| ours.evaluations(*u)).max();
         vec![
@@ -226,7 +240,7 @@ fn search(measured: &Measured) -> String {
     format!(
         "### Found by search
 
-`cargo bench -p benches --bench speed_vs_error -- --search N` draws random curves, three of four of them hard, and climbs from the
+`cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the
 worst of them by moving control points. {} valid curves were tried, each on about 650 `u`; the errors
 in ulp(t), the evaluations and the round trip are those of every seventh of these.
 
@@ -262,7 +276,7 @@ fn every_f32(measured: &Measured) -> String {
     format!(
         "## Every f32
 
-`cargo bench -p benches --bench speed_vs_error -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
+`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
 and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
 `openness` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
 runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that

@@ -31,19 +31,19 @@ fn medians(
     times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / samples as f64).collect()
 }
 
-/// Nanoseconds a sample of the methods, and the same and errors of [`FORWARDS`].
-pub type Times = (Vec<f64>, Vec<(f64, f64)>);
+/// Nanoseconds a sample of the methods that serve a curve, and the same and errors of [`FORWARDS`].
+pub type Times = (Vec<Option<f64>>, Vec<(f64, f64)>);
 
-/// For every method, its time on the curve; and of [`FORWARDS`] the times and the greatest errors.
+/// For every method its time on the curve; and of [`FORWARDS`] the times and the greatest errors.
 pub fn times(curve: &Curve, repeats: usize) -> Times {
     let u = fractions();
     let length = curve.close_end() - curve.open_start();
     let ts: Vec<f32> = u.iter().map(|u| curve.open_start() + u * length).collect();
-    let methods = METHODS.map(|method| (method.build)(curve));
+    let methods = METHODS.map(|method| method.build(curve));
     let forwards = FORWARDS.map(|(_, build)| build(curve));
     let (u, ts) = (&u, &ts);
     let mut calls: Vec<Box<dyn FnMut(Range<usize>)>> = Vec::new();
-    for method in &methods {
+    for method in methods.iter().flatten() {
         calls.push(Box::new(|run| method.singles(&u[run])));
     }
     for forward in &forwards {
@@ -51,7 +51,10 @@ pub fn times(curve: &Curve, repeats: usize) -> Times {
         calls.push(Box::new(move |run| forward(&ts[run.clone()], black_box(&mut out[run]))));
     }
     let medians = medians(&mut calls, u.len(), repeats);
-    let (inverses, times) = medians.split_at(METHODS.len());
+    let (inverses, times) = medians.split_at(methods.iter().flatten().count());
+    let mut inverses = inverses.iter().copied();
+    let inverses = methods.iter().map(|method| method.as_ref().and_then(|_| inverses.next()));
+    let inverses: Vec<Option<f64>> = inverses.collect();
     let exact = Exact::new(curve);
     let forwards = forwards.iter().zip(times).enumerate().map(|(i, (forward, time))| {
         let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
@@ -61,5 +64,5 @@ pub fn times(curve: &Curve, repeats: usize) -> Times {
         let errors = some.map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
         (*time, errors.fold(0.0, f64::max))
     });
-    (inverses.to_vec(), forwards.collect())
+    (inverses, forwards.collect())
 }

@@ -1,5 +1,6 @@
 //! What the firmware measures and the host reports: the calls, the curves, the inputs and their order.
 #![no_std]
+#![cfg_attr(all(bare, feature = "cost"), feature(core_intrinsics), allow(internal_features))]
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
@@ -30,10 +31,19 @@ impl Curve {
         let ramp = |ramp: baseline::Ramp| CubicBezier::new(ramp.map(|(t, f)| (t * factor, f)));
         (ramp(self.opening), ramp(self.closing))
     }
+
+    /// As if its ramps were straight.
+    pub fn straight(&self) -> baseline::StraightRamps {
+        let ([a, .., b], [c, .., d]) = (self.opening, self.closing);
+        baseline::StraightRamps::new([a, b, c, d].map(|(t, _)| t))
+    }
 }
 
 /// The first of [`CURVES`] as the reader knows them.
-pub const ROWS: [&str; 3] = ["soft", "all ramp", "box"];
+pub const ROWS: [&str; 4] = ["soft", "all ramp", "trapezoid", "box"];
+
+/// The place of the one with straight ramps.
+pub const TRAPEZOID: usize = 2;
 
 /// Uniform inputs a series.
 pub const UNIFORM: u32 = 512;
@@ -57,14 +67,36 @@ pub enum Function {
     Construct,
     Newton,
     Table,
+    /// Straight ramps, by one square root a side.
+    SqrtLibm,
+    SqrtMicromath,
+    SqrtFpu,
     Root,
 }
 
 impl Function {
-    pub const ALL: [Self; 10] = {
+    pub const ALL: [Self; 13] = {
         use Function::*;
-        [InverseCdf, Static, Cdf, Openness, TickStep, Schedule, Construct, Newton, Table, Root]
+        [
+            InverseCdf,
+            Static,
+            Cdf,
+            Openness,
+            TickStep,
+            Schedule,
+            Construct,
+            Newton,
+            Table,
+            SqrtLibm,
+            SqrtMicromath,
+            SqrtFpu,
+            Root,
+        ]
     };
+
+    pub fn is_for_straight_ramps(self) -> bool {
+        matches!(self, Self::SqrtLibm | Self::SqrtMicromath | Self::SqrtFpu)
+    }
 }
 
 /// What a series of calls runs over.

@@ -1,4 +1,4 @@
-//! The k-th root of a quotient in several ways: what a search may start from.
+//! The k-th root of a quotient in several ways, what a search may start from; and the FPU's square root.
 
 use micromath::F32Ext;
 
@@ -32,6 +32,15 @@ pub const ROOTS: [Root; 12] = [
     root("`libm`: `powf`", 6, |x, c| libm::powf(x / c, 1.0 / 6.0)),
     root("`micromath`: `powf`", 6, |x, c| F32Ext::powf(x / c, 1.0 / 6.0)),
 ];
+
+/// By the processor's instruction, where it has one: `sqrt` is not in stable `core`.
+#[inline(always)]
+pub fn fpu_sqrt(x: f32) -> f32 {
+    #[cfg(bare)]
+    return core::intrinsics::sqrtf32(x);
+    #[cfg(not(bare))]
+    libm::sqrtf(x)
+}
 
 /// The divisor that is measured with.
 pub const DIVISOR: f32 = 3.0;

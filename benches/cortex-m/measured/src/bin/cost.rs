@@ -11,9 +11,10 @@ use core::fmt::Write;
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
-use measured::baseline::{InverseTable, TextbookNewton};
-use measured::roots::{DIVISOR, ROOTS, dividend};
+use measured::baseline::{InverseTable, StraightRamps, TextbookNewton};
+use measured::roots::{DIVISOR, ROOTS, dividend, fpu_sqrt};
 use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
+use micromath::F32Ext;
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
 
 #[path = "../machine.rs"]
@@ -107,6 +108,16 @@ fn curves<'a, const C: usize>(
     unsafe { place.assume_init_ref() }
 }
 
+fn by_square_roots(
+    us: impl Iterator<Item = f32>,
+    curve: &measured::Curve,
+    sqrt: impl Fn(f32) -> f32 + Copy,
+) -> u32 {
+    let ramps = black_box(curve.straight());
+    let inverse = |ramps: &StraightRamps, u| ramps.inverse_cdf(u, sqrt);
+    depth(us, |u| the_call(inverse, &ramps, u))
+}
+
 fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
     let data = &CURVES[series.curve];
     let curve = black_box(&curves[usize::from(series.is_scaled())][series.curve]);
@@ -155,6 +166,9 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             let table = black_box(InverseTable::<256>::new(|u| curve.inverse_cdf(u)));
             depth(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
+        Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
+        Function::SqrtMicromath => by_square_roots(us, data, F32Ext::sqrt),
+        Function::SqrtFpu => by_square_roots(us, data, fpu_sqrt),
         Function::Root => depth(us.map(dividend), EACH_ROOT[series.curve]),
     }
 }
