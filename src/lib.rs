@@ -27,7 +27,7 @@
 //! |---|---|
 //! | a shutter: by two [`CubicBezier`]s, straight ramps, RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a constant curve, whose fault stops the build | [`valid`] |
-//! | smaller or faster than with 8 octaves | [`with_octaves`] |
+//! | a smaller or a faster curve: polynomials per half of [0, 1], default 8 | [`with_octaves`] |
 //! | one Bezier alone as a density, of any scale | [`density`], after [`scaled`] if it exceeds 1 |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
@@ -42,11 +42,11 @@
 //! crate's repository fits the trace and prints a module for the firmware:
 //!
 //! ```text
-//! cargo run -- fit trace.csv --out leaf.toml
+//! cargo run -- fit trace.csv --sync 0 --out leaf.toml
 //! cargo run -- plan leaf.toml --emit rust > leaf.rs
 //! ```
 //!
-//! `leaf.rs` holds the fitted curve as a `static`, and the ticks of a frame:
+//! `leaf.rs` holds the fitted curve as a `static`, the ticks of a frame, and the delay from the camera's sync:
 //!
 //! ```
 //! # use shutter_curve::{ShutterCurve, valid};
@@ -58,11 +58,14 @@
 //! # assert!(SHUTTER.direct_triggers() >= 16);
 //! ```
 //!
+//! In the firmware, say `mod leaf;` and fire when the timer reads `edge + leaf::DELAY_TICKS + leaf::TICKS[i]`, with
+//! wrapping sums; `edge` is its count at the sync.
+//!
 //! # Accuracy
 //!
-//! For every curve that constructs, a time is exact, but for its rounding, for some fraction within half an ulp of `u`.
-//! On typical curves it is within 0.69 ulp of the exact time. Times and ticks never step back, and every machine gives
-//! the same bits. The page [`accuracy`] has every promise and what holds it.
+//! On every curve that constructs, the *backward error* is at most 0.5 ulp: the time is right for a fraction so close to
+//! `u`. On typical curves it is within 0.69 ulp of the exact time. Times and ticks never step back, and every machine
+//! gives the same bits. The page [`accuracy`] has every promise and what holds it.
 //!
 //! # Cost
 //!
