@@ -63,9 +63,9 @@
 //!
 //! # Accuracy
 //!
-//! On every curve that constructs, the *backward error* is at most 0.5 ulp: the time is right for a fraction so close to
-//! `u`. On typical curves it is within 0.69 ulp of the exact time. Times and ticks never step back, and every machine
-//! gives the same bits. The page [`accuracy`] has every promise and what holds it.
+//! On every curve that constructs, the *backward error* is at most 0.5 ulp: the time is right for a fraction so close
+//! to `u`. On typical curves it is within 0.69 ulp of the exact time. Times and ticks never step back, and every
+//! machine gives the same bits. The page [`accuracy`] has every promise and what holds it.
 //!
 //! # Cost
 //!
