@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Looks after the links of what is packed: README.md, CHANGELOG.md, docs/*.md.
+"""Looks after the links of what is packed: README.md and the documents beside it, docs/.
 
     .ci/links.py              each relative link must lead to a file of this repository, and its #part to a heading
     .ci/links.py --set URL    the repository is at URL: Cargo.toml says so, and links to what is not packed become absolute
