@@ -25,7 +25,8 @@ pub enum Unit {
 }
 
 impl Unit {
-    const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
