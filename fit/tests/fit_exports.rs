@@ -8,7 +8,8 @@
 mod generator;
 
 use generator::{Random, each};
-use shutter_fit::trace::{self, open};
+use shutter_fit::trace::{self, Column, open};
+use shutter_fit::unit::Unit;
 use shutter_fit::{Options, fit};
 
 /// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in exponential
@@ -360,4 +361,134 @@ fn each_export_is_read_right_or_doubted_or_refused() {
         "of {count} exports {} otherwise, {silent} wrong in silence",
         wrong.len()
     );
+}
+
+/// What is asked beside the file: columns, a unit, a rate.
+fn asked(columns: &str, unit: Option<Unit>, rate: Option<f64>) -> trace::Options {
+    let columns = columns.split(',').filter(|name| !name.is_empty()).map(Column::parse).collect();
+    trace::Options { unit, columns, rate }
+}
+
+#[test]
+fn what_is_asked_beside_the_file_is_done() {
+    let (kilo, rate) = (Some(Unit::Millisecond), Some(1e5));
+    let timed = "Time (s),gate,light\n".to_string() + &rows("{t},{g},{v}");
+    let bare = "CH1,CH2\n".to_string() + &rows("{g},{v}");
+    let stated = "Sample rate: 1 MHz\nn,CH1,CH2\n".to_string() + &rows("{i},{g},{v}");
+    #[rustfmt::skip]
+    let cases = [
+        (&timed, asked("3", None, None), 3, "column 1, \"Time (s)\" in s, by its name", 0.005, ""),
+        (&timed, asked("gate", None, None), 2, "column 1, \"Time (s)\" in s, by its name", 0.007, ""),
+        (&timed, asked("1,2,3", None, None), 3, "column 1, \"Time (s)\" in s, by its name", 0.005, "second_signal"),
+        (&timed, asked("", kilo, None), 3, "in ms, as asked, where its name says s", 5e-6, "second_signal"),
+        (&timed, asked("", None, rate), 3, "100000 samples a second, as asked", 0.005, "second_signal"),
+        (&bare, asked("", None, rate), 2, "100000 samples a second, as asked", 0.005, "second_signal"),
+        (&bare, asked("1,2", None, rate), 2, "100000 samples a second, as asked", 0.005, "second_signal"),
+        (&bare, asked("CH1", None, rate), 1, "100000 samples a second, as asked", 0.007, ""),
+        (&stated, asked("", None, rate), 3, "100000 samples a second, as asked", 0.005, "second_signal"),
+        (&stated, asked("2", None, None), 2, "1000000 samples a second, by 'Sample rate", 0.0007, ""),
+    ];
+    for (text, options, column, told, exposure, codes) in cases {
+        let (signal, times, found, doubted) = read(text, &options).expect("a fit");
+        assert!(
+            signal == column && times.contains(told) && doubted == codes,
+            "{signal} {times} {doubted}"
+        );
+        assert!((found / exposure - 1.0).abs() < 5e-3, "{told}: {found}");
+    }
+    let twice = read(&timed, &asked("2,gate", None, None)).unwrap_err();
+    assert!(twice.contains("2, \"gate\" is asked for twice"), "{twice}");
+}
+
+#[test]
+fn rows_that_are_left_out_are_told_wherever_they_are() {
+    let whole = "Time (s),gate,light\n".to_string() + &rows("{t},{g},{v}");
+    let lines: Vec<&str> = whole.lines().collect();
+    let without = |from: usize, field: &str| {
+        let broken = |(k, line): (usize, &&str)| match line.rsplit_once(',') {
+            Some((rest, _)) if (from..from + 150).contains(&k) => format!("{rest},{field}\n"),
+            _ => format!("{line}\n"),
+        };
+        lines.iter().enumerate().map(broken).collect::<String>()
+    };
+    for (from, field) in [(1, ""), (1, "---"), (1, "saturated"), (30, ""), (1000, "?")] {
+        let (signal, _, exposure, doubted) =
+            read(&without(from, field), &asked("", None, None)).expect("a fit");
+        assert!(
+            signal == 3 && (exposure / 0.005 - 1.0).abs() < 5e-3,
+            "{from} '{field}': {signal} {exposure}"
+        );
+        assert!(doubted.contains("broken_rows"), "{from} '{field}': {doubted}");
+    }
+    let refused = read(&without(1, "").replace(",\n", ",x\n").repeat(3), &asked("2,3", None, None));
+    assert!(refused.is_err(), "{refused:?}");
+}
+
+#[test]
+fn recordings_below_each_other_are_refused() {
+    let block = |channel: &str, row: &str| {
+        format!("#CHANNEL:{channel}\n#CLOCK=10.0uS\n#SIZE=1200\n\n{}", rows(row))
+    };
+    let two = block("CH1", "{g}") + &block("CH2", "{v}");
+    let refused = read(&two, &asked("", None, None)).unwrap_err();
+    assert!(refused.contains("line 1205: '#CHANNEL:CH2' between the rows"), "{refused}");
+    // A last remark is none.
+    assert!(read(&(block("CH1", "{v}") + "#END\n"), &asked("", None, None)).is_ok());
+}
+
+#[test]
+fn a_table_of_thousands_of_columns_is_read_soon() {
+    let clock = std::time::Instant::now();
+    let mut text = String::from("t_us");
+    (0..3000).for_each(|k| text += &format!(",S{k}"));
+    for i in 0..300 {
+        text += &format!("\n{}", 40 * i);
+        (0..3000).for_each(|k| {
+            text += &format!(
+                ",{}",
+                (i * 7 + k * 3) % 10 + if k == 2500 && (100..200).contains(&i) { 400 } else { 0 }
+            )
+        });
+    }
+    let recording = open(text.as_bytes(), &asked("", None, None)).expect("a trace");
+    assert_eq!(recording.reading.signal, (2502, Some("S2500".into())));
+    assert!(clock.elapsed().as_secs_f64() < 20.0, "{:?}", clock.elapsed());
+}
+
+/// Traces without any noise: a logic analyser's, a gate's, a simulation's.
+#[test]
+fn without_noise_the_error_is_that_of_a_sample() {
+    let between = |t: f64, end: f64| (0.001..end).contains(&t);
+    let ramps = |t: f64| (t - 0.001).min(0.009 - t).clamp(0.0, 0.001) / 0.001;
+    let step = 4e-6;
+    type Level<'a> = &'a dyn Fn(f64) -> f64;
+    let cases: [(Level, f64, usize); 6] = [
+        (&|t| f64::from(u8::from(between(t, 0.009))), 0.008, 2500),
+        (&|t| if between(t, 0.009) { 3.3 } else { 0.0 }, 0.008, 2500),
+        (&|t| if between(t, 0.009) { -5.0 } else { 1e-3 }, 0.008, 2500),
+        (&|t| f64::from(u8::from(between(t, 0.00104))), 40e-6, 500),
+        (&|t| 3.3 * ramps(t) + 0.1, 0.007, 2500),
+        (&|t| 3.3 * ramps(t) - 1e-21, 0.007, 2500),
+    ];
+    for (k, (level, exposure, n)) in cases.into_iter().enumerate() {
+        let times = (0..n).map(|i| step * i as f64);
+        let text: String = times.map(|t| format!("{t:.6},{}\n", level(t))).collect();
+        let recording =
+            open(format!("time_s,v\n{text}").as_bytes(), &asked("", None, None)).expect("a trace");
+        let fit = fit(&recording.trace, &Options::default(), &mut |_| ()).expect("a fit");
+        let found = fit.exposure;
+        let off = (found.value - exposure).abs();
+        // Two edges, each known to a sample by the root of 12; of ramps the foot leaves more of the length unknown.
+        assert!(off < 3.0 * found.error.max(1e-5 * exposure), "{k}: {found:?}");
+        let is_box = k < 4;
+        let efficiency = fit.efficiency.error / if is_box { step / exposure } else { 1e-3 };
+        assert!(found.error < step && efficiency < 1.0, "{k}: {found:?} {:?}", fit.efficiency);
+        assert!(!is_box || found.error > 0.3 * step, "{k}: {found:?}");
+        let report = shutter_fit::text("logic", &fit);
+        let words = || report.split([' ', '\n', ',', ';', '(', ')']);
+        let is_dust =
+            |word: &&str| word.parse::<f64>().is_ok_and(|x| word.contains("e-") && x.abs() < 1e-8);
+        let is_minus_zero = |word: &&str| word.starts_with("-0") && word.parse::<f64>() == Ok(0.0);
+        assert!(!words().any(|word| is_dust(&word) || is_minus_zero(&word)), "{k}: {report}");
+    }
 }

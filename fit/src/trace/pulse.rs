@@ -167,11 +167,18 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
 /// the least step of the values makes.
 fn noise(values: &[f64]) -> f64 {
     let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    let least = steps.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-    let rounding = if least.is_finite() { least / 12f64.sqrt() } else { 0.0 };
+    let rounding = least_step(values).map_or(0.0, |least| least / 12f64.sqrt());
     let middle = steps.len() / 2;
     let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
     (median / 0.6745 / 2f64.sqrt()).max(rounding)
+}
+
+/// The least step of the values; none of a gate or a logic level, whose two values round nothing.
+fn least_step(values: &[f64]) -> Option<f64> {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0);
+    let least = steps.fold(f64::INFINITY, f64::min);
+    let (low, high) = range(values);
+    (1.5 * least < high - low).then_some(least)
 }
 
 fn range(values: &[f64]) -> (f64, f64) {
@@ -183,10 +190,9 @@ fn range(values: &[f64]) -> (f64, f64) {
 fn common_rounding(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let repeated = differ.iter().filter(|d| **d == 0.0).count();
-    let least = differ.iter().copied().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-    if repeated * FEW_OF < values.len() || !least.is_finite() {
+    let Some(least) = least_step(values).filter(|_| repeated * FEW_OF >= values.len()) else {
         return 0.0;
-    }
+    };
     // Of many short parts the middle one is flat.
     let part = |few: &[f64]| 0.5 * few.iter().map(|d| d * d).sum::<f64>() / few.len() as f64;
     let rounding = least * least / 12.0;
@@ -209,8 +215,8 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
-    // What is so frequent is no accident: a pattern that belongs to the signal.
-    if spikes.is_empty() || spikes.len() > n / FEW_OF {
+    // What is so frequent is no accident: a pattern that belongs to the signal. Without noise nothing tells one from that.
+    if noise == 0.0 || spikes.is_empty() || spikes.len() > n / FEW_OF {
         return Vec::new();
     }
     let told = spikes.iter().map(|i| times[*i]).collect();
