@@ -43,7 +43,8 @@ fn runs(numbers: &[f64]) -> bool {
 
 /// The unit in which the numbers go on by so many seconds from one to the next.
 fn unit_of_steps(numbers: &[f64], step: f64) -> Option<Unit> {
-    let usual = median(numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect());
+    let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let usual = if steps.is_empty() { return None } else { median(steps) };
     Unit::ALL.into_iter().find(|unit| (unit.seconds(usual) / step - 1.0).abs() < 0.02)
 }
 

@@ -63,30 +63,36 @@ fn recording(text: &str, options: &Options) -> Result<Recording, Refusal> {
 fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
     let mut columns: Vec<Column> = layout.signals.iter().map(|_| Column::default()).collect();
     let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
-    let (mut fields, mut rows, mut between) = (Vec::new(), 0, None);
+    let (mut fields, mut rows) = (Vec::new(), 0);
+    let mut between: Option<(u64, &str)> = None;
     for (line, row) in table.lines() {
-        // Where the rows count, what parts them parts recordings.
-        if by_rows && rows > 0 && row.starts_with(|c: char| c == '#' || c.is_alphabetic()) {
-            between.get_or_insert((line, short_of(row.trim())));
-        }
-        if row.starts_with('#') {
-            continue;
-        }
         fields.clear();
         fields.extend(split(row, table.delimiter));
-        for (signal, column) in layout.signals.iter().zip(&mut columns) {
+        let is_remark = row.starts_with('#');
+        let is_word = row.starts_with(char::is_alphabetic)
+            && number(fields[0], table.decimal_comma).is_none();
+        let mut is_read = false;
+        for (signal, column) in layout.signals.iter().zip(&mut columns).filter(|_| !is_remark) {
             match layout.sample(rows, &fields, *signal, table.decimal_comma) {
-                Ok((time, value)) => column.samples.push(Sample { time, value, line }),
+                Ok((time, value)) => {
+                    is_read = true;
+                    column.samples.push(Sample { time, value, line });
+                }
                 Err(reason) => {
                     column.broken += 1;
                     column.first.get_or_insert((line, reason));
                 }
             }
         }
-        if let (Some((line, text)), Some(_)) = (&between, number(fields[0], table.decimal_comma)) {
-            return Err(Refusal::Blocks { line: *line, text: text.clone() });
+        // Where the rows count, what parts them parts recordings.
+        match &between {
+            Some((line, text)) if is_read => {
+                return Err(Refusal::Blocks { line: *line, text: short_of(text) });
+            }
+            None if by_rows && rows > 0 && (is_remark || is_word) => between = Some((line, row)),
+            _ => (),
         }
-        rows += 1;
+        rows += usize::from(!is_remark);
     }
     let read = |(signal, column): (&usize, Column)| {
         column.read(|| layout.reading(table, *signal).to_string())

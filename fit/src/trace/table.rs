@@ -216,29 +216,30 @@ impl<'a> Table<'a> {
     /// How many lines are above the rows, where this is the first whole one: rows before it may be broken, or have settings where
     /// others have nothing, if their times lead to it.
     fn without_header(&self, lines: &[&str], first: usize, most: &[Option<Holds>]) -> usize {
-        let field =
-            |line: usize, k: usize| split(lines[line], self.delimiter).nth(k).unwrap_or_default();
-        let value = |line: usize, k: usize| number(field(line, k), self.decimal_comma);
-        let column = self.columns[0];
-        let is_like = |line: usize| {
-            let time = field(line, column);
-            let is_word = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
-            let has_number = self.columns.iter().any(|k| value(line, *k).is_some());
-            !time.is_empty() && !time.contains(is_word) && has_number
+        let time = |line: usize| {
+            let line = lines.get(line).copied().unwrap_or_default();
+            split(line, self.delimiter).nth(self.columns[0]).unwrap_or_default()
         };
-        let is_bare = |line: usize| {
-            let nothing = (0..most.len()).filter(|k| most[*k] == Some(Holds::Nothing));
-            nothing.clone().all(|k| field(line, k).is_empty())
-        };
+        let value = |line| number(time(line), self.decimal_comma);
         let leads = |line: usize| {
-            let times =
-                [line, line + 1, (line + 2).min(lines.len() - 1)].map(|line| value(line, column));
-            let [Some(a), Some(b), Some(c)] = times else { return false };
+            let times = (value(line), value(line + 1), value(line + 2));
+            let (Some(a), Some(b), Some(c)) = times else { return false };
             (2.0 * b - a - c).abs() < 0.1 * (c - b).abs()
         };
-        let is_row = |line: &usize| is_like(*line) && (is_bare(*line) || leads(*line));
-        let before = (0..first).rev().take_while(|line| self.columns.len() > 1 && is_row(line));
-        first - before.count()
+        let is_word = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
+        let is_row = |line: &usize| {
+            let held: Vec<Holds> =
+                split(lines[*line], self.delimiter).map(|field| self.holds(field)).collect();
+            let is_bare = |(held, most): (&Holds, &Option<Holds>)| {
+                *most != Some(Holds::Nothing) || *held == Holds::Nothing
+            };
+            let time = time(*line);
+            !time.is_empty()
+                && !time.contains(is_word)
+                && self.columns.iter().any(|k| held.get(*k) == Some(&Holds::Number))
+                && (held.iter().zip(most).all(is_bare) || leads(*line))
+        };
+        first - (0..first).rev().take_while(|line| self.columns.len() > 1 && is_row(line)).count()
     }
 
     fn no_rows(&self, total: usize) -> Refusal {
