@@ -166,19 +166,16 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
 /// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
 /// the least step of the values makes.
 fn noise(values: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    let rounding = least_step(values).map_or(0.0, |least| least / 12f64.sqrt());
-    let middle = steps.len() / 2;
-    let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    (median / 0.6745 / 2f64.sqrt()).max(rounding)
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
 }
 
-/// The least step of the values; none of a gate or a logic level, whose two values round nothing.
-fn least_step(values: &[f64]) -> Option<f64> {
-    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0);
-    let least = steps.fold(f64::INFINITY, f64::min);
+/// The least step from one value to the next; 0 of a gate or a logic level, whose two values round nothing.
+pub fn least_step(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| *s > 0.0);
+    let least = steps.reduce(f64::min).unwrap_or(0.0);
     let (low, high) = range(values);
-    (1.5 * least < high - low).then_some(least)
+    if 1.5 * least < high - low { least } else { 0.0 }
 }
 
 fn range(values: &[f64]) -> (f64, f64) {
@@ -190,9 +187,10 @@ fn range(values: &[f64]) -> (f64, f64) {
 fn common_rounding(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let repeated = differ.iter().filter(|d| **d == 0.0).count();
-    let Some(least) = least_step(values).filter(|_| repeated * FEW_OF >= values.len()) else {
+    let least = least_step(values);
+    if repeated * FEW_OF < values.len() || least == 0.0 {
         return 0.0;
-    };
+    }
     // Of many short parts the middle one is flat.
     let part = |few: &[f64]| 0.5 * few.iter().map(|d| d * d).sum::<f64>() / few.len() as f64;
     let rounding = least * least / 12.0;
