@@ -76,27 +76,34 @@ pub fn unit_in(name: &str) -> Said {
     let other = |word: &String| bare(word).is_some() || has(OTHER_UNITS, word);
     let is_factor = |word: &String| has(FACTORS, word) || is_number(word);
     let multiplied = name.contains(['*', '×']) || outside.iter().any(is_times);
+    let is_scale = outside.iter().any(|word| has("div per", word));
+    // In a sentence a unit is another thing's.
+    let is_sentence = name.trim().contains(' ') && !outside.iter().all(|word| may_name_time(word));
     match in_brackets.or(in_words) {
-        Some(_) if multiplied => Said::Unclear,
+        Some(_) if in_brackets.is_some() && (multiplied || is_scale) => Said::Unclear,
         Some(unit) if in_brackets.is_some() => Said::Unit(unit),
         _ if inside.iter().any(|text| words(text).iter().any(other)) => Said::Unclear,
-        Some(_) if outside.iter().any(|word| has(SIGNALS, word)) => Said::Nothing,
-        Some(_) if outside.iter().any(is_factor) => Said::Unclear,
+        _ if is_sentence || outside.iter().any(|word| has(SIGNALS, word)) => Said::Nothing,
+        Some(_) if multiplied || outside.iter().any(is_factor) => Said::Unclear,
         Some(unit) => Said::Unit(unit),
         None if outside.iter().any(other) => Said::Unclear,
         None => Said::Nothing,
     }
 }
 
+/// May the word stand in the name of a time?
+fn may_name_time(word: &String) -> bool {
+    let is_listed = [TIMES, BESIDE_TIMES, FACTORS, OTHER_UNITS].iter().any(|list| has(list, word));
+    is_listed
+        || unit_of(word).is_some()
+        || is_number(word)
+        || word.strip_prefix('x').is_some_and(is_number)
+}
+
 /// Is it the name of a time, and of nothing else, as an exposure's time would be?
 pub fn is_time(name: &str) -> bool {
     let (words, _) = parts(name);
-    let is_beside =
-        |word: &str| has(BESIDE_TIMES, word) || has(FACTORS, word) || has(OTHER_UNITS, word);
-    let is_known = |word: &String| {
-        has(TIMES, word) || unit_of(word).is_some() || is_number(word) || is_beside(word)
-    };
-    words.iter().any(|word| has(TIMES, word)) && words.iter().all(is_known)
+    words.iter().any(|word| has(TIMES, word)) && words.iter().all(may_name_time)
 }
 
 /// Is it the name of a horizontal axis?
@@ -133,7 +140,7 @@ mod tests {
             (Said::Unit(Unit::Millisecond), "TimeMs;tms;millis;Time in ms;Elapsed msecs"),
             (Said::Unit(Unit::Microsecond), "micros();time_µs;esp_timer_us;(us)"),
             (Said::Unit(Unit::Nanosecond), "Time[ns]"),
-            (Nothing, "Time;time[0];ts;CH1 (V);V/s;ms.A"),
+            (Nothing, "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms"),
             (
                 Unclear,
                 "Time (tenths of ms);timer (half us);Time (s/div);Time (h:m:s);Time (10us);Time (1e-6 s)",

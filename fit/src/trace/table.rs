@@ -287,7 +287,9 @@ impl<'a> Table<'a> {
             self.columns.len() > 1
                 && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
         };
-        let Some(lowest) = self.above.iter().rposition(|(_, fields)| is_wide(fields)) else {
+        let has_words = |line: &str| line.contains(char::is_alphanumeric);
+        let is_it = |(line, fields): &Above| has_words(line) && is_wide(fields);
+        let Some(lowest) = self.above.iter().rposition(is_it) else {
             return Default::default();
         };
         let row = |k: usize| self.above[k].1.clone();
