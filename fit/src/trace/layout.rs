@@ -190,35 +190,33 @@ impl Columns<'_> {
         settings: &Settings,
         unit: Option<Unit>,
     ) -> Result<Option<usize>, Refusal> {
-        let columns: Vec<usize> =
-            self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
-        let has_unit = |k: usize| matches!(self.unit(k), Said::Unit(_));
-        let is_unclear = |k: usize| self.unit(k) == Said::Unclear && self.runs(k);
-        let rules: [&dyn Fn(usize) -> bool; 5] = [
-            &|k| self.is_time(k) && has_unit(k) && self.runs(k),
-            &|k| self.is_time(k) && self.runs(k),
-            &|k| has_unit(k) && self.runs(k),
-            &is_unclear,
-            &|k| is_axis(self.table.labels(k)[0]) && self.runs(k),
-        ];
-        let alone = self.table.columns.len() < 2;
-        let find = |is: &dyn Fn(usize) -> bool| columns.iter().copied().find(|k| is(*k));
-        if let Some(time) = rules.iter().filter(|_| !alone).find_map(|is| find(is)) {
-            return Ok(Some(time));
-        }
-        if alone {
+        if self.table.columns.len() < 2 {
             return Ok(None);
         }
-        if let Some((_, step)) = settings.step()? {
-            let is_in_steps =
-                |k: usize| self.runs(k) && unit_of_steps(&self.table.first[k], step).is_some();
-            return Ok(find(&|k| is_counter(&self.table.first[k])).or_else(|| find(&is_in_steps)));
+        let columns: Vec<usize> =
+            self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
+        let running: Vec<usize> = columns.iter().copied().filter(|k| self.runs(*k)).collect();
+        let find = |is: &dyn Fn(&usize) -> bool| running.iter().copied().find(is);
+        let has_unit = |k: &usize| matches!(self.unit(*k), Said::Unit(_));
+        let rules: [&dyn Fn(&usize) -> bool; 5] = [
+            &|k| self.is_time(*k) && has_unit(k),
+            &|k| self.is_time(*k),
+            &has_unit,
+            &|k| self.unit(*k) == Said::Unclear,
+            &|k| is_axis(self.table.labels(*k)[0]),
+        ];
+        if let Some(time) = rules.iter().find_map(|is| find(is)) {
+            return Ok(Some(time));
         }
-        let found = find(&|k| self.runs(k) && (unit.is_some() || !self.counts(k)));
-        // Of the first columns one alone can be the time.
-        let found =
-            found.filter(|time| columns.iter().take_while(|k| *k != time).all(|k| self.counts(*k)));
-        Ok(found.or_else(|| find(&|k| self.counts(k))))
+        let first = |k: usize| &self.table.first[k];
+        if let Some((_, step)) = settings.step()? {
+            let counter = find(&|k| is_counter(first(*k)));
+            return Ok(counter.or_else(|| find(&|k| unit_of_steps(first(*k), step).is_some())));
+        }
+        // Of the first columns one alone can be the time, after those that count.
+        let counts = |k: &usize| self.counts(*k) && unit.is_none();
+        let time = columns.iter().copied().find(|k| !counts(k)).filter(|k| running.contains(k));
+        Ok(time.or_else(|| find(&counts)))
     }
 
     /// How a row's time is known, and who tells that.

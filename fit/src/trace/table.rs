@@ -357,19 +357,20 @@ impl<'a> Table<'a> {
 
     /// A column by its number, from 0, or by its name.
     pub fn column(&self, column: &Column) -> Result<usize, Refusal> {
-        let names = || (0..self.width).map(|k| self.name(k).unwrap_or_default().to_lowercase());
-        let (found, name) = match column {
-            Column::Number(number) => {
-                (number.checked_sub(1).filter(|k| *k < self.width), number.to_string())
-            }
+        let found = match column {
+            Column::Number(number) => number.checked_sub(1),
             Column::Name(name) => {
                 let wanted = name.to_lowercase();
-                let exact =
-                    self.names[0].iter().take(self.width).position(|n| n.to_lowercase() == wanted);
-                (exact.or_else(|| names().position(|n| n.contains(&wanted))), name.clone())
+                let has =
+                    |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
+                let exact = self.names[0].iter().position(|n| n.to_lowercase() == wanted);
+                exact.or_else(|| (0..self.width).find(has))
             }
         };
-        found.ok_or_else(|| Refusal::NoColumn { name, there: self.told(0..self.width) })
+        found.filter(|k| *k < self.width).ok_or_else(|| Refusal::NoColumn {
+            name: column.to_string(),
+            there: self.told(0..self.width),
+        })
     }
 
     /// So many columns, and their names: `2: time_s, v`.
