@@ -171,16 +171,11 @@ impl Columns<'_> {
             return asked.to_vec();
         }
         let columns = &self.table.columns;
-        let others = columns.iter().copied().filter(|k| Some(*k) != time);
-        let signals =
-            others.clone().filter(|k| !self.counts(*k) && !(self.is_time(*k) && self.runs(*k)));
-        let signals: Vec<usize> = signals.collect();
-        let others: Vec<usize> = others.collect();
-        match (signals.is_empty(), others.is_empty()) {
-            (false, _) => signals,
-            (true, false) => others,
-            (true, true) => columns.clone(),
-        }
+        let others: Vec<usize> = columns.iter().copied().filter(|k| Some(*k) != time).collect();
+        let is_signal = |k: &usize| !(self.counts(*k) || self.is_time(*k) && self.runs(*k));
+        let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
+        let found = [signals, others].into_iter().find(|found| !found.is_empty());
+        found.unwrap_or_else(|| columns.clone())
     }
 
     /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is known.
@@ -226,12 +221,12 @@ impl Columns<'_> {
         settings: &Settings,
         asked: Option<Unit>,
     ) -> Result<(Time, Told), Refusal> {
+        let steps = |column, words, step| {
+            Ok((Time::Steps { column, start: settings.start, step }, Told::Header(words)))
+        };
         let Some(k) = time else {
-            let Some((words, step)) = settings.step()? else { return Err(self.no_times(settings)) };
-            return Ok((
-                Time::Steps { column: None, start: settings.start, step },
-                Told::Header(words),
-            ));
+            let (words, step) = settings.step()?.ok_or_else(|| self.no_times(settings))?;
+            return steps(None, words, step);
         };
         match (asked, self.unit(k)) {
             (Some(unit), Said::Unit(named)) if named != unit => {
@@ -246,22 +241,21 @@ impl Columns<'_> {
             }
             (None, Said::Nothing) => (),
         }
-        match settings.step()? {
-            Some((words, step)) if self.counts(k) => {
+        if let Some((words, step)) = settings.step()? {
+            if self.counts(k) {
                 // The numbers of samples that were left out count as well; those of a timer are no samples.
-                let column = is_counter(&self.table.first[k]).then_some(k);
-                Ok((Time::Steps { column, start: settings.start, step }, Told::Header(words)))
+                let counter = is_counter(&self.table.first[k]).then_some(k);
+                return steps(counter, words, step);
             }
-            Some((words, step)) if unit_of_steps(&self.table.first[k], step).is_some() => {
-                let unit = unit_of_steps(&self.table.first[k], step).unwrap_or(Unit::Second);
-                Ok((Time::Column(k, unit), Told::Header(words)))
+            if let Some(unit) = unit_of_steps(&self.table.first[k], step) {
+                return Ok((Time::Column(k, unit), Told::Header(words)));
             }
-            _ if self.counts(k) => {
-                let quoted = settings.unread.clone();
-                Err(Refusal::Counter { name: self.name(k), quoted })
-            }
-            _ => Ok((Time::Column(k, Unit::Second), Told::Assumed)),
         }
+        if self.counts(k) {
+            let quoted = settings.unread.clone();
+            return Err(Refusal::Counter { name: self.name(k), quoted });
+        }
+        Ok((Time::Column(k, Unit::Second), Told::Assumed))
     }
 
     fn no_times(&self, settings: &Settings) -> Refusal {

@@ -92,7 +92,7 @@ pub fn unit_in(name: &str) -> Said {
 }
 
 /// May the word stand in the name of a time?
-fn may_name_time(word: &String) -> bool {
+fn may_name_time(word: &str) -> bool {
     let is_listed = [TIMES, BESIDE_TIMES, FACTORS, OTHER_UNITS].iter().any(|list| has(list, word));
     is_listed
         || unit_of(word).is_some()
@@ -103,7 +103,7 @@ fn may_name_time(word: &String) -> bool {
 /// Is it the name of a time, and of nothing else, as an exposure's time would be?
 pub fn is_time(name: &str) -> bool {
     let (words, _) = parts(name);
-    words.iter().any(|word| has(TIMES, word)) && words.iter().all(may_name_time)
+    words.iter().any(|word| has(TIMES, word)) && words.iter().all(|word| may_name_time(word))
 }
 
 /// Is it the name of a horizontal axis?
