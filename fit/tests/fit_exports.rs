@@ -283,6 +283,7 @@ const EXPORTS: &[Export] = &[
     ("a screen", "Refresh rate: 60 Hz\n", "{v}", 0, "--rate", ""),
     ("a clock", "CPU clock: 84 MHz\n", "{v}", 0, "--rate", ""),
     ("a decimation", "Decimation rate: 8\n", "{v}", 0, "--rate", ""),
+    ("a rate against the unit", "Sample rate: 100 kHz\nTime (ms),v\n", "{t},{v}", 0, "different rates", ""),
     ("two rates", "Sample rate: 44100 Hz\nSampling rate 48 kHz\n", "{v}", 0, "different rates", ""),
     // A name with more than a unit.
     ("tenths", "Time (tenths of ms),v\n", "{us},{v}", 0, "'Time (tenths of ms)'", ""),
@@ -298,6 +299,8 @@ const EXPORTS: &[Export] = &[
     ("hundreds, without brackets", "time hundreds of us,v\n", "{i},{v}", 0, "'time hundreds of us'", ""),
     // Columns and rows.
     ("nothing rises", "CH1,CH2\n", "{g},{v}", 0, "2: CH1, CH2", ""),
+    ("a date in each row", "Date;Time;ms;V\n", "01.05.2024;10:00:00;{,ms};{,v}", 4, "in ms, by its name", ""),
+    ("names with other marks", "Time (ms),V\n", "{ms} {v}", 2, "in ms, by its name", ""),
     ("a word in each row", "time_s,state,light\n", "{t},ok,{v}", 3, "in s, by its name", ""),
     ("times of day", "", "2024-05-01T10:00:00.{i},{v}", 0, "2024-05-01T10:00:00.", ""),
     ("accounts, and a typographer's minus", "Time (ms),v\n", "{-ms},{v}", 2, "in ms, by its name", ""),

@@ -233,7 +233,16 @@ impl Columns<'_> {
                 return Ok((Time::Column(k, unit), Told::Against(named)));
             }
             (Some(unit), _) => return Ok((Time::Column(k, unit), Told::Asked)),
-            (None, Said::Unit(unit)) => return Ok((Time::Column(k, unit), Told::Name)),
+            (None, Said::Unit(unit)) => {
+                // A rate that fits the steps in another unit says that one of the two is wrong.
+                let against = settings.step().ok().flatten().filter(|(_, step)| {
+                    unit_of_steps(&self.table.first[k], *step).is_some_and(|other| other != unit)
+                });
+                return match against {
+                    Some((second, _)) => Err(Refusal::TwoRates { first: self.name(k), second }),
+                    None => Ok((Time::Column(k, unit), Told::Name)),
+                };
+            }
             (None, Said::Unclear) => {
                 let [name, below] = self.table.labels(k);
                 let name = if unit_in(name) == Said::Unclear { name } else { below };

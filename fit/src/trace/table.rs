@@ -49,7 +49,11 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
     };
     let refused =
         |other: &str| Refusal::Thousands { number: short_of(comma), other: short_of(other) };
-    if let Some(point) = fields().find(|field| field.contains('.') && is_number(field)) {
+    // A date has two points.
+    let has_point = |field: &&str| field.matches('.').count() == 1 || field.contains(',');
+    if let Some(point) =
+        fields().find(|field| field.contains('.') && has_point(field) && is_number(field))
+    {
         return Err(refused(point));
     }
     // Decimals have a `0,1` or a `1,5` somewhere; whole thousands have neither.
@@ -267,11 +271,15 @@ impl<'a> Table<'a> {
                 _ => fields.push(field.into()),
             }
         }
-        let aligned = || inner.split("  ").map(str::trim).filter(|field| !field.is_empty());
-        if fields.len() == 1 && self.columns.len() > 1 && aligned().count() == self.columns.len() {
-            return aligned().map(String::from).collect();
-        }
-        fields
+        // Names may be aligned by blanks, or parted by another mark than the rows are.
+        let by = |mark: &str| -> Vec<String> {
+            let fields = inner.split(mark).map(str::trim).filter(|field| !field.is_empty());
+            fields.map(String::from).collect()
+        };
+        let marks = ["  ", "\t", ";", ","].into_iter().filter(|m| *m != "," || !self.decimal_comma);
+        let is_one = fields.len() == 1 && self.columns.len() > 1;
+        let mut others = marks.filter(|_| is_one).map(by);
+        others.find(|others| others.len() == self.columns.len()).unwrap_or(fields)
     }
 
     /// The lowest line above the rows that is as wide as these, as names, or as units below names.
