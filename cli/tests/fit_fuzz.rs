@@ -20,7 +20,7 @@ use generator::Random;
 /// So many files, if no one asks for another number.
 const FILES: u64 = 2_000;
 /// No file of this size may take longer, on a busy machine and with all debug checks; in seconds.
-const PATIENCE: f64 = 20.0;
+const PATIENCE: f64 = 10.0;
 
 fn below(random: &mut Random, n: usize) -> usize {
     (random.within(0.0, n.max(1) as f64) as usize).min(n.saturating_sub(1))
@@ -35,7 +35,7 @@ fn openness(t: f64) -> f64 {
 fn whole(random: &mut Random) -> Vec<u8> {
     let n = 20 + below(random, 30);
     let noise = [0.0, 0.004, 0.03][below(random, 3)];
-    let form = below(random, 9);
+    let form = below(random, 11);
     let mut text = String::from(match form {
         0 => "time_s,v\n",
         1 => "X,CH1,Start,Increment,\nSequence,Volt,0.0e+00,1.0e-05\n",
@@ -44,6 +44,8 @@ fn whole(random: &mut Random) -> Vec<u8> {
         4 | 8 => "",
         5 => "t (µs)\tCH1\n",
         6 => "Samplerate: 44100 Hz\n",
+        9 => "CH1V,CH2V,t0 = -1.0ms, tInc = 100us,\n",
+        10 => "Sampling period [us];100\nCH1;CH2\n",
         _ => "Sample,Time [s],Light\n",
     });
     let shots = if form == 0 { 1 + below(random, 3) } else { 1 };
@@ -59,6 +61,8 @@ fn whole(random: &mut Random) -> Vec<u8> {
             4 => format!("  {t:.6}   {v:.5}\n"),
             5 => format!("{:.2}\t{:.0}\n", t * 1e6, 100.0 * v),
             6 => format!("{v:.4}\n"),
+            9 => format!("{:.2},{v:.4},,\n", f64::from(v > 1.0)),
+            10 => format!("{v:.4};({v:.4})\n").replace('.', ","),
             8 => format!("\"{t:.6}\",\"{v:.4}\"\n").replace('.', ","),
             _ => format!("{k},{t:.6},{v:.5}\n"),
         };

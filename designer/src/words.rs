@@ -15,14 +15,19 @@ pub struct Told {
 pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
     use Refusal as R;
     let (mend, text) = match refusal {
-        R::NoTimes => (
+        R::NoTimes { columns, .. } => (
             "rate",
-            "there is one value in each row and no time: give the samples in a second".into(),
+            format!("no column holds times, of {columns}: give the samples in a second"),
         ),
-        R::Counter { name } => (
+        R::Counter { name, .. } => (
             "rate",
             format!("column {name} counts 0, 1, 2 ... and is no time: give the samples in a second, or its unit if it is one"),
         ),
+        R::UnclearUnit { name } => (
+            "unit",
+            format!("'{name}' above the times is more than a unit, or one that is not read: give their unit, or the samples in a second"),
+        ),
+        R::SameColumn { name } => ("signal", format!("column {name} cannot be the time and the signal")),
         R::TwoRates { first, second } => (
             "rate",
             format!("'{first}' and '{second}' above the numbers tell different rates: give the right one"),
@@ -30,7 +35,7 @@ pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
         R::NoColumn { name, there } => {
             ("signal", format!("there is no column {name}; there are {there}"))
         }
-        R::BrokenRows { count, rows, line, reason } => (
+        R::BrokenRows { count, rows, line, reason, .. } => (
             "signal",
             format!("line {line}: {reason}; {count} of {rows} rows are like that: are these the right columns?"),
         ),
@@ -121,13 +126,16 @@ mod tests {
         let text = || "a reason of some words".to_string();
         for told in [
             R::NotCsv { reason: text() },
-            R::NoTimes,
-            R::Counter { name: text() },
+            R::NoTimes { columns: text(), text: None, quoted: Some(text()) },
+            R::Counter { name: text(), quoted: None },
+            R::UnclearUnit { name: text() },
+            R::SameColumn { name: text() },
+            R::Blocks { line: 3, text: text() },
             R::TwoRates { first: text(), second: text() },
             R::Thousands { number: text(), other: text() },
             R::Thousands { number: text(), other: "1.5".into() },
             R::NoColumn { name: text(), there: text() },
-            R::BrokenRows { count: 2, rows: 3, line: 4, reason: text() },
+            R::BrokenRows { count: 2, rows: 3, line: 4, reason: text(), reading: text() },
             R::Unsound,
             R::TooFewSamples { samples: 1, required: 2 },
             R::NoPulse { contrast: 2.0 },

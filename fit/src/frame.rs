@@ -139,8 +139,9 @@ impl FrameFits {
     pub fn cost_of(&self, kind: Kind, whole: Whole, more: f64) -> f64 {
         let solution = &self.of(kind).solution;
         let target = whole.of(&solution.signal.curve).0 + more;
-        // Stiff enough to be kept to a hundredth.
-        let weight = 1e4 * solution.cost / (more * more);
+        // Stiff enough to be kept to a hundredth, without any noise too.
+        let least = self.samples.len() as f64 * noise::LEAST * noise::LEAST;
+        let weight = 1e4 * solution.cost.max(least) / (more * more);
         let held = Some(Held { whole, target, weight });
         let stiff = Problem { held, ..self.problem.clone() };
         self.problem.at(&stiff.minimise(&solution.signal).signal).cost - solution.cost

@@ -10,7 +10,9 @@ use crate::rows::hidden_rows;
 use crate::signal::Kind;
 use crate::speed;
 use crate::trace::{from_opening, sampling_interval};
-use crate::unit::{MOST_PLACES, Unit, count, decimals, plus_minus, short, trimmed};
+use crate::unit::{
+    MOST_PLACES, Unit, count, decimals, fixed, plus_minus, short, trimmed, without_dust,
+};
 
 /// The fit of the trace `name`, for a terminal.
 pub fn text(name: &str, fit: &Fit) -> String {
@@ -40,11 +42,16 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     }
     write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
     if fit.frames.count > 1 {
-        write!(out, "; the exposures scatter by {} %", short(100.0 * fit.frames.scatter, 2))?;
+        write!(
+            out,
+            "; the exposures scatter by {} %",
+            short(100.0 * without_dust(fit.frames.scatter, 1.0), 2)
+        )?;
     }
     let (apart, rate) = (Unit::fit(step).show(step), short(1.0 / step, 4));
     writeln!(out, "\nsamples      {}, {apart} apart: {rate} Hz", times.len())?;
-    let (gain, dark) = (short(signal.gain, 4), short(fit.as_measured(signal.dark), 4));
+    let (gain, dark) =
+        (short(signal.gain, 4), short(without_dust(fit.as_measured(signal.dark), signal.gain), 4));
     let way = if fit.inverted { "below" } else { "above" };
     writeln!(out, "light        {gain} {way} the dark at {dark}")
 }
@@ -60,8 +67,10 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
         let kind = candidate.signal.kind;
         let c = &candidate.signal.curve;
         let mark = if kind == fit.chosen { '*' } else { ' ' };
-        let [opens, open, closes] = [c.opening, c.plateau, c.closing].map(|t| short(unit.of(t), 4));
-        let (rms, shift) = (short(100.0 * candidate.rms, 3), short(unit.of(candidate.shift), 2));
+        let time = |t: f64, digits| short(unit.of(without_dust(t, c.length())), digits);
+        let [opens, open, closes] = [c.opening, c.plateau, c.closing].map(|t| time(t, 4));
+        let rms = short(100.0 * without_dust(candidate.rms, 1.0), 3);
+        let shift = time(candidate.shift, 2);
         let bic = trimmed(candidate.delta_bic, 0);
         let title = kind.title();
         writeln!(
@@ -69,7 +78,11 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
             "{mark} {title:22}  {opens:>8}  {open:>8}  {closes:>8}  {rms:>6}  {bic:>6}  {shift:>7}"
         )?;
         if let Some(error) = candidate.left_out {
-            writeln!(out, "    on shots left out: {} % of the exposure", short(100.0 * error, 2))?;
+            writeln!(
+                out,
+                "    on shots left out: {} % of the exposure",
+                short(100.0 * without_dust(error, 1.0), 2)
+            )?;
         }
     }
     let name = unit.name();
@@ -83,7 +96,7 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
 fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
     let (unit, places) = (fit.unit(), speed::places(fit));
     let curve = &fit.best().signal.curve;
-    let show = |time: f64| format!("{:.places$}", unit.of(time));
+    let show = |time: f64| fixed(unit.of(time), places);
     let [start, open_end, close_start, end] = curve.times().map(show);
     let unit = unit.name();
     writeln!(out, "opens        from {start} to {open_end} {unit}")?;
@@ -167,7 +180,7 @@ fn write_triggers(out: &mut String, fit: &Fit) -> fmt::Result {
 fn at(fit: &Fit, seconds: f64) -> String {
     let unit = fit.unit();
     let places = decimals(unit.of(fit.best().signal.curve.length()), 5);
-    format!("{:.places$}", unit.of(seconds))
+    fixed(unit.of(seconds), places)
 }
 
 /// The exposure and its standard error.
@@ -197,7 +210,7 @@ pub fn because(fit: &Fit) -> String {
         Reason::Shots { shots, scatter } => format!(
             "the simplest that meets shots left out as well as {} meet each other, to {} %",
             count(shots as u64, "shot"),
-            short(100.0 * scatter, 2)
+            short(100.0 * without_dust(scatter, 1.0), 2)
         ),
         Reason::NoKind { shots, scatter } => format!(
             "it is the freest; no model meets shots left out as well as {} meet each other, to {} %",

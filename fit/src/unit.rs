@@ -25,7 +25,8 @@ pub enum Unit {
 }
 
 impl Unit {
-    const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
@@ -90,14 +91,25 @@ pub fn rounded(x: f64, digits: i32) -> f64 {
     if rounded.is_finite() { rounded } else { x }
 }
 
-/// `x` to so many decimals, without the zeros that say nothing.
-pub fn trimmed(x: f64, places: usize) -> String {
+/// `x` to so many decimals; a zero has no sign.
+pub fn fixed(x: f64, places: usize) -> String {
     let fixed = format!("{x:.places$}");
-    let number = match fixed.contains('.') {
-        true => fixed.trim_end_matches('0').trim_end_matches('.'),
-        false => &fixed,
-    };
-    if number == "-0" { "0".into() } else { number.into() }
+    let is_zero = !fixed.contains(|c: char| c.is_ascii_digit() && c != '0');
+    fixed[usize::from(is_zero && fixed.starts_with('-'))..].into()
+}
+
+/// The same without the zeros that say nothing.
+pub fn trimmed(x: f64, places: usize) -> String {
+    let fixed = fixed(x, places);
+    match fixed.contains('.') {
+        true => fixed.trim_end_matches('0').trim_end_matches('.').into(),
+        false => fixed,
+    }
+}
+
+/// `x`, or 0 where it is what rounding leaves of a sum whose terms are as large as `beside`.
+pub fn without_dust(x: f64, beside: f64) -> f64 {
+    if x.abs() < 1e-9 * beside.abs() { 0.0 } else { x }
 }
 
 /// How many decimals show `digits` significant digits of `x`.
@@ -115,5 +127,5 @@ pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
     let places =
         if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
     let places = places.min(MOST_PLACES);
-    format!("{value:.places$} ± {error:.places$} {unit}")
+    format!("{} ± {error:.places$} {unit}", fixed(value, places))
 }

@@ -1,5 +1,7 @@
 //! What whoever reads a file adds to it.
 
+use std::fmt;
+
 use crate::unit::Unit;
 
 /// A column of the file.
@@ -21,12 +23,21 @@ impl Column {
     }
 }
 
+impl fmt::Display for Column {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "{number}"),
+            Self::Name(name) => out.write_str(name),
+        }
+    }
+}
+
 /// What the file does not say itself, or not rightly.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Of the times; the header's, or seconds, without.
     pub unit: Option<Unit>,
-    /// The time's and the signal's column, or the signal's alone.
+    /// The time's column and the signals', or one signal's; with a rate, signals alone.
     pub columns: Vec<Column>,
     /// The samples in a second, where the file holds no times.
     pub rate: Option<f64>,

@@ -1,24 +1,27 @@
-//! Which columns of a table are the time and the signal, and in which unit or at which rate.
+//! Which columns of a table are the time and the signals, and in which unit or at which rate.
 
 use super::asked::Options;
-use super::numbers::{number, short_of, step_in, unit_in};
+use super::names::{Said, is_axis, is_count, is_time, unit_in};
+use super::numbers::{number, short_of};
 use super::reading::{Clock, Reading, Told};
-use super::samples::LARGEST;
+use super::samples::{LARGEST, median};
+use super::settings::Settings;
 use super::table::Table;
 use super::told::Refusal;
 use crate::unit::Unit;
 
-/// Where a row's time and signal are.
+/// Where a row's time and signals are.
 #[derive(Clone, Debug)]
 pub struct Layout {
     pub time: Time,
-    /// The column of the signal, and the other ones that may hold one.
-    pub signal: usize,
-    pub others: Vec<usize>,
+    /// Other columns of times by their name, where a table is put together from several.
+    times: Vec<usize>,
+    /// The columns that may hold a signal, of which there is one at least.
+    pub signals: Vec<usize>,
     pub told: Told,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Time {
     /// A column of times, in this unit.
     Column(usize, Unit),
@@ -31,64 +34,76 @@ fn is_counter(numbers: &[f64]) -> bool {
     numbers.len() > 2 && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0)
 }
 
-/// Do the numbers rise from row to row, as times do?
-fn rises(numbers: &[f64]) -> bool {
-    numbers.len() > 2
-        && numbers.windows(2).all(|pair| pair[0] <= pair[1])
-        && numbers.first() < numbers.last()
+/// Do the numbers go one way, as times do and a pulse does not? They may begin anew with each of some shots.
+fn runs(numbers: &[f64]) -> bool {
+    let rises = numbers.windows(2).filter(|pair| pair[1] > pair[0]).count();
+    let falls = numbers.windows(2).filter(|pair| pair[1] < pair[0]).count();
+    rises + falls > 2.max(numbers.len() / 50) && 10 * rises.min(falls) <= rises + falls
+}
+
+/// The unit in which the numbers go on by so many seconds from one to the next.
+fn unit_of_steps(numbers: &[f64], step: f64) -> Option<Unit> {
+    let steps: Vec<f64> = numbers.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let usual = if steps.is_empty() { return None } else { median(steps) };
+    Unit::ALL.into_iter().find(|unit| (unit.seconds(usual) / step - 1.0).abs() < 0.02)
 }
 
 impl Layout {
     pub fn new(table: &Table, options: &Options) -> Result<Self, Refusal> {
-        let (time, signals) = columns(table, options)?;
-        let (signal, others) = (signals[0], signals[1..].to_vec());
-        let at = |time: Time, told: Told| Ok(Self { time, signal, others: others.clone(), told });
+        let columns = Columns { table };
+        let mut asked = Vec::new();
+        for column in &options.columns {
+            let k = table.column(column)?;
+            if asked.contains(&k) {
+                return Err(Refusal::SameColumn { name: columns.name(k) });
+            }
+            asked.push(k);
+        }
+        let settings = table.settings();
         if let Some(rate) = options.rate {
-            return at(Time::Steps { column: None, start: 0.0, step: 1.0 / rate }, Told::Asked);
+            // The times of the file do not count then, so those that are asked for are signals.
+            let signals = columns.signals(&asked, None);
+            let time = Time::Steps { column: None, start: 0.0, step: 1.0 / rate };
+            return Ok(Self { time, times: Vec::new(), signals, told: Told::Asked });
         }
-        if let Some(time) = given_steps(table, time) {
-            return at(time, Told::Header("Start, Increment".into()));
-        }
-        let unit = time.and_then(|time| table.above(time).find_map(unit_in));
-        let counter = time.filter(|time| unit.is_none() && is_counter(&table.start(*time)));
-        if let (Some(time), Some(unit)) = (time, options.unit) {
-            return at(Time::Column(time, unit), Told::Asked);
-        }
-        match (time, unit) {
-            (Some(time), Some(unit)) => return at(Time::Column(time, unit), Told::Name),
-            (Some(time), None) if counter.is_none() => {
-                return at(Time::Column(time, Unit::Second), Told::Assumed);
-            }
-            _ => (),
-        }
-        let mut steps =
-            table.lines.iter().filter_map(|line| step_in(line).map(|step| (line, step)));
-        if let Some((line, step)) = steps.next() {
-            if let Some((other, _)) = steps.find(|(_, other)| (other / step - 1.0).abs() > 1e-3) {
-                let [first, second] = [line, other].map(|line| short_of(line));
-                return Err(Refusal::TwoRates { first, second });
-            }
-            let time = Time::Steps { column: counter, start: 0.0, step };
-            return at(time, Told::Header(short_of(line.trim())));
-        }
-        match counter {
-            Some(counter) => {
-                let name = table.name(counter).unwrap_or_else(|| (counter + 1).to_string());
-                Err(Refusal::Counter { name })
-            }
-            None => Err(Refusal::NoTimes),
+        let (time, asked) = match asked.as_slice() {
+            [time, signals @ ..] if !signals.is_empty() => (Some(*time), signals),
+            asked => (columns.time(asked, &settings, options.unit)?, asked),
+        };
+        let signals = columns.signals(asked, time);
+        let (time, told) = columns.clock(time, &settings, options.unit)?;
+        let times = match time {
+            Time::Column(column, _) if options.columns.len() < 2 => columns.named_alike(column),
+            _ => Vec::new(),
+        };
+        Ok(Self { time, times, signals, told })
+    }
+
+    /// Where the times of a signal are: of several columns of times, the next one to its left.
+    fn time_of(&self, signal: usize) -> Time {
+        match self.time {
+            Time::Column(_, unit) => match self.times.iter().rev().find(|k| **k < signal) {
+                Some(column) => Time::Column(*column, unit),
+                None => self.time,
+            },
+            steps => steps,
         }
     }
 
     /// As a reader is told, where the signal is in this column.
     pub fn reading(&self, table: &Table, signal: usize) -> Reading {
         let named = |column: usize| (column + 1, table.name(column));
-        let (time, clock) = match self.time {
+        let (time, clock) = match self.time_of(signal) {
             Time::Column(column, unit) => (Some(named(column)), Clock::Unit(unit)),
             Time::Steps { column, step, .. } => (column.map(named), Clock::Rate(1.0 / step)),
         };
-        let columns = table.first.len();
-        Reading { columns, time, signal: named(signal), clock, told: self.told.clone() }
+        Reading {
+            columns: table.width,
+            time,
+            signal: named(signal),
+            clock,
+            told: self.told.clone(),
+        }
     }
 
     /// A row's time in seconds and the signal in a column, which may be infinite, or what is wrong with them.
@@ -112,69 +127,175 @@ impl Layout {
             }
         };
         let value = get("value", signal)?;
-        let time = match &self.time {
-            Time::Column(k, unit) => unit.seconds(get("time", *k)?),
-            Time::Steps { column: Some(k), start, step } => start + step * get("time", *k)?,
+        let time = match self.time_of(signal) {
+            Time::Column(k, unit) => unit.seconds(get("time", k)?),
+            Time::Steps { column: Some(k), start, step } => start + step * get("time", k)?,
             Time::Steps { column: None, start, step } => start + step * row as f64,
         };
         Ok((time, value))
     }
 }
 
-/// The time's column, if there is one, and those that may hold the signal, of which there is one at least: as asked for, or as
-/// the header names them, or in order.
-fn columns(table: &Table, options: &Options) -> Result<(Option<usize>, Vec<usize>), Refusal> {
-    let asked =
-        options.columns.iter().map(|column| table.column(column)).collect::<Result<Vec<_>, _>>()?;
-    let filled: Vec<usize> =
-        (0..table.first.len()).filter(|k| !table.first[*k].is_empty()).collect();
-    Ok(match (asked.as_slice(), filled.as_slice()) {
-        ([time, signal, ..], _) => (Some(*time), vec![*signal]),
-        ([signal], _) | ([], [signal]) => (None, vec![*signal]),
-        ([], _) => {
-            let time = time_column(table, &filled);
-            // A count beside the time is no signal, unless there is nothing else.
-            let may_be = |k: &usize| !is_counter(&table.start(*k));
-            let behind = filled.iter().copied().filter(|k| *k > time);
-            let before = filled.iter().copied().filter(|k| *k < time);
-            let all: Vec<usize> = behind.chain(before).collect();
-            let signals: Vec<usize> = all.iter().copied().filter(may_be).collect();
-            let signals = if signals.is_empty() { all } else { signals };
-            (Some(time), if signals.is_empty() { vec![time] } else { signals })
-        }
-    })
+/// What the columns of a table hold, by their names and their numbers.
+struct Columns<'a> {
+    table: &'a Table<'a>,
 }
 
-/// Of several columns, the time's: by its name, or else the first, or the next if the first counts rows and that rises.
-fn time_column(table: &Table, filled: &[usize]) -> usize {
-    let is_time = |k: &usize| {
-        table.above(*k).any(|name| {
-            let name = name.to_lowercase();
-            let parts = ["time", "zeit", "elapsed", "temps", "tiempo", "timestamp"];
-            parts.iter().any(|part| name.contains(part)) || name == "t" || name.starts_with("t ")
-        })
-    };
-    let is_x = |k: &usize| table.above(*k).any(|name| name.eq_ignore_ascii_case("x"));
-    let has_unit = |k: &usize| table.above(*k).any(|name| unit_in(name).is_some());
-    let named = [&is_time as &dyn Fn(&usize) -> bool, &has_unit, &is_x];
-    let found = named.iter().find_map(|is| filled.iter().copied().find(|k| is(k)));
-    found.unwrap_or_else(|| {
-        let counts = is_counter(&table.start(filled[0]));
-        match filled.get(1) {
-            Some(second) if counts && filled.len() > 2 && rises(&table.start(*second)) => *second,
-            _ => filled[0],
+impl Columns<'_> {
+    fn name(&self, k: usize) -> String {
+        self.table.name(k).map_or((k + 1).to_string(), |name| format!("{}, \"{name}\"", k + 1))
+    }
+
+    fn unit(&self, k: usize) -> Said {
+        let [name, below] = self.table.labels(k).map(unit_in);
+        if below == Said::Nothing { name } else { below }
+    }
+
+    fn is_time(&self, k: usize) -> bool {
+        is_time(self.table.labels(k)[0])
+    }
+
+    fn counts(&self, k: usize) -> bool {
+        let is_named = self.table.labels(k).iter().any(|label| is_count(label));
+        let has_unit = matches!(self.unit(k), Said::Unit(_));
+        !has_unit && (is_counter(&self.table.first[k]) || is_named && runs(&self.table.spread[k]))
+    }
+
+    fn runs(&self, k: usize) -> bool {
+        runs(&self.table.spread[k])
+    }
+
+    /// The signals: those that are asked for, or all columns that are neither times nor counts, if there are others.
+    fn signals(&self, asked: &[usize], time: Option<usize>) -> Vec<usize> {
+        if !asked.is_empty() {
+            return asked.to_vec();
         }
-    })
+        let columns = &self.table.columns;
+        let others: Vec<usize> = columns.iter().copied().filter(|k| Some(*k) != time).collect();
+        let is_signal = |k: &usize| !(self.counts(*k) || self.is_time(*k) && self.runs(*k));
+        let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
+        let found = [signals, others].into_iter().find(|found| !found.is_empty());
+        found.unwrap_or_else(|| columns.clone())
+    }
+
+    /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is known.
+    fn time(
+        &self,
+        asked: &[usize],
+        settings: &Settings,
+        unit: Option<Unit>,
+    ) -> Result<Option<usize>, Refusal> {
+        if self.table.columns.len() < 2 {
+            return Ok(None);
+        }
+        let columns: Vec<usize> =
+            self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
+        let running: Vec<usize> = columns.iter().copied().filter(|k| self.runs(*k)).collect();
+        let find = |is: &dyn Fn(&usize) -> bool| running.iter().copied().find(is);
+        let has_unit = |k: &usize| matches!(self.unit(*k), Said::Unit(_));
+        let rules: [&dyn Fn(&usize) -> bool; 5] = [
+            &|k| self.is_time(*k) && has_unit(k),
+            &|k| self.is_time(*k),
+            &has_unit,
+            &|k| self.unit(*k) == Said::Unclear,
+            &|k| is_axis(self.table.labels(*k)[0]),
+        ];
+        if let Some(time) = rules.iter().find_map(|is| find(is)) {
+            return Ok(Some(time));
+        }
+        let first = |k: usize| &self.table.first[k];
+        if let Some((_, step)) = settings.step()? {
+            let counter = find(&|k| is_counter(first(*k)));
+            return Ok(counter.or_else(|| find(&|k| unit_of_steps(first(*k), step).is_some())));
+        }
+        // Of the first columns one alone can be the time, after those that count.
+        let counts = |k: &usize| self.counts(*k) && unit.is_none();
+        let time = columns.iter().copied().find(|k| !counts(k)).filter(|k| running.contains(k));
+        Ok(time.or_else(|| find(&counts)))
+    }
+
+    /// How a row's time is known, and who tells that.
+    fn clock(
+        &self,
+        time: Option<usize>,
+        settings: &Settings,
+        asked: Option<Unit>,
+    ) -> Result<(Time, Told), Refusal> {
+        let steps = |column, words, step| {
+            Ok((Time::Steps { column, start: settings.start, step }, Told::Header(words)))
+        };
+        let Some(k) = time else {
+            let (words, step) = settings.step()?.ok_or_else(|| self.no_times(settings))?;
+            return steps(None, words, step);
+        };
+        match (asked, self.unit(k)) {
+            (Some(unit), Said::Unit(named)) if named != unit => {
+                return Ok((Time::Column(k, unit), Told::Against(named)));
+            }
+            (Some(unit), _) => return Ok((Time::Column(k, unit), Told::Asked)),
+            (None, Said::Unit(unit)) => {
+                // A rate that fits the steps in another unit says that one of the two is wrong.
+                let against = settings.step().ok().flatten().filter(|(_, step)| {
+                    unit_of_steps(&self.table.first[k], *step).is_some_and(|other| other != unit)
+                });
+                return match against {
+                    Some((second, _)) => Err(Refusal::TwoRates { first: self.name(k), second }),
+                    None => Ok((Time::Column(k, unit), Told::Name)),
+                };
+            }
+            (None, Said::Unclear) => {
+                let [name, below] = self.table.labels(k);
+                let name = if unit_in(name) == Said::Unclear { name } else { below };
+                return Err(Refusal::UnclearUnit { name: short_of(name) });
+            }
+            (None, Said::Nothing) => (),
+        }
+        if let Some((words, step)) = settings.step()? {
+            if self.counts(k) {
+                // The numbers of samples that were left out count as well; those of a timer are no samples.
+                let counter = is_counter(&self.table.first[k]).then_some(k);
+                return steps(counter, words, step);
+            }
+            if let Some(unit) = unit_of_steps(&self.table.first[k], step) {
+                return Ok((Time::Column(k, unit), Told::Header(words)));
+            }
+        }
+        if self.counts(k) {
+            let quoted = settings.unread.clone();
+            return Err(Refusal::Counter { name: self.name(k), quoted });
+        }
+        Ok((Time::Column(k, Unit::Second), Told::Assumed))
+    }
+
+    fn no_times(&self, settings: &Settings) -> Refusal {
+        let columns = self.table.told(self.table.columns.iter().copied());
+        let (text, quoted) = (self.table.text_beside(), settings.unread.clone());
+        Refusal::NoTimes { columns, text, quoted }
+    }
+
+    /// The columns of times of the same name.
+    fn named_alike(&self, time: usize) -> Vec<usize> {
+        let label = self.table.labels(time);
+        let is_alike = |k: &usize| self.is_time(*k) && self.table.labels(*k) == label;
+        self.table.columns.iter().copied().filter(is_alike).collect()
+    }
 }
 
-/// The steps that an instrument writes beside the names, as `Start` and `Increment`.
-fn given_steps(table: &Table, time: Option<usize>) -> Option<Time> {
-    let start = table.given("start").or_else(|| table.given("t0"))?;
-    let increment = table.given("increment");
-    let step = increment.or_else(|| table.given("tinc"))?;
-    // A column beside `tInc` holds the times themselves, unless it counts.
-    let counts = |time: &usize| increment.is_some() || is_counter(&table.start(*time));
-    let column = time.filter(counts);
-    let is_step = step > 0.0 && step.is_finite() && start.is_finite();
-    (is_step && (column.is_some() || time.is_none())).then_some(Time::Steps { column, start, step })
+#[cfg(test)]
+mod tests {
+    use super::{is_counter, runs, unit_of_steps};
+    use crate::unit::Unit;
+
+    #[test]
+    fn numbers_tell_what_they_are() {
+        let times: Vec<f64> = (0..300).map(|i| f64::from(i / 5) - 20.0).collect();
+        let shots: Vec<f64> = (0..300).map(|i| f64::from(i % 60)).collect();
+        let gate: Vec<f64> = (0..300).map(|i| f64::from(u8::from(i > 100))).collect();
+        let pulse: Vec<f64> = (0..300).map(|i| f64::from((i - 150i32).abs())).collect();
+        let back: Vec<f64> = times.iter().rev().copied().collect();
+        assert!(runs(&times) && runs(&shots) && runs(&back) && !runs(&gate) && !runs(&pulse));
+        assert!(is_counter(&[-2.0, -1.0, 0.0]) && !is_counter(&[0.0, 2.0, 4.0]));
+        assert_eq!(unit_of_steps(&[0.0, 10.0, 20.0], 1e-5), Some(Unit::Microsecond));
+        assert_eq!(unit_of_steps(&[0.0, 20.0, 40.0], 1e-5), None);
+    }
 }

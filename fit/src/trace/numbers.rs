@@ -1,8 +1,6 @@
-//! Fields, and the numbers, units and rates that stand in them.
+//! Fields, and the numbers that stand in them.
 
 use std::iter::once;
-
-use crate::unit::Unit;
 
 /// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the rest of the
 /// file: so quotes count only where a line has them in pairs.
@@ -25,12 +23,18 @@ pub fn split(line: &str, delimiter: char) -> impl Iterator<Item = &str> {
     fields.filter(move |field| !(blank && field.is_empty()))
 }
 
-/// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here.
+/// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here. Below zero with
+/// either minus, or in an accountant's brackets.
 pub fn number(field: &str, comma: bool) -> Option<f64> {
-    if comma && field.contains(',') {
-        return field.replacen(',', ".", 1).parse().ok();
-    }
-    field.parse().ok().or_else(|| overload(field))
+    let with_point = (comma && field.contains(',')).then(|| field.replacen(',', ".", 1));
+    let field = with_point.as_deref().unwrap_or(field);
+    let below = || {
+        let brackets = field.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
+        let size = brackets.or_else(|| field.strip_prefix(['\u{2212}', '\u{2013}']))?;
+        let size = size.trim_start();
+        size.starts_with(|c: char| c.is_ascii_digit() || c == '.').then(|| size.parse().ok())?
+    };
+    field.parse().ok().or_else(|| below().map(|size: f64| -size)).or_else(|| overload(field))
 }
 
 /// The signs by which an instrument says that a signal is too large for it.
@@ -64,78 +68,35 @@ pub fn is_grouped(field: &str) -> bool {
         && more.all(|group| group.len() == 3 && digits(group))
 }
 
-/// The unit that a column's name holds, as in `Time [ms]`, `time_us`, `TimeMs` or `Second`; none in a sentence with numbers.
-pub fn unit_in(name: &str) -> Option<Unit> {
-    let name = name.to_lowercase();
-    let words = || name.split(|c: char| !(c.is_alphanumeric() || c == char::REPLACEMENT_CHARACTER));
-    if words().any(|word| word.parse::<f64>().is_ok()) {
-        return None;
-    }
-    words().rev().find_map(|word| {
-        // `TimeMs` and `tms`, but not `ts`, which is a time stamp.
-        let short = word.strip_prefix("time").or_else(|| word.strip_prefix('t'));
-        unit_of(word).or_else(|| short.filter(|unit| unit.len() > 1).and_then(unit_of))
-    })
-}
-
-/// The unit that a word is the name of.
-fn unit_of(word: &str) -> Option<Unit> {
-    Some(match word {
-        "s" | "sec" | "second" | "seconds" | "secs" | "sek" | "sekunden" => Unit::Second,
-        "ms" | "msec" | "msecs" | "millis" | "millisec" | "millisecond" | "milliseconds" => {
-            Unit::Millisecond
-        }
-        "us" | "µs" | "μs" | "\u{fffd}s" | "usec" | "usecs" | "micros" | "microsec"
-        | "microsecond" | "microseconds" => Unit::Microsecond,
-        "ns" | "nsec" | "nsecs" | "nanos" | "nanosecond" | "nanoseconds" => Unit::Nanosecond,
-        _ => return None,
-    })
-}
-
-/// The time from one sample to the next that a line above the numbers tells: `Sample rate: 44100 Hz`, `#CLOCK=10.0uS`,
-/// `Samplerate: 1 MHz`, `Sample Interval,1e-05`.
-pub fn step_in(line: &str) -> Option<f64> {
-    let line = line.to_lowercase();
-    let is_not = ["bandwidth", "baud", "bit rate", "frame rate", "filter", "trig", "cutoff"];
-    if is_not.iter().any(|word| line.contains(word)) {
-        return None;
-    }
-    let period = ["interval", "increment", "period", "clock", "tinc", "xincr"];
-    let is_period = period.iter().any(|word| line.contains(word));
-    let is_rate = ["rate", "sampl", "freq", "fs"].iter().any(|word| line.contains(word));
-    let start = line.find(|c: char| c.is_ascii_digit())?;
-    let before = line[..start].trim_matches(|c: char| !c.is_alphanumeric());
-    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | 'e');
-    let end = line[start..].find(|c: char| !is_part(c)).map_or(line.len(), |k| start + k);
-    let x: f64 = line[start..end].trim_end_matches('e').parse().ok()?;
-    let unit = line[end..].trim_start_matches(|c: char| !c.is_alphanumeric() && c != 'µ');
-    let unit = unit.split(|c: char| !(c.is_alphanumeric() || matches!(c, '/' | 'µ' | 'μ'))).next();
-    let unit = unit.unwrap_or_default();
-    let step = match (hertz(unit), unit_of(unit)) {
-        (Some(each), _) if is_rate || is_period || before.is_empty() => 1.0 / (each * x),
-        (None, Some(unit)) if is_period => unit.seconds(x),
-        (None, None) if is_period && unit.is_empty() => x,
-        (None, None) if line.contains("rate") && unit.is_empty() => 1.0 / x,
-        _ => return None,
-    };
-    (step > 0.0 && step.is_finite()).then_some(step)
-}
-
-/// How many hertz the unit of a rate is.
-fn hertz(unit: &str) -> Option<f64> {
-    let (prefix, rest) = match unit.chars().next()? {
-        'k' => (1e3, &unit[1..]),
-        'm' => (1e6, &unit[1..]),
-        'g' => (1e9, &unit[1..]),
-        _ => (1.0, unit),
-    };
-    ["hz", "sa/s", "s/s", "sps", "samples/s"].contains(&rest).then_some(prefix)
-}
-
 /// As much of a field as a message can hold.
 pub fn short_of(field: &str) -> String {
     let mut chars = field.chars().map(|c| if c.is_control() { '?' } else { c });
     let start: String = chars.by_ref().take(24).collect();
     let more = chars.next().map(|_| '…');
     start.chars().chain(once(more).flatten()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn a_number_may_be_written_so() {
+        for (field, comma, value) in [
+            ("-1.5e-3", false, Some(-1.5e-3)),
+            ("+2", false, Some(2.0)),
+            ("0,25", true, Some(0.25)),
+            ("\u{2212}5.0", false, Some(-5.0)),
+            ("\u{2013}5,0", true, Some(-5.0)),
+            ("(5.00)", false, Some(-5.0)),
+            ("-OVL", false, Some(f64::NEG_INFINITY)),
+            ("(V)", false, None),
+            ("(-5)", false, None),
+            ("5 ms", false, None),
+            ("1,234,5", true, None),
+            ("", false, None),
+        ] {
+            assert_eq!(number(field, comma), value, "{field}");
+        }
+    }
 }

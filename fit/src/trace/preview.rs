@@ -25,7 +25,7 @@ pub fn preview(bytes: &[u8], rows: usize) -> Result<Preview, Refusal> {
     }
     let text = decode(bytes)?;
     let table = Table::new(&text)?;
-    let names: Vec<_> = (0..table.first.len()).map(|column| table.name(column)).collect();
+    let names: Vec<_> = (0..table.width).map(|column| table.name(column)).collect();
     // Of a field, what a narrow column can show.
     let field = |field: &str| field.chars().take(24).collect();
     let row =

@@ -166,12 +166,16 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
 /// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
 /// the least step of the values makes.
 fn noise(values: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    let least = steps.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-    let rounding = if least.is_finite() { least / 12f64.sqrt() } else { 0.0 };
-    let middle = steps.len() / 2;
-    let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    (median / 0.6745 / 2f64.sqrt()).max(rounding)
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
+}
+
+/// The least step from one value to the next; 0 of a gate or a logic level, whose two values round nothing.
+pub fn least_step(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| *s > 0.0);
+    let least = steps.reduce(f64::min).unwrap_or(0.0);
+    let (low, high) = range(values);
+    if 1.5 * least < high - low { least } else { 0.0 }
 }
 
 fn range(values: &[f64]) -> (f64, f64) {
@@ -183,8 +187,8 @@ fn range(values: &[f64]) -> (f64, f64) {
 fn common_rounding(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let repeated = differ.iter().filter(|d| **d == 0.0).count();
-    let least = differ.iter().copied().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
-    if repeated * FEW_OF < values.len() || !least.is_finite() {
+    let least = least_step(values);
+    if repeated * FEW_OF < values.len() || least == 0.0 {
         return 0.0;
     }
     // Of many short parts the middle one is flat.
@@ -209,8 +213,8 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
-    // What is so frequent is no accident: a pattern that belongs to the signal.
-    if spikes.is_empty() || spikes.len() > n / FEW_OF {
+    // What is so frequent is no accident: a pattern that belongs to the signal. Without noise nothing tells one from that.
+    if noise == 0.0 || spikes.is_empty() || spikes.len() > n / FEW_OF {
         return Vec::new();
     }
     let told = spikes.iter().map(|i| times[*i]).collect();

@@ -6,7 +6,7 @@
 use super::asked::Options;
 use super::bytes::decode;
 use super::layout::{Layout, Time};
-use super::numbers::split;
+use super::numbers::{number, short_of, split};
 use super::reading::{Recording, Samples, Told, shown};
 use super::samples::Trace;
 use super::select::light_among;
@@ -43,45 +43,86 @@ fn recording(text: &str, options: &Options) -> Result<Recording, Refusal> {
     if layout.told == Told::Assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let first = samples(&table, &layout, layout.signal);
-    let (signal, samples) = if layout.others.is_empty() {
-        (layout.signal, first?)
-    } else {
-        let others = layout.others.iter().map(|k| (*k, samples(&table, &layout, *k)));
-        let all = [(layout.signal, first)].into_iter().chain(others).collect();
-        let time = match layout.time {
-            Time::Column(column, _) => Some(column),
-            Time::Steps { .. } => None,
-        };
-        light_among(all, |k| shown(&(k + 1, table.name(k))), time, &mut warnings)?
+    let read = samples(&table, &layout)?;
+    let (signal, samples) = match <[_; 1]>::try_from(read) {
+        Ok([only]) => (layout.signals[0], only?),
+        Err(all) => {
+            let all = layout.signals.iter().copied().zip(all).collect();
+            let time = match layout.time {
+                Time::Column(column, _) => Some(column),
+                Time::Steps { .. } => None,
+            };
+            light_among(all, |k| shown(&(k + 1, table.name(k))), time, &mut warnings)?
+        }
     };
     warnings.extend(samples.warnings);
     Ok(Recording { trace: samples.trace, reading: layout.reading(&table, signal), warnings })
 }
 
-fn samples(table: &Table, layout: &Layout, signal: usize) -> Result<Samples, Refusal> {
-    let (mut samples, mut fields, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut broken, mut first) = (0, None);
-    for (k, (line, row)) in table.rows().enumerate() {
+/// The samples of each signal. Each line is read once, since there may be thousands of columns.
+fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
+    let mut columns: Vec<Column> = layout.signals.iter().map(|_| Column::default()).collect();
+    let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
+    let (mut fields, mut rows) = (Vec::new(), 0);
+    let mut between: Option<(u64, &str)> = None;
+    for (line, row) in table.lines() {
         fields.clear();
         fields.extend(split(row, table.delimiter));
-        match layout.sample(k, &fields, signal, table.decimal_comma) {
-            Ok((time, value)) => samples.push(Sample { time, value, line }),
-            Err(reason) => {
-                broken += 1;
-                first.get_or_insert((line, reason));
+        let is_remark = row.starts_with('#');
+        let is_word = row.starts_with(char::is_alphabetic)
+            && number(fields[0], table.decimal_comma).is_none();
+        let mut is_read = false;
+        for (signal, column) in layout.signals.iter().zip(&mut columns).filter(|_| !is_remark) {
+            match layout.sample(rows, &fields, *signal, table.decimal_comma) {
+                Ok((time, value)) => {
+                    is_read = true;
+                    column.samples.push(Sample { time, value, line });
+                }
+                Err(reason) => {
+                    column.broken += 1;
+                    column.first.get_or_insert((line, reason));
+                }
             }
         }
-    }
-    if let Some((line, reason)) = first {
-        let rows = samples.len() + broken;
-        if broken as f64 > BROKEN * rows as f64 {
-            return Err(Refusal::BrokenRows { count: broken, rows, line, reason });
+        // Where the rows count, what parts them parts recordings.
+        match &between {
+            Some((line, text)) if is_read => {
+                return Err(Refusal::Blocks { line: *line, text: short_of(text) });
+            }
+            None if by_rows && rows > 0 && (is_remark || is_word) => between = Some((line, row)),
+            _ => (),
         }
-        warnings.push(Warning::BrokenRows { count: broken, line, reason });
+        rows += usize::from(!is_remark);
     }
-    limit(&mut samples, &mut warnings);
-    Ok(Samples { trace: ordered(samples, &mut warnings), warnings })
+    let read = |(signal, column): (&usize, Column)| {
+        column.read(|| layout.reading(table, *signal).to_string())
+    };
+    Ok(layout.signals.iter().zip(columns).map(read).collect())
+}
+
+/// What was read of a column.
+#[derive(Default)]
+struct Column {
+    samples: Vec<Sample>,
+    broken: usize,
+    /// The first broken row, and what is wrong with it.
+    first: Option<(u64, String)>,
+}
+
+impl Column {
+    fn read(mut self, reading: impl Fn() -> String) -> Result<Samples, Refusal> {
+        let mut warnings = Vec::new();
+        if let Some((line, reason)) = self.first {
+            let (count, rows) = (self.broken, self.samples.len() + self.broken);
+            if count as f64 > BROKEN * rows as f64 {
+                let reading = reading();
+                return Err(Refusal::BrokenRows { count, rows, line, reason, reading });
+            }
+            warnings.push(Warning::BrokenRows { count, line, reason });
+        }
+        limit(&mut self.samples, &mut warnings);
+        Ok(Samples { trace: ordered(self.samples, &mut warnings), warnings })
+    }
 }
 
 struct Sample {

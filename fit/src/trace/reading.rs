@@ -44,6 +44,8 @@ pub enum Told {
     Format,
     /// The options.
     Asked,
+    /// The options, against the column's name.
+    Against(Unit),
     /// Nobody.
     Assumed,
 }
@@ -86,6 +88,7 @@ impl Reading {
             Told::Header(line) => format!("by '{line}'"),
             Told::Format => "by the file".into(),
             Told::Asked => "as asked".into(),
+            Told::Against(unit) => format!("as asked, where its name says {}", unit.name()),
             Told::Assumed => "assumed".into(),
         };
         match (&self.time, self.clock) {

@@ -1,7 +1,9 @@
-//! A text as rows of fields: what delimits them, what their decimal mark is, what stands above the numbers.
+//! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands above them.
 
 use super::asked::Column;
-use super::numbers::{is_decimal, is_grouped, number, short_of, split, step_in};
+use super::names::{is_axis, is_time, is_unit};
+use super::numbers::{is_decimal, is_grouped, number, short_of, split};
+use super::settings::Settings;
 use super::told::Refusal;
 
 /// A longer line is no row of samples.
@@ -10,6 +12,8 @@ const LONGEST_LINE: usize = 1 << 16;
 const LOOKED_AT: usize = 60;
 /// What stands above the numbers is shorter than this, in lines.
 const LONGEST_HEADER: usize = 500;
+/// So many rows tell what a column holds.
+const JUDGED: usize = 300;
 
 fn filled_lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.trim().is_empty())
@@ -29,6 +33,14 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
         ',' if are_decimals(&lines) && !is_pair_above(text) && !counts(text) => ';',
         delimiter => delimiter,
     };
+    if delimiter == ',' && lines.iter().filter(|line| is_in_halves(line)).count() > lines.len() / 2
+    {
+        let line = short_of(lines[0]);
+        let reason = format!(
+            "'{line}' has commas between its columns and in its numbers; part the columns by semicolons"
+        );
+        return Err(Refusal::NotCsv { reason });
+    }
     let fields = || lines.iter().flat_map(|line| split(line, delimiter));
     // Without its marks a number is digits, whichever mark is which.
     let is_number = |field: &&str| number(&field.replace([',', '.'], ""), false).is_some();
@@ -37,7 +49,11 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
     };
     let refused =
         |other: &str| Refusal::Thousands { number: short_of(comma), other: short_of(other) };
-    if let Some(point) = fields().find(|field| field.contains('.') && is_number(field)) {
+    // A date has two points.
+    let has_point = |field: &&str| field.matches('.').count() == 1 || field.contains(',');
+    if let Some(point) =
+        fields().find(|field| field.contains('.') && has_point(field) && is_number(field))
+    {
         return Err(refused(point));
     }
     // Decimals have a `0,1` or a `1,5` somewhere; whole thousands have neither.
@@ -56,6 +72,17 @@ fn are_decimals(lines: &[&str]) -> bool {
     whole.sort();
     whole.dedup();
     whole.len() <= lines.len() / 4 && lines.iter().all(|line| is_decimal(line.trim()))
+}
+
+/// Is it a row whose commas part its columns and its decimals alike, as in `0,00001,0,05`? Such a half begins with a 0.
+fn is_in_halves(line: &str) -> bool {
+    let fields: Vec<&str> = line.trim().split(',').collect();
+    let digits = |field: &&str| field.trim_start_matches('-').bytes().all(|b| b.is_ascii_digit());
+    let is_half = |field: &&str| field.len() > 1 && field.starts_with('0');
+    fields.len() > 2
+        && fields.len().is_multiple_of(2)
+        && fields.iter().all(digits)
+        && fields.iter().skip(1).step_by(2).any(is_half)
 }
 
 /// Are two names above the numbers, with a comma between them?
@@ -77,17 +104,33 @@ fn counts(text: &str) -> bool {
     differ > 2 && whole.windows(2).all(|pair| pair[0] <= pair[1])
 }
 
-/// The file as rows of fields, those before the numbers apart.
+/// What a field holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Holds {
+    Number,
+    Nothing,
+    Word,
+    Other,
+}
+
+/// What stands above the rows: a line, and its fields.
+type Above<'a> = (&'a str, Vec<String>);
+
+/// The file as rows of fields, and what stands above them.
 pub struct Table<'a> {
     text: &'a str,
     pub delimiter: char,
     pub decimal_comma: bool,
-    /// What stands above the numbers.
-    header: Vec<Vec<String>>,
-    /// The same, line by line.
-    pub lines: Vec<&'a str>,
-    /// The first row of numbers.
-    pub first: Vec<String>,
+    above: Vec<Above<'a>>,
+    /// The last row of names above the numbers, and the row of units below it.
+    names: [Vec<String>; 2],
+    /// So many fields a row has.
+    pub width: usize,
+    /// Those columns that hold numbers in most rows.
+    pub columns: Vec<usize>,
+    /// Each column's numbers, of the first rows and of some from the whole file.
+    pub first: Vec<Vec<f64>>,
+    pub spread: Vec<Vec<f64>>,
 }
 
 impl<'a> Table<'a> {
@@ -99,126 +142,273 @@ impl<'a> Table<'a> {
             }
         }
         let (delimiter, decimal_comma) = marks(text)?;
-        let (header, lines) = (Vec::new(), Vec::new());
-        let mut table = Self { text, delimiter, decimal_comma, header, lines, first: Vec::new() };
-        for line in filled_lines(text).take(LONGEST_HEADER) {
-            // What makes a line a comment is no part of its first field.
-            let inner = line.trim_start_matches(['#', '%', '/', ';']);
-            let inner = if inner.len() < line.len() { inner.trim_start() } else { line };
-            let fields: Vec<String> = split(inner, delimiter).map(String::from).collect();
-            let is_number = |field: &String| number(field, decimal_comma).is_some();
-            let filled = || fields.iter().filter(|field| !field.is_empty());
-            if !line.starts_with('#') && filled().count() > 0 && filled().all(is_number) {
-                table.first = fields;
-                return Ok(table);
-            }
-            table.header.push(fields);
-            table.lines.push(line);
+        let mut table = Self {
+            text,
+            delimiter,
+            decimal_comma,
+            above: Vec::new(),
+            names: Default::default(),
+            width: 0,
+            columns: Vec::new(),
+            first: Vec::new(),
+            spread: Vec::new(),
+        };
+        let total = filled_lines(text).count();
+        let most = table.judge(total);
+        let is_number = |k: &usize| most[*k] == Some(Holds::Number);
+        table.columns = (0..most.len()).filter(is_number).collect();
+        let lines: Vec<&str> = filled_lines(text).take(LONGEST_HEADER).collect();
+        let Some(first) = lines.iter().position(|line| table.is_row(line, &most)) else {
+            return Err(table.no_rows(total));
+        };
+        if table.columns.is_empty() {
+            return Err(table.no_rows(total));
         }
+        let count = table.without_header(&lines, first, &most);
+        table.above = lines[..count].iter().map(|line| (*line, table.fields_above(line))).collect();
+        table.width = split(lines[first], delimiter).count();
+        table.names = table.names();
+        table.first = table.numbers(1, JUDGED);
+        table.spread = table.numbers((total - count).div_ceil(JUDGED), JUDGED);
+        Ok(table)
+    }
+
+    /// What most rows of the file's last third hold in each column, if most hold the same.
+    fn judge(&self, total: usize) -> Vec<Option<Holds>> {
+        let last = total - total.div_ceil(3);
+        let lines = filled_lines(self.text).skip(last).step_by(total / 3 / JUDGED + 1);
+        let (mut counts, mut rows) = (Vec::<[usize; 4]>::new(), 0);
+        for line in lines.filter(|line| !line.starts_with('#')) {
+            rows += 1;
+            for (k, field) in split(line, self.delimiter).enumerate() {
+                if counts.len() == k {
+                    counts.push([0; 4]);
+                }
+                counts[k][self.holds(field) as usize] += 1;
+            }
+        }
+        let most = |count: &[usize; 4]| {
+            let is_most = |holds: &Holds| 2 * count[*holds as usize] > rows;
+            let is_empty = 2 * (rows - count.iter().sum::<usize>()) > rows;
+            let all = [Holds::Number, Holds::Nothing, Holds::Word, Holds::Other];
+            all.into_iter().find(is_most).or(is_empty.then_some(Holds::Nothing))
+        };
+        counts.iter().map(most).collect()
+    }
+
+    fn holds(&self, field: &str) -> Holds {
+        match field.chars().next() {
+            None => Holds::Nothing,
+            Some(_) if number(field, self.decimal_comma).is_some() => Holds::Number,
+            Some(first) if first.is_alphabetic() => Holds::Word,
+            Some(_) => Holds::Other,
+        }
+    }
+
+    /// Does the line hold in each column what most rows hold there? A number may stand where mostly nothing does.
+    fn is_row(&self, line: &str, most: &[Option<Holds>]) -> bool {
+        let mut fields = split(line, self.delimiter);
+        let is_like = |most: &Option<Holds>| {
+            let holds = self.holds(fields.next().unwrap_or_default());
+            most.is_none_or(|most| {
+                holds == most || (most, holds) == (Holds::Nothing, Holds::Number)
+            })
+        };
+        !line.starts_with('#') && most.iter().all(is_like)
+    }
+
+    /// How many lines are above the rows, where this is the first whole one: rows before it may be broken, or have settings where
+    /// others have nothing, if their times lead to it.
+    fn without_header(&self, lines: &[&str], first: usize, most: &[Option<Holds>]) -> usize {
+        let time = |line: usize| {
+            let line = lines.get(line).copied().unwrap_or_default();
+            split(line, self.delimiter).nth(self.columns[0]).unwrap_or_default()
+        };
+        let value = |line| number(time(line), self.decimal_comma);
+        let leads = |line: usize| {
+            let times = (value(line), value(line + 1), value(line + 2));
+            let (Some(a), Some(b), Some(c)) = times else { return false };
+            (2.0 * b - a - c).abs() < 0.1 * (c - b).abs()
+        };
+        let is_word = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
+        let is_row = |line: &usize| {
+            let held: Vec<Holds> =
+                split(lines[*line], self.delimiter).map(|field| self.holds(field)).collect();
+            let is_bare = |(held, most): (&Holds, &Option<Holds>)| {
+                *most != Some(Holds::Nothing) || *held == Holds::Nothing
+            };
+            let time = time(*line);
+            !time.is_empty()
+                && !time.contains(is_word)
+                && self.columns.iter().any(|k| held.get(*k) == Some(&Holds::Number))
+                && (held.iter().zip(most).all(is_bare) || leads(*line))
+        };
+        first - (0..first).rev().take_while(|line| self.columns.len() > 1 && is_row(line)).count()
+    }
+
+    fn no_rows(&self, total: usize) -> Refusal {
         // A line of the middle shows best what the rows are.
-        let count = filled_lines(text).count();
-        let shown =
-            filled_lines(text).nth(count / 2).map(|line| line.chars().take(60).collect::<String>());
+        let shown = filled_lines(self.text)
+            .nth(total / 2)
+            .map(|line| line.chars().take(60).collect::<String>());
         let shown = shown.unwrap_or_default().replace(|c: char| c.is_control(), " ");
         let reason = format!("there is no row of numbers in it; its middle line is '{shown}'");
-        Err(Refusal::NotCsv { reason })
+        Refusal::NotCsv { reason }
     }
 
-    /// The rows of numbers, each with its line.
-    pub fn rows(&self) -> impl Iterator<Item = (u64, &'a str)> {
+    /// The fields of a line above the rows; what makes it a comment is no part of the first. Of names between blanks, a unit in
+    /// brackets belongs to the word before it.
+    fn fields_above(&self, line: &str) -> Vec<String> {
+        let inner = line.trim_start_matches(['#', '%', '/', ';']);
+        let inner = if inner.len() < line.len() { inner.trim_start() } else { line };
+        let mut fields: Vec<String> = Vec::new();
+        for field in split(inner, self.delimiter) {
+            match fields.last_mut() {
+                Some(last) if self.delimiter == ' ' && field.starts_with(['(', '[']) => {
+                    *last += " ";
+                    *last += field;
+                }
+                _ => fields.push(field.into()),
+            }
+        }
+        // Names may be aligned by blanks, or parted by another mark than the rows are.
+        let by = |mark: &str| -> Vec<String> {
+            let fields = inner.split(mark).map(str::trim).filter(|field| !field.is_empty());
+            fields.map(String::from).collect()
+        };
+        let marks = ["  ", "\t", ";", ","].into_iter().filter(|m| *m != "," || !self.decimal_comma);
+        let is_one = fields.len() == 1 && self.columns.len() > 1;
+        let mut others = marks.filter(|_| is_one).map(by);
+        others.find(|others| others.len() == self.columns.len()).unwrap_or(fields)
+    }
+
+    /// The lowest line above the rows that is as wide as these, as names, or as units below names.
+    fn names(&self) -> [Vec<String>; 2] {
+        let last = self.columns[self.columns.len() - 1];
+        let is_wide = |fields: &[String]| {
+            let filled =
+                self.columns.iter().filter(|k| fields.get(**k).is_some_and(|f| !f.is_empty()));
+            let is_whole = self.delimiter != ' ' || fields.len() == self.width;
+            fields.len() > last && 2 * filled.count() > self.columns.len() && is_whole
+        };
+        let is_units = |fields: &[String]| {
+            self.columns.len() > 1
+                && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
+        };
+        let has_words = |line: &str| line.contains(char::is_alphanumeric);
+        let is_it = |(line, fields): &Above| has_words(line) && is_wide(fields);
+        let Some(lowest) = self.above.iter().rposition(is_it) else {
+            return Default::default();
+        };
+        let row = |k: usize| self.above[k].1.clone();
+        if !is_units(&row(lowest)) {
+            let names = row(lowest);
+            return [if self.is_setting(&names) { Vec::new() } else { names }, Vec::new()];
+        }
+        let above = lowest.checked_sub(1).map(row).filter(|names| is_wide(names));
+        [above.unwrap_or_default(), row(lowest)]
+    }
+
+    /// Is the line a setting with its value, and no row of names? A channel's number may be a name beside a time's.
+    fn is_setting(&self, fields: &[String]) -> bool {
+        let first = fields[self.columns[0]].as_str();
+        let before_brackets = first.split(['(', '[']).next().unwrap_or_default();
+        let is_number = |field: &str| number(field, self.decimal_comma).is_some();
+        let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
+        let is_date = |field: &str| {
+            field.starts_with(|c: char| c.is_ascii_digit()) && field.contains([':', '/'])
+        };
+        let is_measure = |field: &str| {
+            let number = field.trim_end_matches(|c: char| c.is_alphabetic() || c == '%').trim_end();
+            number.len() < field.len() && is_number(number)
+        };
+        let is_value = |field: &String| {
+            let may_be = (is_time(first) || is_axis(first)) && is_channel(field);
+            !may_be && (is_number(field) || is_date(field) || is_measure(field))
+        };
+        fields.iter().any(is_value) || before_brackets.contains(['=', ':'])
+    }
+
+    /// What the lines above the rows say of the times.
+    pub fn settings(&self) -> Settings {
+        let whole =
+            |line: &str| vec![line.trim_start_matches(['#', '%', '/', ';']).trim().to_string()];
+        let lines = self.above.iter().map(|(line, fields)| match self.delimiter {
+            ' ' => (*line, whole(line)),
+            _ => (*line, fields.clone()),
+        });
+        Settings::new(&lines.collect::<Vec<_>>(), self.decimal_comma)
+    }
+
+    /// The lines from the first row on, each with its number.
+    pub fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> {
         let lines = (1..).zip(self.text.lines());
-        let lines = lines.filter(|(_, line)| !line.trim().is_empty()).skip(self.lines.len());
-        lines.filter(|(_, line)| !line.starts_with('#'))
+        lines.filter(|(_, line)| !line.trim().is_empty()).skip(self.above.len())
     }
 
-    /// The first numbers of a column, as many as tell what it holds.
-    pub fn start(&self, column: usize) -> Vec<f64> {
-        let field = |(_, row): (u64, &'a str)| split(row, self.delimiter).nth(column);
-        let numbers = self.rows().take(300).filter_map(field);
-        numbers.filter_map(|field| number(field, self.decimal_comma)).collect()
+    /// The same without comments.
+    pub fn rows(&self) -> impl Iterator<Item = (u64, &'a str)> {
+        self.lines().filter(|(_, line)| !line.starts_with('#'))
+    }
+
+    /// The numbers in each column, of so many rows.
+    fn numbers(&self, each: usize, most: usize) -> Vec<Vec<f64>> {
+        let mut numbers =
+            vec![Vec::new(); self.width.max(self.columns[self.columns.len() - 1] + 1)];
+        for (_, row) in self.rows().step_by(each.max(1)).take(most) {
+            for (column, field) in numbers.iter_mut().zip(split(row, self.delimiter)) {
+                column.extend(number(field, self.decimal_comma));
+            }
+        }
+        numbers
     }
 
     /// A column by its number, from 0, or by its name.
     pub fn column(&self, column: &Column) -> Result<usize, Refusal> {
-        let columns = self.first.len();
-        let names = || self.header.iter().rev();
         let found = match column {
-            Column::Number(number) => number.checked_sub(1).filter(|k| *k < columns),
+            Column::Number(number) => number.checked_sub(1),
             Column::Name(name) => {
                 let wanted = name.to_lowercase();
-                let exact = |field: &String| field.to_lowercase() == wanted;
-                let part = |field: &String| field.to_lowercase().contains(&wanted);
-                names()
-                    .find_map(|row| row.iter().position(exact))
-                    .or_else(|| names().find_map(|row| row.iter().position(part)))
-                    .filter(|k| *k < columns)
+                let has =
+                    |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
+                let exact = self.names[0].iter().position(|n| n.to_lowercase() == wanted);
+                exact.or_else(|| (0..self.width).find(has))
             }
         };
-        found.ok_or_else(|| {
-            let name = match column {
-                Column::Number(number) => number.to_string(),
-                Column::Name(name) => name.clone(),
-            };
-            let row = names().find(|row| row.len() > 1 || columns == 1);
-            let names = row.map(|row| row.iter().take(columns).cloned().collect::<Vec<_>>());
-            let there = match names {
-                Some(names) if !names.is_empty() => format!("{columns}: {}", names.join(", ")),
-                _ => columns.to_string(),
-            };
-            Refusal::NoColumn { name, there }
+        found.filter(|k| *k < self.width).ok_or_else(|| Refusal::NoColumn {
+            name: column.to_string(),
+            there: self.told(0..self.width),
         })
     }
 
-    /// What stands above a column, the lowest first: in the rows that are as wide as the numbers, since a sentence names no
-    /// column. The last two may be wider: some instruments write further settings into them.
-    pub fn above(&self, column: usize) -> impl Iterator<Item = &str> {
-        let filled = |row: &[String]| row.iter().rposition(|f| !f.is_empty()).map_or(0, |k| k + 1);
-        let width = filled(&self.first);
-        let is_blank = self.delimiter == ' ';
-        let rows = self.header.iter().rev().enumerate();
-        let names = rows.filter(move |(k, row)| {
-            let there = filled(row);
-            there == width || (there > width && *k < 2 && !is_blank)
-        });
-        names.filter_map(move |(_, row)| row.get(column)).map(String::as_str)
-    }
-
-    /// A column's name, as far as a message can hold it; its number otherwise.
-    pub fn name(&self, column: usize) -> Option<String> {
-        let mut names: Vec<&str> = self
-            .above(column)
-            .take(2)
-            .filter(|name| !name.is_empty() && step_in(name).is_none() && !self.is_value(name))
-            .collect();
-        names.reverse();
-        (!names.is_empty()).then(|| short_of(&names.join(" ")))
-    }
-
-    /// Does a field above the numbers hold a setting, a time of day or a sample, and no name? A whole number may be a channel's.
-    fn is_value(&self, field: &str) -> bool {
-        let last = field.rsplit([':', '=']).next().unwrap_or(field);
-        let is_whole = field.chars().all(|c| c.is_ascii_digit());
-        !is_whole && number(last.trim(), self.decimal_comma).is_some()
-    }
-
-    /// A number that the header gives by a name: in the row below it, or after `=` in the same field.
-    pub fn given(&self, name: &str) -> Option<f64> {
-        let value = |text: &str| {
-            let text = text.trim().trim_end_matches(|c: char| c.is_alphabetic());
-            number(text, self.decimal_comma)
-        };
-        for (r, row) in self.header.iter().enumerate() {
-            for (c, field) in row.iter().enumerate() {
-                let field = field.to_lowercase();
-                if let Some((left, right)) = field.split_once('=') {
-                    if left.trim() == name {
-                        return value(right);
-                    }
-                } else if field == name {
-                    return value(self.header.get(r + 1)?.get(c)?);
-                }
-            }
+    /// So many columns, and their names: `2: time_s, v`.
+    pub fn told(&self, columns: impl Iterator<Item = usize>) -> String {
+        let columns: Vec<usize> = columns.collect();
+        let names: Vec<String> = columns.iter().take(12).filter_map(|k| self.name(*k)).collect();
+        let more = if columns.len() > 12 { ", …" } else { "" };
+        match names.is_empty() {
+            true => columns.len().to_string(),
+            false => format!("{}: {}{more}", columns.len(), names.join(", ")),
         }
-        None
+    }
+
+    /// A column's name with its unit, as far as a message can hold it.
+    pub fn name(&self, column: usize) -> Option<String> {
+        let parts = self.names.iter().filter_map(|row| row.get(column));
+        let parts: Vec<&str> = parts.map(String::as_str).filter(|part| !part.is_empty()).collect();
+        (!parts.is_empty()).then(|| short_of(&parts.join(" ")))
+    }
+
+    /// The first field that is no number in the first row, as a reader of a refusal may need it.
+    pub fn text_beside(&self) -> Option<String> {
+        let (_, row) = self.rows().next()?;
+        let is_text =
+            |field: &&str| !field.is_empty() && number(field, self.decimal_comma).is_none();
+        split(row, self.delimiter).find(is_text).map(short_of)
+    }
+
+    /// What names a column, and what stands below that as its unit.
+    pub fn labels(&self, column: usize) -> [&str; 2] {
+        [0, 1].map(|row| self.names[row].get(column).map_or("", String::as_str))
     }
 }

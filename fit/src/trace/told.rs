@@ -14,12 +14,38 @@ pub enum Refusal {
         /// What it looks like.
         reason: String,
     },
-    /// One value a row, and no rate.
-    NoTimes,
+    /// No column of times, and no rate.
+    NoTimes {
+        /// So many columns there are, and their names.
+        columns: String,
+        /// What stands beside the numbers, and may be a time that is not read.
+        text: Option<String>,
+        /// What may give a rate, but is not read.
+        quoted: Option<String>,
+    },
     /// Numbers that count rows, and no rate.
     Counter {
         /// The column's.
         name: String,
+        /// What may give a rate, but is not read.
+        quoted: Option<String>,
+    },
+    /// A unit of time with something beside it.
+    UnclearUnit {
+        /// The column's name.
+        name: String,
+    },
+    /// A column that is asked for twice.
+    SameColumn {
+        /// Its name.
+        name: String,
+    },
+    /// Several recordings below each other.
+    Blocks {
+        /// Where the second one begins.
+        line: u64,
+        /// What stands there.
+        text: String,
     },
     /// Two lines above the numbers tell different rates.
     TwoRates {
@@ -52,6 +78,8 @@ pub enum Refusal {
         line: u64,
         /// What is wrong with that.
         reason: String,
+        /// What was read as what.
+        reading: String,
     },
     /// Times and values that are not as many, not finite or beyond 10³⁰, or out of order; no file that was read gives these.
     Unsound,
@@ -120,13 +148,31 @@ impl fmt::Display for Refusal {
                 "this is no CSV of samples: {reason}; export the trace as text, a time and a value in each row, both plain \
                  numbers"
             ),
-            Self::NoTimes => out.write_str(
-                "there is one value in each row and no time; give the sampling rate in hertz, as in --rate 100000",
-            ),
-            Self::Counter { name } => write!(
+            Self::NoTimes { columns, text, quoted } => {
+                let beside = |text: &String| format!("; '{text}' beside them is no number");
+                let text = text.as_ref().map_or(String::new(), beside);
+                write!(
+                    out,
+                    "no column holds times (the columns of numbers are {columns}{text}), {}; {RATE}",
+                    no_rate(quoted)
+                )
+            }
+            Self::Counter { name, quoted } => write!(
                 out,
-                "column {name} counts 0, 1, 2 ... without a unit, so it is no time; give the sampling rate in hertz, as in \
-                 --rate 100000, or the unit with --unit if it is one"
+                "column {name} counts without a unit, so it is no time, {}; {RATE}, or the unit with --unit if it is one",
+                no_rate(quoted)
+            ),
+            Self::UnclearUnit { name } => write!(
+                out,
+                "'{name}' above the times is more than a unit, or one that is not read; give the unit with --unit us, ms or \
+                 s, or the sampling rate in hertz, as in --rate 100000"
+            ),
+            Self::SameColumn { name } => {
+                write!(out, "column {name} is asked for twice; see --columns")
+            }
+            Self::Blocks { line, text } => write!(
+                out,
+                "line {line}: '{text}' between the rows begins another recording; put each into a file of its own"
             ),
             Self::TwoRates { first, second } => write!(
                 out,
@@ -143,10 +189,10 @@ impl fmt::Display for Refusal {
             Self::NoColumn { name, there } => {
                 write!(out, "there is no column '{name}'; there are {there}; see --columns")
             }
-            Self::BrokenRows { count, rows, line, reason } => write!(
+            Self::BrokenRows { count, rows, line, reason, reading } => write!(
                 out,
                 "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out: is this the file, \
-                 and are --columns right?"
+                 and are --columns right? Read: {reading}"
             ),
             Self::Unsound => write!(
                 out,
@@ -196,6 +242,14 @@ impl fmt::Display for Refusal {
             ),
         }
     }
+}
+
+/// What helps where a file does not tell its times.
+const RATE: &str = "give the sampling rate in hertz, as in --rate 100000";
+
+fn no_rate(quoted: &Option<String>) -> String {
+    let but = |text: &String| format!(" ('{text}' is not read as one)");
+    format!("and nothing above the rows gives a rate{}", quoted.as_ref().map_or(String::new(), but))
 }
 
 /// What may help beside more dark, unless it was done.

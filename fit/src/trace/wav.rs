@@ -51,20 +51,17 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
             values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v)).unzip();
         Ok(Samples { trace: Trace { times, values }, warnings: Vec::new() })
     };
-    let asked = match options.columns.last() {
-        Some(Column::Number(number)) if (1..=channels).contains(number) => vec![number - 1],
-        None => (0..channels).collect(),
-        Some(other) => {
-            let name = match other {
-                Column::Number(number) => number.to_string(),
-                Column::Name(name) => name.clone(),
-            };
-            return Err(Refusal::NoColumn {
-                name,
-                there: format!("{channels} channels, by number"),
-            });
+    let place = |column: &Column| match column {
+        Column::Number(number) if (1..=channels).contains(number) => Ok(number - 1),
+        other => {
+            let there = format!("{channels} channels, by number");
+            Err(Refusal::NoColumn { name: other.to_string(), there })
         }
     };
+    let mut asked = options.columns.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    if asked.is_empty() {
+        asked.extend(0..channels);
+    }
     let named = |k: usize| (k + 1, None);
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let clock = Clock::Rate(rate);

@@ -1,0 +1,235 @@
+//! The settings above the rows that tell when the samples were taken: a closed list of names, each with a number and its unit.
+
+use super::names::{has, unit_of, words};
+use super::numbers::{number, short_of};
+use super::told::Refusal;
+use crate::unit::Unit;
+
+/// What a setting gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    /// Samples in a second.
+    Rate,
+    /// The time from one sample to the next.
+    Step,
+    /// The same, if it has a unit of time: else it is a processor's clock.
+    Clock,
+    /// The first sample's time.
+    Start,
+}
+
+/// The names without blanks and marks. What is not here, such as a `Max. sampling rate`, is another number.
+const NAMES: [(Kind, &str); 4] = [
+    (
+        Kind::Rate,
+        "samplerate samplesrate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq sampleclock \
+                  samplespersecond scanrate acquisitionrate abtastrate abtastfrequenz fs",
+    ),
+    (
+        Kind::Step,
+        "sampleinterval samplinginterval sampleperiod samplingperiod sampletime samplingtime samplespacing timestep \
+                  abtastintervall timeinterval timeincrement increment tinc xinc xincr xincrement hresolution deltax deltat dt",
+    ),
+    (Kind::Clock, "clock"),
+    (Kind::Start, "start t0 x0"),
+];
+
+/// A unit of time or of a rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Measure {
+    Time(Unit),
+    /// So many hertz.
+    Hertz(f64),
+}
+
+impl Measure {
+    fn parse(word: &str) -> Option<Self> {
+        let word = word.to_lowercase();
+        let (prefix, rest) = match word.chars().next()? {
+            'k' => (1e3, &word[1..]),
+            'm' => (1e6, &word[1..]),
+            'g' => (1e9, &word[1..]),
+            _ => (1.0, word.as_str()),
+        };
+        let is_rate = ["hz", "sa/s", "s/s", "sps", "samples/s", "samples/second"].contains(&rest);
+        let time = || unit_of(&word).map(Self::Time);
+        if is_rate { Some(Self::Hertz(prefix)) } else { time() }
+    }
+}
+
+/// The kind of a setting's name, and the unit that it holds: in brackets, or as its last word.
+fn named(name: &str) -> Option<(Kind, Option<Measure>)> {
+    let (name, inside) = match name.split_once(['(', '[']) {
+        Some((name, inside)) => (name, Some(inside.trim_end().trim_end_matches([')', ']', ':']))),
+        None => (name, None),
+    };
+    let mut unit = match inside {
+        Some(text) => Some(Measure::parse(text.trim())?),
+        None => None,
+    };
+    let mut words = words(name);
+    if let (None, [_, .., last]) = (unit, words.as_slice()) {
+        unit = Measure::parse(last);
+        words.truncate(words.len() - usize::from(unit.is_some()));
+    }
+    if words.len() > 1 && words.last().is_some_and(|word| word == "in") {
+        words.pop();
+    }
+    let name = words.concat();
+    NAMES.iter().find(|(_, names)| has(names, &name)).map(|(kind, _)| (*kind, unit))
+}
+
+/// A number and the unit behind it, as in `100 kHz`, `10.0uS` or `Analog:1e-5`; none where what stands behind it is no unit.
+fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
+    let text = text.rsplit(':').next()?.trim();
+    let is_part =
+        |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | '\u{2212}' | 'e' | 'E');
+    let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    let x = number(text[..end].trim_end_matches(['e', 'E']), comma)?;
+    let is_unit = |c: &char| c.is_alphanumeric() || matches!(c, '/' | 'µ' | 'μ' | '\u{fffd}');
+    let behind = text[end..].trim_start();
+    let unit: String = behind.chars().take_while(is_unit).collect();
+    // Another rate behind the first leaves open which one is meant.
+    let others = behind[unit.len()..].split([' ', '(', ')', ',', ';']);
+    let mut others = others.filter_map(Measure::parse);
+    match Measure::parse(&unit) {
+        None if end < text.len() => None,
+        _ if others.any(|other| matches!(other, Measure::Hertz(_))) => None,
+        unit => Some((x, unit)),
+    }
+}
+
+/// What the settings above the rows say of the times.
+#[derive(Debug, Default)]
+pub struct Settings {
+    /// The seconds from one sample to the next, each with the words that give it.
+    steps: Vec<(String, f64)>,
+    /// The first sample's time.
+    pub start: f64,
+    /// Words that may give a rate, but fit no rule.
+    pub unread: Option<String>,
+}
+
+impl Settings {
+    /// From lines, each with its fields; what stands in the next line below a name may be its value.
+    pub fn new(lines: &[(&str, Vec<String>)], comma: bool) -> Self {
+        let mut settings = Self::default();
+        for (k, (line, fields)) in lines.iter().enumerate() {
+            let below = lines.get(k + 1).map_or(&[][..], |(_, fields)| fields);
+            let known = settings.steps.len();
+            let is_alone = fields.iter().filter(|field| !field.is_empty()).count() == 1;
+            for (c, field) in fields.iter().enumerate() {
+                let at = |k: usize| fields.get(k).map_or("", String::as_str);
+                let unit = Some(at(c + 2)).filter(|unit| Measure::parse(unit).is_some());
+                let beside = format!("{} {}", at(c + 1), unit.unwrap_or_default());
+                let below = below.get(c).map_or("", String::as_str);
+                let digit = field.find(|c: char| c.is_ascii_digit()).unwrap_or(field.len());
+                let mark = field.find(['=', ':']).filter(|k| !field[k + 1..].trim().is_empty());
+                // Of `100,000 Hz` it stays open what the comma means.
+                let digits =
+                    at(c + 1).find(|c: char| !c.is_ascii_digit()).unwrap_or(at(c + 1).len());
+                let several = line.matches('=').count() > 1;
+                let _ = match mark {
+                    Some(_) if digits > 0 => false,
+                    Some(at) if several => {
+                        settings.add(field, &field[..at], &field[at + 1..], comma)
+                    }
+                    Some(at) => settings.add(line, &field[..at], &field[at + 1..], comma),
+                    None => {
+                        settings.add(line, field, &beside, comma)
+                            || settings.add(&format!("{field} {below}"), field, below, comma)
+                            || digits == 0
+                                && (is_alone || digit > 0)
+                                && settings.add(line, &field[..digit], &field[digit..], comma)
+                    }
+                };
+            }
+            let line = line.to_lowercase();
+            let may_tell =
+                ["sampl", "rate", "interval", "increment"].iter().any(|w| line.contains(w));
+            if may_tell
+                && settings.steps.len() == known
+                && line.contains(|c: char| c.is_ascii_digit())
+            {
+                settings.unread.get_or_insert(short_of(lines[k].0.trim()));
+            }
+        }
+        settings
+    }
+
+    /// Is it a setting of the list, with a value?
+    fn add(&mut self, words: &str, name: &str, text: &str, comma: bool) -> bool {
+        let Some((x, behind)) = value(text, comma) else { return false };
+        // A rate may stand alone.
+        let lone = name.is_empty() && matches!(behind, Some(Measure::Hertz(_)));
+        let Some((kind, before)) = named(name).or(lone.then_some((Kind::Rate, None))) else {
+            return false;
+        };
+        if before.is_some() && behind.is_some() && before != behind {
+            return false;
+        }
+        let seconds = match (kind, before.or(behind)) {
+            (Kind::Rate, None) => 1.0 / x,
+            (Kind::Rate, Some(Measure::Hertz(each))) => 1.0 / (each * x),
+            (Kind::Step | Kind::Start, None) => x,
+            (Kind::Step | Kind::Start | Kind::Clock, Some(Measure::Time(unit))) => unit.seconds(x),
+            _ => return false,
+        };
+        if kind == Kind::Start {
+            self.start = if seconds.is_finite() { seconds } else { 0.0 };
+        } else if seconds > 0.0 && seconds.is_finite() {
+            let words = words.replace('"', "").split_whitespace().collect::<Vec<_>>().join(" ");
+            self.steps.push((short_of(&words), seconds));
+        }
+        true
+    }
+
+    /// The seconds from one sample to the next, and the words that give it.
+    ///
+    /// # Errors
+    /// Two that differ.
+    pub fn step(&self) -> Result<Option<(String, f64)>, Refusal> {
+        let Some((first, step)) = self.steps.first() else { return Ok(None) };
+        match self.steps.iter().find(|(_, other)| (other / step - 1.0).abs() > 1e-3) {
+            Some((second, _)) => {
+                Err(Refusal::TwoRates { first: first.clone(), second: second.clone() })
+            }
+            None => Ok(Some((first.clone(), *step))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Settings;
+
+    fn settings(text: &str, delimiter: char, comma: bool) -> Settings {
+        let fields = |line: &str| line.split(delimiter).map(|field| field.trim().into()).collect();
+        let lines: Vec<_> = text.lines().map(|line| (line, fields(line))).collect();
+        Settings::new(&lines, comma)
+    }
+
+    #[test]
+    fn a_setting_gives_a_step() {
+        let step = |text| settings(text, ',', false).step().unwrap().map(|(_, step)| step);
+        let ten_microseconds = "Sample rate: 100000 Hz|Samplerate: 100 kHz|Sampling rate 100 kHz|Sampling rate (kHz): 100\
+            |Sample Rate [kS/s],100|Sampling Rate:100.0KSa/s|sampling_rate_hz=100000|Sample Rate: 100000 Hz. Values are linear.\
+            |100 kHz|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
+            |XInc:,1.0E-05|CLOCK=10.0uS|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
+        for text in ten_microseconds.split('|') {
+            assert!(
+                (step(text).unwrap_or_default() - 1e-5).abs() < 1e-15,
+                "{text}: {:?}",
+                step(text)
+            );
+        }
+        let nothing = "Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
+            |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
+            |Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
+        nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));
+        let found = settings("Abtastintervall [ms];0,01", ';', true).step().unwrap();
+        assert_eq!(found, Some(("Abtastintervall [ms];0,0…".into(), 1e-5)));
+        assert_eq!(settings("CH1,t0 = -6ms, tInc = 10us", ',', false).start, -0.006);
+        assert!(settings("Sample rate: 1 Hz\nSample period,2", ',', false).step().is_err());
+    }
+}
