@@ -2,7 +2,7 @@
 # Runs a command with what the firmware needs: a compiler that has the targets, its clippy, QEMU, a disassembler
 # and the log decoder.
 #
-#   .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger
+#   .ci/thumb.sh cargo trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
 #   TOOLS=gcc .ci/thumb.sh boards/c/run.sh     with a compiler for C instead of the log decoder
 #   TOOLS= .ci/thumb.sh COMMAND                with neither

@@ -8,7 +8,7 @@
 # TRIGGER_FAULT=lost (or twice, early, late, close, torn, full, save) plants a fault in the firmware, to see that it is seen; one
 # build, apart from what is flashed, has them all. Exits with 1 then, and with 2 if there is no such fault.
 #
-# The first time it fetches the emulator (2 MB) and builds some 150 crates for the board, which takes a minute or two.
+# The first time it fetches the emulator (2 MB) and builds some 200 crates for the board, which takes a minute or two.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -16,11 +16,11 @@ target=thumbv6m-none-eabi
 say() { echo "pico: $*" >&2; }
 fail() { say "$*"; exit 1; }
 
-# The program alone; without a fault, the alarm beside it as well.
-features=()
+# The program alone; without a fault, the alarm beside it as well, and the task of RTIC, which is linked.
+what=(--package firmware --package rtic-task)
 case ${TRIGGER_FAULT:-} in
 "") ;;
-lost | twice | early | late | close | torn | full | save) features=(--bin strobe --features faults) ;;
+lost | twice | early | late | close | torn | full | save) what=(--package firmware --bin strobe --features faults) ;;
 *) say "TRIGGER_FAULT is lost, twice, early, late, close, torn, full or save, not $TRIGGER_FAULT" && exit 2 ;;
 esac
 
@@ -39,9 +39,9 @@ if ! [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ]
 fi
 
 folder=$(cargo metadata --no-deps --format-version 1 | node --print 'JSON.parse(fs.readFileSync(0)).target_directory')
-[ -d "$folder/$target/release" ] || say "building some 150 crates for the first time, a minute or two ..."
+[ -d "$folder/$target/release" ] || say "building some 200 crates for the first time, a minute or two ..."
 say "building the firmware ..."
-cargo build --quiet --locked --release --target $target --package firmware "${features[@]}"
+cargo build --quiet --locked --release --target $target "${what[@]}"
 # What has to come, by the host, and its own compiler where .ci/thumb.sh has brought another.
 env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo run --quiet --locked --package expected >"$folder/expected.json"
 strobe=$folder/$target/release/strobe
@@ -55,6 +55,11 @@ case ${TRIGGER_FAULT:-} in
     node emulator/power.mjs "$strobe"
     ;;
 esac
+# The small one beside it, linked as it is flashed: in the same folder, for most of what it is built of is there.
+if [ -z "${TRIGGER_FAULT:-}" ]; then
+    (cd ../pico-embassy && CARGO_TARGET_DIR=$folder cargo build --quiet --locked --release)
+    node emulator/leaf.mjs "$folder/$target/release/pico-embassy" "$folder/expected.json"
+fi
 if [ "${1:-}" = --second ]; then
     second=$folder/pioemu
     if [ ! -x "$second/bin/python" ] || ! "$second/bin/python" -c 'import pioemu' 2>/dev/null; then

@@ -78,11 +78,13 @@ pub fn several(form: Form, name: &str, plans: &[(String, Planned)]) -> Result<St
 fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
-        let [a, b] = [one.timer_hz(), plan.timer_hz()];
-        if a != b {
-            return Err(format!(
-                "timer_hz: {a} in {first}, {b} in {name}; an array is for one timer"
-            ));
+        let [a, b] = [one.timer(), plan.timer()];
+        for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
+            if a != b {
+                return Err(format!(
+                    "{key}: {a} in {first}, {b} in {name}; an array is for one timer"
+                ));
+            }
         }
         let (has, lacks) = match (one.delay().is_some(), plan.delay().is_some()) {
             (true, false) => (first, name),
@@ -107,20 +109,6 @@ fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// From where the ticks count, for both languages.
-fn base(plan: &Planned, delay: &str) -> String {
-    match plan.delay() {
-        Some(_) => format!(
-            "Ticks count from the start of opening, which comes {delay} after the edge of the camera's sync; add both \
-             to the timer's count at the edge, wrapping."
-        ),
-        None => {
-            "Ticks count from the start of opening; add the timer's count at that moment, wrapping."
-                .into()
-        }
-    }
 }
 
 /// By what a text was made.

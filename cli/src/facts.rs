@@ -6,6 +6,7 @@ use shutter_fit::unit::{Unit, count, short};
 use crate::delay::Delay;
 use crate::lamp::Lamp;
 use crate::plan::Plan;
+use crate::planned::Planned;
 use crate::times::Times;
 
 /// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
@@ -110,7 +111,7 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
     }
-    lines.push(("timer", format!("{} Hz", plan.timer_hz)));
+    lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length()))));
     lines.push(("delay", delay(plan.delay, unit)));
     lines.push(("gap", gap(plan)));
     lines.extend(lamp(plan));
@@ -141,7 +142,7 @@ pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> 
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
     lines.extend([
-        ("timer", format!("{} Hz", times.timer_hz)),
+        ("timer", times.timer.told(from_edge(times.delay, times.length()))),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap))),
         ("set-up", FLASHES.into()),
@@ -169,6 +170,29 @@ fn gap(plan: &Plan) -> String {
 fn closest(gap: Option<u32>) -> String {
     let told = |ticks| format!("; the closest two come {} apart", count(ticks, "tick"));
     gap.map_or(String::new(), told)
+}
+
+/// After how many frames a delay that moves by a tick a second matters, if there is a delay and a share to compare it with.
+pub fn drift(plan: &Planned) -> Option<String> {
+    let (share, length) = match plan {
+        Planned::Curve(plan) => {
+            let exposure = f64::from(plan.curve.exposure()) * f64::from(plan.timer.hz);
+            (exposure / plan.triggers.len() as f64, plan.length())
+        }
+        Planned::Times(times) => {
+            let gaps = times.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks);
+            (gaps.min()?.into(), times.length())
+        }
+    };
+    // A tick a second is so many ticks after as many seconds, in frames one right after the other.
+    let frames = share / 100.0 / from_edge(Some(plan.delay()?), length);
+    let frames = short(frames, 2);
+    Some(format!("a tick a second moves the delay by 1 % of a share in {frames} frames"))
+}
+
+/// From the edge to the end of a frame that lasts so many seconds.
+fn from_edge(delay: Option<Delay>, seconds: f64) -> f64 {
+    delay.map_or(0.0, |delay| delay.seconds) + seconds
 }
 
 /// From where the ticks count.

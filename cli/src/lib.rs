@@ -23,4 +23,5 @@ pub mod set_up;
 pub mod shape;
 #[cfg(feature = "terminal")]
 pub mod speeds;
+pub mod timer;
 pub mod times;

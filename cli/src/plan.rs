@@ -8,6 +8,7 @@ use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene, min_gap, positive};
 use crate::shape::Shape;
+use crate::timer::Timer;
 
 /// When to trigger.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,8 +30,8 @@ pub struct Plan {
     pub shape: Shape,
     /// The shutter.
     pub curve: ShutterCurve,
-    /// The timer's ticks in a second.
-    pub timer_hz: u32,
+    /// What counts the ticks.
+    pub timer: Timer,
     /// From the edge of the camera's sync to the start of opening, if the scene tells.
     pub delay: Option<Delay>,
     /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
@@ -69,11 +70,13 @@ impl Plan {
     /// # Errors
     /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
-        let (n, timer_hz) = (scene.triggers.get_ref().get(), scene.timer_hz.get_ref().get());
+        let n = scene.triggers.get_ref().get();
         if n == 0 || n > MOST_TRIGGERS {
             let reason = format!("triggers: 1 to {MOST_TRIGGERS} can be planned");
             return Err(Fault::at(&scene.triggers, reason));
         }
+        let timer = Timer::new(&scene.timer_hz, scene.timer_bits.as_ref())?;
+        let timer_hz = timer.hz;
         let shape = scene.shape()?;
         let curve = shape.curve().map_err(|error| scene.fault(&shape, error))?;
         // The rate is checked here, before anything is counted in ticks.
@@ -84,6 +87,10 @@ impl Plan {
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let end = (end * f64::from(timer_hz)).round();
         let delay = Delay::new(scene.delay.as_ref(), scene.unit(), timer_hz, end)?;
+        timer.holds(
+            delay.map_or(0.0, |delay| delay.ticks.into()) + end,
+            scene.timer_bits.as_ref(),
+        )?;
         let frames = Frames { curve: &curve, timer_hz, end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
@@ -100,7 +107,7 @@ impl Plan {
         Ok(Self {
             shape,
             curve,
-            timer_hz,
+            timer,
             delay,
             min_gap: asked.min_gap,
             lamp: asked.lamp,
@@ -123,7 +130,7 @@ impl Plan {
 
     /// How long so many ticks last.
     pub fn seconds(&self, ticks: u32) -> f64 {
-        f64::from(ticks) / f64::from(self.timer_hz)
+        f64::from(ticks) / f64::from(self.timer.hz)
     }
 
     /// So many ticks after the start of opening, counted from the edge of the camera's sync, if the scene has a delay.

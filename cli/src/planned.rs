@@ -6,6 +6,7 @@ use crate::delay::Delay;
 use crate::facts;
 use crate::plan::Plan;
 use crate::scene::{Fault, trigger_times_at};
+use crate::timer::Timer;
 use crate::times::Times;
 
 /// A scene that can be played.
@@ -59,11 +60,11 @@ impl Planned {
         }
     }
 
-    /// The timer's ticks in a second.
-    pub fn timer_hz(&self) -> u32 {
+    /// What counts the ticks.
+    pub fn timer(&self) -> Timer {
         match self {
-            Self::Curve(plan) => plan.timer_hz,
-            Self::Times(times) => times.timer_hz,
+            Self::Curve(plan) => plan.timer,
+            Self::Times(times) => times.timer,
         }
     }
 

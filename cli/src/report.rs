@@ -7,6 +7,7 @@ use shutter_fit::rows::hidden_rows;
 use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
+use crate::facts;
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
 use crate::times::Times;
@@ -26,6 +27,9 @@ pub fn text(name: &str, plan: &Planned) -> String {
 fn write_text(out: &mut String, name: &str, planned: &Planned) -> fmt::Result {
     for (name, fact) in planned.facts(name) {
         writeln!(out, "{name:11}  {fact}")?;
+    }
+    if let Some(drift) = facts::drift(planned) {
+        writeln!(out, "{:11}  {drift}", "drift")?;
     }
     match planned {
         Planned::Curve(plan) => write_curve(out, plan)?,
@@ -93,7 +97,7 @@ fn drawing(plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> String {
 fn table(out: &mut String, plan: &Planned) -> fmt::Result {
     let (unit, rows) = (plan.unit(), plan.rows());
     // A digit more than tells one tick from the next, as far as f32 has them.
-    let tick = unit.of(1.0 / f64::from(plan.timer_hz()));
+    let tick = unit.of(1.0 / f64::from(plan.timer().hz));
     let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
     let has_pulses = rows.iter().any(|row| row.pulse.is_some());
     let pulse = |on: &dyn Display, off: &dyn Display| match has_pulses {

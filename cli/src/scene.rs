@@ -21,7 +21,8 @@ pub struct Scene {
     close_end: Spanned<Number>,
     shutteropening: Option<Spanned<Vec<Number>>>,
     pub(crate) triggers: Spanned<Count>,
-    pub(crate) timer_hz: Spanned<Count>,
+    pub(crate) timer_hz: Spanned<Number>,
+    pub(crate) timer_bits: Option<Spanned<Count>>,
     pub(crate) min_gap: Spanned<Number>,
     pub(crate) nominal: Option<Spanned<Number>>,
     pub(crate) pulse: Option<Spanned<Number>>,
@@ -117,6 +118,7 @@ impl TryFrom<Values> for Scene {
             let reason = format!("{key}: a whole number from 0 to 4294967295 is required");
             Err(Fault::at(&at(key, ()), reason))
         };
+        count("timer_hz", values.timer_hz)?;
         let [open_start, open_end, close_start, close_end] = values.times;
         let eight = values.shutteropening.map(|eight| eight.map(Number::Any).to_vec());
         Ok(Self {
@@ -127,7 +129,8 @@ impl TryFrom<Values> for Scene {
             close_end: number("close_end", close_end),
             shutteropening: eight.map(|eight| at("shutteropening", eight)),
             triggers: count("triggers", values.triggers)?,
-            timer_hz: count("timer_hz", values.timer_hz)?,
+            timer_hz: number("timer_hz", values.timer_hz),
+            timer_bits: None,
             min_gap: number("min_gap", values.min_gap),
             nominal: values.nominal.map(|x| number("nominal", x)),
             pulse: values.pulse.map(|x| number("pulse", x)),

@@ -8,6 +8,7 @@ use toml::de::DeTable;
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
 use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY};
+use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
 #[derive(Deserialize)]
@@ -17,7 +18,8 @@ struct Scene {
     unit: Option<Unit>,
     open_start: Spanned<Number>,
     trigger_times: Spanned<Vec<Spanned<Number>>>,
-    timer_hz: Spanned<Count>,
+    timer_hz: Spanned<Number>,
+    timer_bits: Option<Spanned<Count>>,
     min_gap: Spanned<Number>,
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
@@ -37,8 +39,8 @@ pub struct Given {
 pub struct Times {
     /// When the shutter starts to open, in seconds: ticks count from there.
     pub open_start: f64,
-    /// The timer's ticks in a second.
-    pub timer_hz: u32,
+    /// What counts the ticks.
+    pub timer: Timer,
     /// From the edge of the camera's sync to the start of opening, if the scene tells.
     pub delay: Option<Delay>,
     /// Between two triggers, at least so many seconds, as the scene asks.
@@ -89,22 +91,22 @@ impl Times {
     fn new(scene: &Scene) -> Result<Self, Fault> {
         let unit = scene.unit.unwrap_or(Unit::Second);
         let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
-        let timer_hz = scene.timer_hz.get_ref().get();
-        if timer_hz == 0 {
-            return Err(Fault::at(&scene.timer_hz, "timer_hz: the tick rate is 0"));
-        }
+        let bits = scene.timer_bits.as_ref();
+        let timer = Timer::new(&scene.timer_hz, bits)?;
         let min_gap = scene::min_gap(unit, &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
-        let triggers = triggers(scene, unit, open_start, whole_ticks(min_gap, timer_hz).max(1))?;
+        let triggers =
+            triggers(scene, unit, open_start, timer.hz, whole_ticks(min_gap, timer.hz).max(1))?;
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
-        let delay = Delay::new(scene.delay.as_ref(), unit, timer_hz, end)?;
-        Ok(Self { open_start, timer_hz, delay, min_gap, nominal, triggers, unit: scene.unit })
+        let delay = Delay::new(scene.delay.as_ref(), unit, timer.hz, end)?;
+        timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
+        Ok(Self { open_start, timer, delay, min_gap, nominal, triggers, unit: scene.unit })
     }
 
     /// From the start of opening to the last trigger, in seconds; a tick at least.
     pub fn length(&self) -> f64 {
         let last = self.triggers.last().map_or(0.0, |last| last.time - self.open_start);
-        last.max(1.0 / f64::from(self.timer_hz))
+        last.max(1.0 / f64::from(self.timer.hz))
     }
 
     /// The scene's unit, or the one that suits its times.
@@ -114,8 +116,8 @@ impl Times {
 }
 
 /// The times in ticks, known to be in order and at least so many apart.
-fn triggers(scene: &Scene, unit: Unit, start: f64, gap: u64) -> Result<Vec<Given>, Fault> {
-    let hz = f64::from(scene.timer_hz.get_ref().get());
+fn triggers(scene: &Scene, unit: Unit, start: f64, hz: u32, gap: u64) -> Result<Vec<Given>, Fault> {
+    let hz = f64::from(hz);
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
         let reason = format!("{KEY}: 1 to {MOST_TRIGGERS} can be planned, not {}", times.len());

@@ -32,7 +32,8 @@ fn plans() -> Vec<(String, Plan)> {
         let plan = Plan::parse(&fs::read_to_string(&path).unwrap()).expect(&name);
         (name, plan)
     };
-    let plans: Vec<_> = scenes.map(plan).collect();
+    let mut plans: Vec<_> = scenes.map(plan).collect();
+    plans.sort_by(|a, b| a.0.cmp(&b.0));
     // Straight ramps and others; both kinds of pulses and none.
     assert!(plans.len() >= 8);
     assert!(plans.iter().filter(|(_, plan)| plan.triggers[0].pulse.is_some()).count() >= 2);
@@ -64,9 +65,23 @@ fn line(trigger: &Trigger) -> String {
 
 /// Runs the compiler in a folder, without a warning.
 fn rustc(folder: &Path, args: &[&str]) {
-    let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
-    rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(folder);
-    output(&mut rustc);
+    compile(std::env::var_os("RUSTC").unwrap_or("rustc".into()).as_ref(), folder, args);
+}
+
+fn compile(compiler: &Path, folder: &Path, args: &[&str]) {
+    let mut rustc = Command::new(compiler);
+    output(rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(folder));
+}
+
+/// Compiles a file of modules as a library, with all that Clippy could say, and checks how they are written.
+fn is_clean(folder: &Path, file: &str) {
+    let args = ["--crate-type", "lib", "-D", "missing_docs", "-D", "clippy::pedantic", file];
+    let linked = ["-D", "warnings", "--extern", the_crate()];
+    compile("clippy-driver".as_ref(), folder, &[&linked[..], &args].concat());
+    let mut rustfmt = Command::new("rustfmt");
+    let with_defaults =
+        ["--check", "--edition", "2024", "--config", "use_small_heuristics=Default"];
+    output(rustfmt.args(with_defaults).arg(file).current_dir(folder));
 }
 
 /// The crate by itself, which has no dependencies, built once; as an argument of the compiler.
@@ -112,10 +127,7 @@ fn rust_compiles_with_the_crate_and_holds_its_ticks() {
         expected.extend(plan.triggers.iter().map(line));
     }
     fs::write(folder.join("scenes.rs"), lib).unwrap();
-    rustc(
-        &folder,
-        &[&linked[..], &["--crate-type", "lib", "-D", "missing_docs", "scenes.rs"]].concat(),
-    );
+    is_clean(&folder, "scenes.rs");
     fs::write(folder.join("main.rs"), format!("fn main() {{\n{main}}}\n")).unwrap();
     rustc(
         &folder,
@@ -139,6 +151,8 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
         ".\n"
     )));
     write("one.rs", one);
+    write("lib.rs", "//! .\n#![no_std]\n/// .\npub mod late;\n/// .\npub mod lit;\n".into());
+    is_clean(&folder, "lib.rs");
     // Private modules of which next to nothing is used.
     let main = r#"mod late; mod lit; mod one;
         fn main() {
@@ -199,8 +213,7 @@ fn print_c(lower: &str, upper: &str, has_pulses: bool) -> String {
 fn c_compiles_in_one_file_and_holds_the_same_ticks() {
     let folder = folder("c");
     let (mut includes, mut body, mut expected) = (String::new(), String::new(), String::new());
-    let mut plans = plans();
-    plans.sort_by(|a, b| a.0.cmp(&b.0));
+    let plans = plans();
     for (name, plan) in &plans {
         fs::write(folder.join(format!("{name}.h")), emit(Form::C, name, plan)).unwrap();
         includes += &format!("#include \"{name}.h\"\n").repeat(2);
@@ -208,7 +221,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
         let upper = lower.to_ascii_uppercase();
         body += &print_c(&lower, &upper, plan.triggers[0].pulse.is_some());
         let lines: String = plan.triggers.iter().map(line).collect();
-        expected += &format!("{}\n{lines}", plan.timer_hz);
+        expected += &format!("{}\n{lines}", plan.timer.hz);
         if let Some(delay) = plan.delay {
             body += &format!("printf(\"%lu\\n\", (unsigned long){upper}_DELAY_TICKS);\n");
             expected += &format!("{}\n", delay.ticks);
@@ -376,6 +389,54 @@ fn the_lines_for_the_pico_are_those_of_the_scene() {
     assert!(many.contains("up to 64 pulses a frame, and the scene has 100"), "{many}");
 }
 
+/// What the boards' projects start from.
+#[test]
+fn the_modules_of_the_boards_are_those_of_the_measured_scene() {
+    for (board, hz) in [("pico-embassy", 125_000_000), ("stm32f4", 100_000_000)] {
+        let text = include_str!("../scenes/measured.toml");
+        let text = text.replace("timer_hz = 25000000", &format!("timer_hz = {hz}"));
+        let module = emit(Form::Rust, "leaf", &Plan::parse(&text).unwrap());
+        let file = format!("{CLI}/../boards/{board}/src/leaf.rs");
+        assert_eq!(module, fs::read_to_string(&file).unwrap(), "{file}");
+    }
+}
+
+/// A frame on a timer of 16 bits, with and without a curve.
+#[test]
+fn ticks_of_16_bits_wrap_in_rust_and_in_c() {
+    let folder = folder("bits");
+    let keys = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\ntimer_bits = 16\nmin_gap = 0\ndelay = 10\n";
+    let curve = format!("{keys}open_end = 1\nclose_start = 5\nclose_end = 5\ntriggers = 4\n");
+    let lit = format!("{curve}pulse = 0.2\n");
+    let times = format!("{keys}trigger_times = [1.5, 2.5, 3.5, 4.5]\n");
+    let [mut mods, mut includes, mut rust, mut c] = [const { String::new() }; 4];
+    for (name, text) in [("curve", curve), ("lit", lit), ("times", times)] {
+        let plan = Planned::parse(&text).unwrap();
+        let [module, header] =
+            [Form::Rust, Form::C].map(|form| shutter::emit::emit(form, name, &plan).unwrap());
+        fs::write(folder.join(format!("{name}.rs")), module).unwrap();
+        fs::write(folder.join(format!("{name}.h")), header).unwrap();
+        mods += &format!("/// .\npub mod {name};\n");
+        includes += &format!("#include \"{name}.h\"\n");
+        rust += &format!("println!(\"{{:?}}\", {name}::due(60_000).collect::<Vec<_>>());\n");
+        let upper = name.to_uppercase();
+        c += &format!(
+            "for (int i = 0; i < {upper}_TRIGGERS; i++) printf(\"%d \", (int){name}_due(60000, {name}_ticks[i]));\n"
+        );
+    }
+    fs::write(folder.join("lib.rs"), format!("//! .\n#![no_std]\n{mods}")).unwrap();
+    is_clean(&folder, "lib.rs");
+    fs::write(folder.join("main.rs"), format!("{mods}fn main() {{\n{rust}}}\n")).unwrap();
+    rustc(&folder, &["--extern", the_crate(), "main.rs"]);
+    let printed = output(&mut Command::new(folder.join("main")));
+    // 60000 + 10000 + 500 is 4964 after the wrap.
+    let due = "[4964, 5964, 6964, 7964]\n";
+    let lit = "[(4864, 5064), (5864, 6064), (6864, 7064), (7864, 8064)]\n";
+    assert_eq!(printed, format!("{due}{lit}{due}"));
+    let main = format!("{includes}#include <stdio.h>\nint main(void) {{\n{c}return 0;\n}}\n");
+    assert_eq!(compiled(&folder, &main), "4964 5964 6964 7964 ".repeat(3));
+}
+
 /// Trigger times without a curve, with a delay, and a speed that has one.
 fn measured() -> (Planned, Planned) {
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\ntimer_hz = 1_000_000\nmin_gap = 0.1\n\
@@ -451,7 +512,8 @@ fn times_without_a_curve_are_rows_and_objects_and_no_lines_for_the_pico() {
     let refused = shutter::emit::emit(Form::Pico, "bounce", &times).unwrap_err();
     assert_eq!(
         refused,
-        "the board plans its frames by a curve, and the scene has trigger times without one"
+        "the board plans its frames by a curve, and the scene has trigger times without one: \
+         boards/pico-embassy fires what `--emit rust` makes of them"
     );
     // Beside a curve the column is there, and empty.
     let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
@@ -520,7 +582,7 @@ struct Document {
 fn json_parses_and_holds_the_same_numbers() {
     for (name, plan) in plans() {
         let document: Document = serde_json::from_str(&emit(Form::Json, &name, &plan)).unwrap();
-        assert_eq!((document.scene, document.timer_hz), (name.clone(), plan.timer_hz));
+        assert_eq!((document.scene, document.timer_hz), (name.clone(), plan.timer.hz));
         assert_eq!(document.exposure_s, plan.curve.exposure());
         assert_eq!(document.efficiency, plan.curve.efficiency());
         assert!(document.opening_s >= 0.0 && document.half_open_s > 0.0);

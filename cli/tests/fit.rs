@@ -899,7 +899,7 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
     };
     let plan = Plan::parse(include_str!("../scenes/measured.toml")).unwrap();
     for trigger in &plan.triggers {
-        let time = f64::from(trigger.ticks) / f64::from(plan.timer_hz);
+        let time = f64::from(trigger.ticks) / f64::from(plan.timer.hz);
         let share = light(f64::from(plan.curve.open_start()) + time) / light(1.0);
         assert!((share - f64::from(trigger.u)).abs() < 5e-4, "{trigger:?}: {share}");
     }

@@ -2,7 +2,7 @@
 //! checked against the clock. It runs on the mps2-an386 board, a Cortex-M4F at 25 MHz, that QEMU has:
 //!
 //! ```text
-//! cargo run --release --target thumbv7em-none-eabihf --example trigger
+//! cargo trigger
 //! ```
 //!
 //! It exits with 0 only if every pulse of every frame came once, in order, with the minimum gap kept, never before its
@@ -20,14 +20,13 @@ mod board;
 mod firmware;
 /// A measured leaf shutter: `shutter fit cli/traces/leaf.csv --sync 0`, then `shutter plan --emit rust` for this board's timer.
 #[cfg(target_os = "none")]
-#[rustfmt::skip]
 mod measured;
 
 #[cfg(not(target_os = "none"))]
 fn main() {
     eprintln!(
         "This is firmware for a Cortex-M4F. Type this to run it in QEMU, with what it needs fetched into a cache:\n\n    \
-         .ci/thumb.sh cargo run --release --target thumbv7em-none-eabihf --example trigger\n\n\
+         .ci/thumb.sh cargo trigger\n\n\
          On this machine run another example: density, trapezoid or motion_blur."
     );
 }

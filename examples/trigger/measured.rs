@@ -16,7 +16,8 @@
 use shutter_curve::{ShutterCurve, valid};
 
 /// The shutter, its times in seconds.
-#[allow(dead_code)]
+#[allow(dead_code, clippy::unreadable_literal)]
+#[rustfmt::skip]
 pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
     [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
     [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
@@ -24,15 +25,25 @@ pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
 
 /// The timer's rate.
 #[allow(dead_code)]
-pub const TIMER_HZ: u32 = 25000000;
+pub const TIMER_HZ: u32 = 25_000_000;
 
 /// From the edge of the camera's sync to the start of opening.
 #[allow(dead_code)]
-pub const DELAY_TICKS: u32 = 106175;
+pub const DELAY_TICKS: u32 = 106_175;
 
-/// When to trigger. Ticks count from the start of opening, which comes [`DELAY_TICKS`] after the edge of the camera's sync; add both to the timer's count at the edge, wrapping.
-#[allow(dead_code)]
+/// When to trigger, counted from the start of opening.
+#[allow(dead_code, clippy::unreadable_literal)]
+#[rustfmt::skip]
 pub const TICKS: [u32; 16] = [
     32391, 48161, 59197, 69077, 78849, 88621, 98394, 108166, 117938, 127710, 137482, 147254, 157026,
     166798, 176964, 190651,
 ];
+
+/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
+/// `edge + DELAY_TICKS + TICKS[i]`, wrapping.
+#[allow(dead_code)]
+#[must_use]
+pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {
+    let at = move |ticks: u32| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
+    TICKS.iter().map(move |&ticks| at(ticks))
+}

@@ -15,7 +15,7 @@ static uint32_t fired[LEAF_TRIGGERS];
 static void fire(uint32_t edge, const uint32_t *ticks, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t due = edge + LEAF_DELAY_TICKS + ticks[i];
+        uint32_t due = leaf_due(edge, ticks[i]);
         while ((int32_t)(host_now() - due) < 0) {
         }
         fired[i] = host_now() - edge;

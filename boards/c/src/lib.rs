@@ -4,7 +4,6 @@
 #![no_std]
 
 mod edge;
-#[rustfmt::skip]
 mod speeds;
 
 use shutter_curve::{ScheduleError, ShutterCurve};

@@ -4,7 +4,7 @@ use shutter_curve::ShutterCurve;
 
 /// The timer's rate.
 #[allow(dead_code)]
-pub const TIMER_HZ: u32 = 25000000;
+pub const TIMER_HZ: u32 = 25_000_000;
 
 /// A speed of the shutter.
 #[allow(dead_code)]
@@ -21,6 +21,7 @@ pub struct Speed {
 
 /// The speeds.
 #[allow(dead_code)]
+#[rustfmt::skip]
 pub static SPEEDS: [Speed; 2] = [
     Speed {
         name: "leaf",
@@ -56,7 +57,8 @@ pub mod leaf {
     use shutter_curve::{ShutterCurve, valid};
 
     /// The shutter, its times in seconds.
-    #[allow(dead_code)]
+    #[allow(dead_code, clippy::unreadable_literal)]
+    #[rustfmt::skip]
     pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
         [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
         [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
@@ -64,18 +66,28 @@ pub mod leaf {
 
     /// The timer's rate.
     #[allow(dead_code)]
-    pub const TIMER_HZ: u32 = 25000000;
+    pub const TIMER_HZ: u32 = 25_000_000;
 
     /// From the edge of the camera's sync to the start of opening.
     #[allow(dead_code)]
-    pub const DELAY_TICKS: u32 = 106175;
+    pub const DELAY_TICKS: u32 = 106_175;
 
-    /// When to trigger. Ticks count from the start of opening, which comes [`DELAY_TICKS`] after the edge of the camera's sync; add both to the timer's count at the edge, wrapping.
-    #[allow(dead_code)]
+    /// When to trigger, counted from the start of opening.
+    #[allow(dead_code, clippy::unreadable_literal)]
+    #[rustfmt::skip]
     pub const TICKS: [u32; 16] = [
         32391, 48161, 59197, 69077, 78849, 88621, 98394, 108166, 117938, 127710, 137482, 147254, 157026,
         166798, 176964, 190651,
     ];
+
+    /// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
+    /// `edge + DELAY_TICKS + TICKS[i]`, wrapping.
+    #[allow(dead_code)]
+    #[must_use]
+    pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {
+        let at = move |ticks: u32| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
+        TICKS.iter().map(move |&ticks| at(ticks))
+    }
 }
 
 /// A speed of the shutter.
@@ -99,20 +111,31 @@ pub mod fast {
     use shutter_curve::{ShutterCurve, valid};
 
     /// The shutter, its times in seconds.
-    #[allow(dead_code)]
+    #[allow(dead_code, clippy::unreadable_literal)]
+    #[rustfmt::skip]
     pub static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.00425, 0.0064, 0.007, 0.0091));
 
     /// The timer's rate.
     #[allow(dead_code)]
-    pub const TIMER_HZ: u32 = 25000000;
+    pub const TIMER_HZ: u32 = 25_000_000;
 
     /// From the edge of the camera's sync to the start of opening.
     #[allow(dead_code)]
-    pub const DELAY_TICKS: u32 = 106250;
+    pub const DELAY_TICKS: u32 = 106_250;
 
-    /// When to trigger. Ticks count from the start of opening, which comes [`DELAY_TICKS`] after the edge of the camera's sync; add both to the timer's count at the edge, wrapping.
-    #[allow(dead_code)]
+    /// When to trigger, counted from the start of opening.
+    #[allow(dead_code, clippy::unreadable_literal)]
+    #[rustfmt::skip]
     pub const TICKS: [u32; 8] = [
         21394, 37056, 47839, 56680, 65195, 73970, 84627, 100106,
     ];
+
+    /// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
+    /// `edge + DELAY_TICKS + TICKS[i]`, wrapping.
+    #[allow(dead_code)]
+    #[must_use]
+    pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {
+        let at = move |ticks: u32| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
+        TICKS.iter().map(move |&ticks| at(ticks))
+    }
 }

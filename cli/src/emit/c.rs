@@ -1,12 +1,12 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows, ticks};
+use super::{MADE_BY, comment, has_pulses, name, pulses, rows, ticks};
 use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
 pub fn header(scene: &str, plan: &Planned) -> String {
     let (lower, upper) = names(scene);
-    let ticks = ticks(plan);
+    let (ticks, bits) = (ticks(plan), plan.timer().bits);
     let n = ticks.len();
     let mut body = format!(
         "#include <stdint.h>
@@ -15,22 +15,37 @@ pub fn header(scene: &str, plan: &Planned) -> String {
 #define {upper}_TIMER_HZ UINT32_C({})
 #define {upper}_TRIGGERS {n}
 ",
-        plan.timer_hz()
+        plan.timer().hz
     );
     if let Some(delay) = plan.delay() {
         body += &format!(
-            "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT32_C({})\n",
+            "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
             delay.ticks
         );
     }
-    let base = base(plan, &format!("{upper}_DELAY_TICKS"));
-    body += &array(&format!("When to trigger. {base}"), &lower, "ticks", &upper, &rows(ticks));
+    let array = |about: &str, what: &str, ticks: String| {
+        format!(
+            "\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_TRIGGERS] = {{\n{ticks}}};\n"
+        )
+    };
+    body += &array("When to trigger, counted from the start of opening.", "ticks", rows(ticks));
     if has_pulses(plan) {
         for (edge, which) in ["on", "off"].into_iter().zip(0..) {
             let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
             let about = format!("When to switch the lamp {edge}, counted as {lower}_ticks are.");
-            body += &array(&about, &lower, edge, &upper, &ticks);
+            body += &array(&about, edge, ticks);
         }
+    }
+    if plan.delay().is_some() {
+        body += &format!(
+            "
+/* The timer's count at such ticks, where it counted `edge` at the edge of the camera's sync. */
+static inline uint{bits}_t {lower}_due(uint{bits}_t edge, uint{bits}_t ticks)
+{{
+    return (uint{bits}_t)(edge + {upper}_DELAY_TICKS + ticks); /* wrapping */
+}}
+"
+        );
     }
     format!("/*\n{} */\n{}", comment(" * ", scene, plan), guarded(&upper, &lower, &body))
 }
@@ -39,18 +54,23 @@ pub fn header(scene: &str, plan: &Planned) -> String {
 pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let (lower, upper) = names(called);
+    let bits = one.timer().bits;
     let mut body = format!(
         "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n\n",
-        one.timer_hz(),
+        one.timer().hz,
         plans.len()
     );
     body += "typedef struct {\n    const char *name;\n    uint32_t triggers;\n";
     if one.delay().is_some() {
-        body += "    /* From the edge of the camera's sync to the start of opening. */\n    uint32_t delay_ticks;\n";
+        body += &format!(
+            "    /* From the edge of the camera's sync to the start of opening. */\n    uint{bits}_t delay_ticks;\n"
+        );
     }
-    body += "    /* So many as there are triggers, counted from the start of opening. */\n    const uint32_t *ticks;\n";
+    body += &format!(
+        "    /* So many as there are triggers, counted from the start of opening. */\n    const uint{bits}_t *ticks;\n"
+    );
     if has_pulses(one) {
-        body += "    const uint32_t *on;\n    const uint32_t *off;\n";
+        body += &format!("    const uint{bits}_t *on;\n    const uint{bits}_t *off;\n");
     }
     body += &format!(
         "}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n"
@@ -79,12 +99,6 @@ fn names(scene: &str) -> (String, String) {
     let lower = name::identifier(scene);
     let upper = lower.to_ascii_uppercase();
     (lower, upper)
-}
-
-fn array(about: &str, lower: &str, what: &str, upper: &str, rows: &str) -> String {
-    format!(
-        "\n/* {about} */\nstatic const uint32_t {lower}_{what}[{upper}_TRIGGERS] = {{\n{rows}}};\n"
-    )
 }
 
 /// The body, once; another one of the same name does not compile, rather than being left out in silence.

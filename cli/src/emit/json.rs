@@ -75,7 +75,7 @@ impl<'a> Document<'a> {
         };
         Self {
             scene,
-            timer_hz: plan.timer_hz(),
+            timer_hz: plan.timer().hz,
             delay_s: plan.delay().map(|delay| delay.seconds),
             delay_ticks: plan.delay().map(|delay| delay.ticks),
             curve: plan.plan().map(Curve::new),

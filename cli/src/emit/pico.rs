@@ -18,7 +18,8 @@ const LONGEST: f64 = (1u64 << 32) as f64;
 pub fn lines(planned: &Planned) -> Result<String, String> {
     let Some(plan) = planned.plan() else {
         return Err(
-            "the board plans its frames by a curve, and the scene has trigger times without one"
+            "the board plans its frames by a curve, and the scene has trigger times without one: \
+                    boards/pico-embassy fires what `--emit rust` makes of them"
                 .into(),
         );
     };

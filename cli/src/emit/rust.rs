@@ -1,11 +1,13 @@
 //! A plan as a module of Rust.
 
-use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows, ticks};
+use super::{MADE_BY, comment, has_pulses, name, pulses, rows, ticks};
 use crate::planned::Planned;
 use crate::shape::Shape;
 
 /// Said of each item: a firmware need not use them all.
 const ALLOW: &str = "#[allow(dead_code)]";
+/// Said of tables: their digits stand as in every other form, in rows of our own.
+const TABLE: &str = "#[allow(dead_code, clippy::unreadable_literal)]\n#[rustfmt::skip]";
 
 /// The file of a module that is called as the scene is.
 pub fn module(scene: &str, plan: &Planned) -> String {
@@ -15,6 +17,7 @@ pub fn module(scene: &str, plan: &Planned) -> String {
 /// The file of a module with one module for each plan, and an array of them all.
 pub fn modules(called: &str, plans: &[(String, Planned)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
+    let int = int(one);
     // A speed that was measured, and is no curve, leaves the others without theirs.
     let has_curves = plans.iter().all(|(_, plan)| plan.plan().is_some());
     let (import, shutter) = match has_curves {
@@ -39,17 +42,23 @@ pub struct Speed {{
 {shutter}",
         name::shown(called),
         plans.len(),
-        one.timer_hz()
+        grouped(one.timer().hz)
     );
     if one.delay().is_some() {
-        text += "    /// From the edge of the camera's sync to the start of opening.\n    pub delay_ticks: u32,\n";
-    }
-    text += "    /// When to trigger, counted from the start of opening.\n    pub ticks: &'static [u32],\n";
-    if has_pulses(one) {
-        text += "    /// When to switch the lamp on, and when off, counted as `ticks` are.\n    pub pulses: &'static [(u32, u32)],\n";
+        text += &format!(
+            "    /// From the edge of the camera's sync to the start of opening.\n    pub delay_ticks: {int},\n"
+        );
     }
     text += &format!(
-        "}}\n\n/// The speeds.\n{ALLOW}\npub static SPEEDS: [Speed; {}] = [\n",
+        "    /// When to trigger, counted from the start of opening.\n    pub ticks: &'static [{int}],\n"
+    );
+    if has_pulses(one) {
+        text += &format!(
+            "    /// When to switch the lamp on, and when off, counted as `ticks` are.\n    pub pulses: &'static [({int}, {int})],\n"
+        );
+    }
+    text += &format!(
+        "}}\n\n/// The speeds.\n{ALLOW}\n#[rustfmt::skip]\npub static SPEEDS: [Speed; {}] = [\n",
         plans.len()
     );
     for (scene, plan) in plans {
@@ -79,51 +88,90 @@ pub struct Speed {{
 
 /// The items of a plan's module.
 fn items(plan: &Planned) -> String {
-    let ticks = ticks(plan);
+    let (ticks, int) = (ticks(plan), int(plan));
     let n = ticks.len();
-    let shutter = plan.plan().map(|plan| {
-        format!(
+    let mut text = String::new();
+    if let Some(plan) = plan.plan() {
+        text += &format!(
             "use shutter_curve::{{ShutterCurve, valid}};
 
 /// The shutter, its times in seconds.
-{ALLOW}
+{TABLE}
 pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
 
 ",
             constructor(&plan.shape)
-        )
-    });
-    let mut text = format!(
-        "{}/// The timer's rate.
-{ALLOW}
-pub const TIMER_HZ: u32 = {};
-",
-        shutter.unwrap_or_default(),
-        plan.timer_hz(),
-    );
-    if let Some(delay) = plan.delay() {
-        text += &format!(
-            "\n/// From the edge of the camera's sync to the start of opening.\n{ALLOW}\npub const DELAY_TICKS: u32 = {};\n",
-            delay.ticks
         );
     }
     text += &format!(
-        "\n/// When to trigger. {}\n{ALLOW}\npub const TICKS: [u32; {n}] = [\n{}];\n",
-        base(plan, "[`DELAY_TICKS`]"),
+        "/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {};\n",
+        grouped(plan.timer().hz)
+    );
+    if let Some(delay) = plan.delay() {
+        text += &format!(
+            "\n/// From the edge of the camera's sync to the start of opening.\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
+            grouped(delay.ticks)
+        );
+    }
+    text += &format!(
+        "\n/// When to trigger, counted from the start of opening.\n{TABLE}\npub const TICKS: [{int}; {n}] = [\n{}];\n",
         rows(ticks),
     );
     if has_pulses(plan) {
         text += &format!(
             "
 /// When to switch the lamp on, and when off, counted as [`TICKS`] are.
-{ALLOW}
-pub const PULSES: [(u32, u32); {n}] = [
+{TABLE}
+pub const PULSES: [({int}, {int}); {n}] = [
 {}];
 ",
             rows(pulses(plan).map(|(on, off)| format!("({on}, {off})"))),
         );
     }
+    if plan.delay().is_some() {
+        text += &due(plan, int);
+    }
     text
+}
+
+/// What its user adds: the edge, the delay and the ticks.
+fn due(plan: &Planned, int: &str) -> String {
+    let (what, array, item, each) = match has_pulses(plan) {
+        true => (
+            "switch the lamp on, and off",
+            "PULSES",
+            format!("({int}, {int})"),
+            "|&(on, off)| (at(on), at(off))",
+        ),
+        false => ("trigger", "TICKS", int.into(), "|&ticks| at(ticks)"),
+    };
+    format!(
+        "
+/// The timer's counts at which to {what}, where it counted `edge` at the edge of the camera's sync:
+/// `edge + DELAY_TICKS + {array}[i]`, wrapping.
+{ALLOW}
+#[must_use]
+pub fn due(edge: {int}) -> impl ExactSizeIterator<Item = {item}> {{
+    let at = move |ticks: {int}| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
+    {array}.iter().map(move {each})
+}}
+"
+    )
+}
+
+/// The type of the timer's count.
+fn int(plan: &Planned) -> &'static str {
+    match plan.timer().bits {
+        16 => "u16",
+        _ => "u32",
+    }
+}
+
+/// A number's digits in groups of three.
+fn grouped(n: u32) -> String {
+    let digits = n.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev();
+    groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join("_")
 }
 
 /// The call that makes the curve; `{:?}` writes an `f32` as a literal that is it.

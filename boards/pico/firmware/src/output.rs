@@ -5,7 +5,7 @@
 use core::mem;
 
 use embedded_dma::ReadBuffer;
-use pio::{Program, pio_asm};
+use pio::{Program, pio_file};
 use rp2040_hal::dma::single_buffer::{Config, Transfer};
 use rp2040_hal::dma::{Channel, ChannelIndex, SingleChannel};
 use rp2040_hal::pac::PIO0;
@@ -14,31 +14,10 @@ use rp2040_hal::pio::{
 };
 use strobe::{Edge, Frame};
 
-/// What the state machine does, in cycles of 8 ns.
+/// What the state machine does, an instruction each 8 ns. The edge that it waits for is inverted before it, where that is the falling
+/// one, and its interrupt at a frame's end arms the next.
 fn program() -> Program<32> {
-    let program = pio_asm!(
-        ".side_set 1",
-        ".wrap_target",
-        "    pull block       side 0", // the number of pulses, less 1
-        "    mov y, osr       side 0",
-        "    wait 0 pin 0     side 0", // an edge starts the frame, not a level; inverted before, where it is the falling one
-        "    wait 1 pin 0     side 0",
-        "pulse:",
-        // Both words are here before the pin goes high, so that it cannot be left high.
-        "    pull block       side 0", // the length
-        "    mov isr, osr     side 0",
-        "    pull block       side 0", // the time before
-        "    mov x, osr       side 0",
-        "low:",
-        "    jmp x-- low      side 0",
-        "    mov x, isr       side 1",
-        "high:",
-        "    jmp x-- high     side 1",
-        "    jmp y-- pulse    side 0",
-        "    irq nowait 0 rel side 0", // the frame is over: the interrupt arms the next
-        ".wrap",
-    );
-    program.program
+    pio_file!("../../pico-embassy/src/pulses.pio").program
 }
 
 /// A frame while the DMA reads it.

@@ -7,6 +7,12 @@ use shutter_curve::{ShutterCurve, valid};
 
 static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 
+/// The second boot stage, which sets up the Pico's flash.
+#[allow(unsafe_code)]
+#[unsafe(link_section = ".boot2")]
+#[used]
+static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_W25Q080;
+
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {
     loop {

@@ -1,0 +1,49 @@
+// Made by `shutter plan` 0.2.0.
+//
+// scene        leaf
+// shutter      opens from 4.247 to 6.8739, closes from 10.959 to 12.958 ms
+// times        T1 2.6269 ms opening, T2 4.0849 ms fully open, T3 1.9988 ms closing
+// half open    TE 6.2364 ms, between the half openings
+// exposure     TV 6.2541 ms, fully open for as much light
+// efficiency   71.8 %
+// timer        100000000 Hz
+// delay        4.247 ms from the sync's edge to the start of opening: 424702 ticks
+// gap          at least 0.1 ms; the closest two come 39088 ticks apart
+// set-up       emulated: equal flashes while the camera's own shutter stays open
+// triggers     16; up to 62 keep the gap
+// direct       frames of up to 630 triggers are placed without a search
+
+use shutter_curve::{ShutterCurve, valid};
+
+/// The shutter, its times in seconds.
+#[allow(dead_code, clippy::unreadable_literal)]
+#[rustfmt::skip]
+pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
+    [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
+    [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
+));
+
+/// The timer's rate.
+#[allow(dead_code)]
+pub const TIMER_HZ: u32 = 100_000_000;
+
+/// From the edge of the camera's sync to the start of opening.
+#[allow(dead_code)]
+pub const DELAY_TICKS: u32 = 424_702;
+
+/// When to trigger, counted from the start of opening.
+#[allow(dead_code, clippy::unreadable_literal)]
+#[rustfmt::skip]
+pub const TICKS: [u32; 16] = [
+    129565, 192642, 236786, 276309, 315398, 354486, 393574, 432663, 471751, 510839, 549928, 589016,
+    628104, 667193, 707857, 762604,
+];
+
+/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
+/// `edge + DELAY_TICKS + TICKS[i]`, wrapping.
+#[allow(dead_code)]
+#[must_use]
+pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {
+    let at = move |ticks: u32| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
+    TICKS.iter().map(move |&ticks| at(ticks))
+}
