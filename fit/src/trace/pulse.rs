@@ -25,8 +25,10 @@ const SWITCH: (f64, f64) = (0.4, 0.6);
 /// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
 const GLITCH: f64 = 0.2;
 
-/// No camera fires again so soon, in seconds, but a lamp on the mains or behind a switch does.
-const FASTEST: f64 = 0.011;
+/// No camera fires again so soon, in seconds, but a lamp behind a switch does.
+const FASTEST: f64 = 1.0 / 150.0;
+/// And a lamp on the mains flashes so often, in hertz, to a fiftieth.
+const MAINS: [f64; 2] = [100.0, 120.0];
 
 /// So far below the dark, as a share of the light, neither drift nor hum take a signal.
 const UNDERSHOOT: f64 = 0.1;
@@ -166,12 +168,14 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
 /// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
 /// the least step of the values makes.
 fn noise(values: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    let least = steps.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-    let rounding = if least.is_finite() { least / 12f64.sqrt() } else { 0.0 };
-    let middle = steps.len() / 2;
-    let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    (median / 0.6745 / 2f64.sqrt()).max(rounding)
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
+}
+
+/// The least step from one value to the next, or 0.
+pub fn least_step(values: &[f64]) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| *s > 0.0);
+    steps.reduce(f64::min).unwrap_or(0.0)
 }
 
 fn range(values: &[f64]) -> (f64, f64) {
@@ -199,13 +203,15 @@ fn common_rounding(values: &[f64]) -> f64 {
 fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     let Trace { times, values } = trace;
     let n = values.len();
+    let least = least_step(values);
     let is_spike = |i: usize| {
         let near = (i.saturating_sub(4)..i.saturating_sub(1)).chain((i + 2).min(n)..(i + 5).min(n));
         let (low, high) = near.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| {
             (low.min(values[k]), high.max(values[k]))
         });
         let outside = (values[i] - high).max(low - values[i]);
-        outside > (SPIKE * noise).max(1.5 * (high - low))
+        // A step of the values more is no spike.
+        outside > (SPIKE * noise).max(1.5 * (high - low)) + least
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
@@ -354,7 +360,8 @@ fn pulsed(times: &[f64], runs: &[Range<usize>]) -> Option<Warning> {
     let gaps: Vec<f64> =
         runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
     let period = if gaps.is_empty() { return None } else { median(gaps) };
-    (period < FASTEST).then_some(Warning::Pulsed { hertz: 1.0 / period })
+    let is_mains = MAINS.into_iter().any(|hertz| (hertz * period - 1.0).abs() < 0.02);
+    (period < FASTEST || is_mains).then_some(Warning::Pulsed { hertz: 1.0 / period })
 }
 
 /// Drops the runs with too little light to be pulses, and tells how many.
