@@ -13,7 +13,7 @@ use crate::units::Units;
 /// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
 /// Blades may start more softly than a cubic does: this share of the time below this openness may be missing before it.
-const SOFTER: f64 = 0.5;
+const SOFTER: f64 = 0.4;
 const SOFT: f64 = 0.02;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
 const PEAK: f64 = 0.1;
