@@ -95,6 +95,10 @@ pub fn warning(warning: &Warning) -> Told {
             "full",
             "there is no plateau: the shutter may never open fully, and the peak counts as full light, unless you give the signal of full light".into(),
         ),
+        W::ShortHum { amplitude, periods, .. } => {
+            let text = format!("hum of {:.2} % of the light, of which the record holds {periods:.1} periods, is taken out; a drift or the shutter's own shape may pass for it: record three periods (60 ms)", 100.0 * amplitude);
+            return Told { text, mend: None };
+        }
         W::Misfit { share, by_trace, .. } => {
             let whose = match by_trace {
                 true => "the trace's own, and the curve's are not",
@@ -146,6 +150,7 @@ mod tests {
             R::EndsInPulse { has_way: true },
             R::NoFrame { number: 3, frames: 2 },
             R::FullTooLow { given: 1.0, seen: 2.0 },
+            R::LostRamp { from: 0.1, to: 0.2 },
             R::NoDelay { reason: text() },
             R::Undetermined,
             R::NoScene { reason: text() },
@@ -174,7 +179,12 @@ mod tests {
             W::Inverted,
             W::Clipped { share: 0.1, at: 1.0 },
             W::Hum { hertz: 50.0, amplitude: 0.1 },
+            W::ShortHum { hertz: 50.0, amplitude: 0.1, periods: 1.0, is_known: false },
             W::Drift { amount: 0.1 },
+            W::DriftOrCapacitor { amount: 0.1 },
+            W::Gap { count: 1, from: 0.1, to: 0.2 },
+            W::WideError { share: 0.1 },
+            W::Unseen { share: 0.1 },
             W::NoiseHidesRamps { noise: 0.1 },
             W::SharpEdges { step: 0.1 },
             W::NoPlateau,

@@ -6,8 +6,10 @@ use crate::shots::Shots;
 use crate::signal::Kind;
 use crate::structure::structure;
 
-/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter.
+/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter, or a share
+/// of the exposure that matters to nobody.
 const WITHIN: f64 = 1.1;
+const LITTLE: f64 = 4e-4;
 
 /// Every kind's curve, judged by `n` triggers.
 pub fn candidates(fits: &FrameFits, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
@@ -53,7 +55,7 @@ pub fn choose(
         return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
     }
     if let Some(Shots { count, scatter, .. }) = shots {
-        let meets = |error: f64| error <= WITHIN * scatter;
+        let meets = |error: f64| error <= (WITHIN * scatter).max(LITTLE);
         let (shots, scatter) = (*count, *scatter);
         let found = candidates.iter().find(|candidate| candidate.left_out.is_some_and(meets));
         return match found {

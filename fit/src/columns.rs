@@ -3,7 +3,7 @@
 use crate::bins::Bin;
 use crate::hum;
 use crate::kind::KindFit;
-use crate::lag::passes_for_drift;
+use crate::lag::passes_for_columns;
 use crate::noise::correlation;
 use crate::signal::{Flicker, Signal};
 use crate::solve::Problem;
@@ -17,21 +17,36 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 1.0;
 
+/// The mains as far as they are known, where a unit of time is `second` seconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Mains {
+    pub second: f64,
+    pub hertz: Option<f64>,
+}
+
 /// The fit with a drift and a hum, if they are worth it, or none where neither is.
 pub fn with_columns(
     problem: &Problem,
     plain: &KindFit,
     samples: &[Bin],
     step: f64,
+    mains: Mains,
 ) -> Option<KindFit> {
     let start = Signal { drift: Some(0.0), ..plain.solution.signal };
     let drifting = if_worth_it(problem, &start, plain, samples);
     let drifting = drifting.filter(|found| {
-        drifts_before(found, samples) && !passes_for_drift(problem, &found.solution, step)
+        drifts_before(found, samples) && !passes_for_columns(&found.solution, &problem.bins, step)
     });
-    let without = drifting.as_ref().unwrap_or(plain);
-
-    humming(problem, without, samples).or(drifting)
+    let humming = |without: &KindFit| {
+        let found = humming(problem, without, samples, mains);
+        found.filter(|found| !passes_for_columns(&found.solution, &problem.bins, step))
+    };
+    let alone = humming(plain);
+    let Some(drifting) = drifting else { return alone };
+    let both = humming(&drifting);
+    // A hum of few periods may be all of the drift.
+    let best = alone.filter(|alone| is_better(alone, &drifting, 0.0)).unwrap_or(drifting);
+    Some(both.filter(|both| is_better(both, &best, WORTH)).unwrap_or(best))
 }
 
 /// Is the drift in the dark before the pulse as well, as far as that shows? What is in the dark after alone is a tail.
@@ -51,13 +66,16 @@ fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
 }
 
 /// With the strongest hum, if that is in the dark as well: what is in the pulse alone is the shutter's own.
-fn humming(problem: &Problem, without: &KindFit, samples: &[Bin]) -> Option<KindFit> {
+fn humming(problem: &Problem, without: &KindFit, samples: &[Bin], mains: Mains) -> Option<KindFit> {
     let signal = without.solution.signal;
-    let hum = hum::strongest(&problem.bins, &signal)?;
-    let start = Signal { hum: Some(hum), ..signal };
-    let found = if_worth_it(problem, &start, without, samples)?;
-    let hum = found.solution.signal.hum?;
-    hum::is_in_the_dark(&problem.bins, &signal, &hum).then_some(found)
+    let all = hum::strongest(&problem.bins, &signal, mains).into_iter();
+    let found = all
+        .filter_map(|hum| {
+            let start = Signal { hum: Some(hum), ..signal };
+            if_worth_it(problem, &start, without, samples)
+        })
+        .min_by(|a, b| a.squares.total_cmp(&b.squares))?;
+    hum::is_one(&problem.bins, &found.solution.signal).then_some(found)
 }
 
 /// With the flicker of a lamp on the mains, if that is worth it. A unit of time is `second` seconds.
@@ -84,7 +102,11 @@ fn if_worth_it(
     samples: &[Bin],
 ) -> Option<KindFit> {
     let with = KindFit::new(problem.minimise(start), samples);
-    // What the column explains must not count as correlated noise.
+    is_better(&with, without, WORTH).then_some(with)
+}
+
+/// Is the criterion of one fit lower by so much? What it explains must not count as correlated noise.
+fn is_better(with: &KindFit, without: &KindFit, by: f64) -> bool {
     let correlation = correlation(&with.residuals);
-    (with.bic(correlation) < without.bic(correlation) - WORTH).then_some(with)
+    with.bic(correlation) < without.bic(correlation) - by
 }

@@ -1,12 +1,20 @@
 //! What is doubtful about a fit: each doubt looks at the fit by itself, and is told or not.
 
 use crate::bins::Bin;
+use crate::curve::Exposure;
 use crate::frame::FrameFits;
+use crate::hum;
+use crate::lag;
 use crate::missed::{Parts, missed};
 use crate::outcome::{Fit, From, Test};
 use crate::signal::Kind;
-use crate::structure::Walk;
-use crate::trace::{Frame, Warning};
+use crate::structure::{FIFTH, UNSEEN, Walk};
+use crate::trace::{Frame, Warning, least_step};
+
+/// A capacitor that is taken for a drift of this share of the light moves the triggers by a per mille.
+const LARGE: f64 = 0.015;
+/// A standard error of the exposure or of a trigger beyond this share of the exposure is told.
+const WIDE: f64 = 0.02;
 
 /// All doubts about the fit of a frame.
 pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
@@ -16,13 +24,15 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
     let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
     let doubts = [
         clipped(fit).or_else(|| saturated(fit, fits)),
-        if is_bent { None } else { hum(fit) },
+        if is_bent { None } else { hum(fit, fits) },
         flicker(fit),
         cut_tail(fit, fits),
-        drift(fit),
+        drift(fit, fits),
         lost_ramps(fit, fits.correlation, frame, step),
-        if full_is_given { None } else { no_plateau(fit, step) },
+        if full_is_given { None } else { no_plateau(fit) },
         misfit(fit),
+        wide_error(fit),
+        unseen(fit),
     ];
     doubts.into_iter().flatten().collect()
 }
@@ -37,9 +47,12 @@ fn clipped(fit: &Fit) -> Option<Warning> {
     let mut low: Vec<f64> = values.iter().copied().filter(|v| *v < dark + 0.1 * gain).collect();
     low.sort_by(f64::total_cmp);
     let same = low.chunk_by(|a, b| a == b).map(<[f64]>::len).max().unwrap_or(0);
+    // Noise that is not cut off thins out to its top.
+    let next = values.iter().copied().filter(|v| *v < top).fold(f64::NEG_INFINITY, f64::max);
+    let heaps = at_top > 3 * values.iter().filter(|v| **v == next).count();
     let share = at_top as f64 / light.max(1) as f64;
     let noise_shows = (same as f64) < 0.45 * low.len() as f64;
-    (at_top >= 5 && share > 0.05 && noise_shows)
+    (at_top >= 5 && share > 0.05 && noise_shows && heaps)
         .then_some(Warning::Clipped { share, at: fit.as_measured(top) })
 }
 
@@ -58,17 +71,26 @@ fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
         return None;
     }
     let [quiet, usual] = [&light, &dark].map(|d| d.iter().sum::<f64>() / d.len() as f64);
-    // Twenty differences and more scatter by a half at most; rounding makes both the same.
-    let is_quiet = quiet < 0.25 * usual && usual.sqrt() * fits.rounding.recip() > 4.0;
+    // Twenty differences and more scatter by a half at most; a level between two steps of the values makes noise of its
+    // own.
+    let least = least_step(&fit.samples.values) / fit.best().signal.gain;
+    let is_quiet = quiet < 0.25 * usual && usual.sqrt() > least;
     let top = fit.best().signal.dark + fit.best().signal.gain;
     let share = light.len() as f64 / (parts.pulse.len() as f64);
     is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(top) })
 }
 
-fn hum(fit: &Fit) -> Option<Warning> {
+/// A hum; of few periods it is told from the shutter's own shape by the mains' frequency alone.
+fn hum(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let signal = fit.best().signal;
     let hum = signal.hum?;
-    Some(Warning::Hum { hertz: hum.frequency, amplitude: hum.amplitude() / signal.gain })
+    let periods = hum::periods(fits.bins(), &fits.of(fit.chosen).solution.signal.hum?);
+    let (hertz, amplitude) = (hum.frequency, hum.amplitude() / signal.gain);
+    if periods < hum::FEWEST {
+        let is_known = hum.range.0 == hum.range.1;
+        return Some(Warning::ShortHum { hertz, amplitude, periods, is_known });
+    }
+    Some(Warning::Hum { hertz, amplitude })
 }
 
 fn flicker(fit: &Fit) -> Option<Warning> {
@@ -105,11 +127,21 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     (falls && left > 5.0 * error && left > 1e-3).then_some(Warning::CutTail { left })
 }
 
-fn drift(fit: &Fit) -> Option<Warning> {
+/// A drift; one that a capacitor explains as well, within two standard deviations, and that moves the triggers, is
+/// doubted.
+fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let signal = fit.best().signal;
     let times = &fit.samples.times;
     let length = times[times.len() - 1] - times[0];
-    Some(Warning::Drift { amount: signal.drift? * length / signal.gain })
+    let amount = signal.drift? * length / signal.gain;
+    let fitted = fits.of(fit.chosen);
+    let noise = fitted.variance() * fits.correlation;
+    let charge = lag::charge(&fitted.solution, fits.bins());
+    let (charge, line) = lag::falls(&fitted.solution, fits.bins(), &charge)?;
+    if amount.abs() > LARGE && charge > line - 4.0 * noise {
+        return Some(Warning::DriftOrCapacitor { amount });
+    }
+    Some(Warning::Drift { amount })
 }
 
 /// Ramps that are as short as a sample, or else lost in the noise.
@@ -131,9 +163,32 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
     (noise / on_ramp.sqrt() > 0.03).then_some(Warning::NoiseHidesRamps { noise: best.rms })
 }
 
-fn no_plateau(fit: &Fit, step: f64) -> Option<Warning> {
+/// A curve that comes to a point, or nearly, by how much of the time above half it is above 95 % of its peak: a tenth
+/// of a triangle's, three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau
+/// of a tenth of the whole.
+fn no_plateau(fit: &Fit) -> Option<Warning> {
     let curve = fit.best().signal.curve;
-    (curve.plateau < step.max(0.01 * curve.length())).then_some(Warning::NoPlateau)
+    let above = |openness: f64| {
+        let feet = Exposure::new(&curve).feet(openness);
+        curve.length() - feet[0] - feet[1]
+    };
+    let (top, half) = (above(0.95), above(0.5));
+    let is_peak = top < 0.25 * half || 3.0 * top < half && curve.plateau < 0.1 * curve.length();
+    is_peak.then_some(Warning::NoPlateau)
+}
+
+/// What the test does not see.
+fn unseen(fit: &Fit) -> Option<Warning> {
+    let Test { tested, unseen, .. } = fit.test;
+    (tested && fit.from == From::Model && unseen > UNSEEN)
+        .then_some(Warning::Unseen { share: unseen / FIFTH })
+}
+
+/// Errors beyond which a result is of no use to most.
+fn wide_error(fit: &Fit) -> Option<Warning> {
+    let exposure = fit.exposure.value;
+    let share = fit.triggers.iter().map(|trigger| trigger.error).fold(fit.exposure.error, f64::max);
+    (share > WIDE * exposure).then_some(Warning::WideError { share: share / exposure })
 }
 
 /// Structure that the model does not explain, or too little dark to tell.

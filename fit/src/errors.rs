@@ -3,14 +3,18 @@
 
 use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
+use crate::hum;
 use crate::missed::{Missed, least_open};
-use crate::signal::Kind;
+use crate::signal::{Hum, Kind};
 use crate::solve::Cholesky;
 use crate::units::Units;
 
 /// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
 /// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
+/// Blades may start more softly than a cubic does: this share of the time below this openness may be missing before it.
+const SOFTER: f64 = 0.4;
+const SOFT: f64 = 0.02;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
 const PEAK: f64 = 0.1;
 
@@ -82,21 +86,41 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     chosen.widened(fits, kind)
 }
 
+/// What a hum of few periods leaves unknown, as a share of it, where its frequency was not given.
+const SHORT_HUM: f64 = 0.1;
 /// What a lamp's flicker leaves unknown, as a share of it, where a period of it is in the pulse.
 const FLICKER: f64 = 0.2;
 
 impl Results {
     /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
-    fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
-        let lamp = fits.of(kind).solution.signal.flicker;
+    pub fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
+        let signal = fits.of(kind).solution.signal;
+        let is_short =
+            |hum: &Hum| hum.range.0 < hum.range.1 && hum::periods(fits.bins(), hum) < hum::FEWEST;
+        let hum = signal
+            .hum
+            .filter(is_short)
+            .map_or(0.0, |hum| SHORT_HUM * hum.amplitude() / signal.gain);
+        let lamp = signal.flicker;
         let lamp = lamp.map_or(0.0, |lamp| FLICKER * lamp.amplitude() / lamp.frequency);
-        let share = (2f64.sqrt() * fits.rounding).hypot(lamp);
+        let share = (2f64.sqrt() * fits.rounding).hypot(lamp).hypot(hum);
         for result in [&mut self.exposure, &mut self.efficiency] {
             result.error = result.error.hypot(share * result.value);
         }
-        let late = fits.rounding.hypot(0.3 * lamp) * self.exposure.value;
+        let late = fits.rounding.hypot(0.3 * lamp).hypot(hum) * self.exposure.value;
         for time in self.triggers.iter_mut().chain([&mut self.start]) {
             time.error = time.error.hypot(late);
+        }
+        self
+    }
+}
+
+impl Results {
+    /// With structure that the test does not see, of this share of the exposure.
+    pub fn with_unseen(mut self, share: f64) -> Self {
+        let by = 0.5 * share * self.exposure.value;
+        for result in self.triggers.iter_mut().chain([&mut self.exposure]) {
+            result.error = result.error.hypot(by);
         }
         self
     }
@@ -134,9 +158,10 @@ impl<'a> OfKind<'a> {
     }
 
     fn results(&self, n: u32) -> Results {
-        let exposure = self.exposure();
+        let (triggers, by_shape) = self.triggers(n);
+        let exposure = self.exposure(by_shape);
         let efficiency = self.efficiency(exposure);
-        Results { exposure, efficiency, start: self.start(), triggers: self.triggers(n) }
+        Results { exposure, efficiency, start: self.start(), triggers }
     }
 
     /// The light that each foot may hold or not.
@@ -144,10 +169,10 @@ impl<'a> OfKind<'a> {
         self.feet.map(|time| FOOT * time)
     }
 
-    fn exposure(&self) -> Measured {
+    fn exposure(&self, by_shape: f64) -> Measured {
         let linear = self.covariance.error(&self.integral.whole().moves);
         let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
-        let error = self.unseen().into_iter().fold(noise, f64::hypot);
+        let error = self.unseen().into_iter().fold(noise.hypot(by_shape), f64::hypot);
         Measured { value: self.integral.area(), error }
     }
 
@@ -163,7 +188,13 @@ impl<'a> OfKind<'a> {
         }
         let linear = self.covariance.error(&Curve::LENGTH);
         let noise = if self.is_straight { linear } else { self.searched(Whole::Length, linear) };
-        let ends = self.feet.into_iter().fold(noise, f64::hypot);
+        let soft =
+            self.integral.feet(SOFT).map(|time| if self.is_straight { 0.0 } else { SOFTER * time });
+        let ends = soft
+            .into_iter()
+            .zip(self.feet)
+            .map(|(soft, foot)| soft.max(foot))
+            .fold(noise, f64::hypot);
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 
@@ -182,7 +213,8 @@ impl<'a> OfKind<'a> {
         Measured { value, error: hidden.hypot(linear.min(length)).hypot(self.feet[0]) }
     }
 
-    fn triggers(&self, n: u32) -> Vec<Measured> {
+    /// With what the model's shape puts them off by.
+    fn triggers(&self, n: u32) -> (Vec<Measured>, f64) {
         let by_noise = |u: f64| {
             let (value, moves) = self.integral.trigger(u);
             Measured { value, error: self.covariance.error(&moves) }
@@ -196,7 +228,7 @@ impl<'a> OfKind<'a> {
             let by_feet = light / least_open(&self.integral, trigger.value);
             trigger.error = trigger.error.hypot(by_shape).hypot(by_feet);
         }
-        triggers
+        (triggers, by_shape)
     }
 
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
@@ -222,7 +254,10 @@ impl Covariance {
         let solution = &fitted.solution;
         let (packed, bounds) = (solution.signal.pack(), solution.signal.bounds());
         // A ramp of no length has nothing to vary. A control number on its bound has: one way, and that counts as both.
-        let on_bound = |k: &usize| *k < CONTROLS && packed[*k] <= bounds[*k].0;
+        let on_bound = |k: &usize| {
+            let (low, high) = bounds[*k];
+            low == high || *k < CONTROLS && packed[*k] <= low
+        };
         let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
         let matrix: Vec<Vec<f64>> = moving
             .iter()

@@ -4,14 +4,19 @@ use std::cmp::max_by_key;
 
 use crate::frame::FrameFits;
 use crate::missed::Parts;
-use crate::noise::correlation;
+use crate::noise::slow_correlation;
 use crate::signal::Kind;
 use crate::structure::structure;
 use crate::trace::{Frame, Pulses};
 
 /// The fits of a frame; `progress` is told the share that is done, as far as that is known.
-pub fn fits(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> FrameFits {
-    let mut fits = FrameFits::new(pulses, frame, progress);
+pub fn fits(
+    pulses: &Pulses,
+    frame: &Frame,
+    mains: Option<f64>,
+    progress: &mut dyn FnMut(f64),
+) -> FrameFits {
+    let mut fits = FrameFits::new(pulses, frame, mains, progress);
     if structure(&fits, Kind::Free).explained {
         return fits;
     }
@@ -23,7 +28,7 @@ pub fn fits(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Fr
     // What the freest curve misses is no noise, and counts for none of it.
     let parts = Parts::new(&fits, Kind::Free);
     let longer = max_by_key(parts.before, parts.after, |part| part.len());
-    let dark = correlation(&fits.of(Kind::Free).residuals[longer]);
+    let dark = slow_correlation(&fits.of(Kind::Free).residuals[longer]);
     fits.correlation = dark.min(fits.correlation);
     fits
 }

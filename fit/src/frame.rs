@@ -1,10 +1,10 @@
 //! One frame fitted by every kind of curve, with the columns that it asks for, in units of its own.
 
 use crate::bins::{self, Bin};
-use crate::columns;
+use crate::columns::{self, Mains};
 use crate::curve::{Exposure, Whole, fractions};
 use crate::kind::KindFit;
-use crate::noise::{self, correlation};
+use crate::noise::{self, slow_correlation};
 use crate::search::Search;
 use crate::signal::{Kind, Signal};
 use crate::solve::{Held, Problem};
@@ -32,7 +32,12 @@ pub struct FrameFits {
 
 impl FrameFits {
     /// Fits every kind; `progress` is told the share that is done, as far as that is known.
-    pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
+    pub fn new(
+        pulses: &Pulses,
+        frame: &Frame,
+        mains: Option<f64>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Self {
         let units = Units::new(frame, pulses.levels);
         let crossings = units.crossings(frame);
         let trace = units.inside(pulses.trace.part(&frame.samples));
@@ -51,7 +56,8 @@ impl FrameFits {
         let plain = Signal::plain();
         fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
         let free = fits.of(Kind::Free);
-        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step) {
+        let mains = Mains { second: units.pulse(), hertz: mains };
+        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step, mains) {
             fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
         }
         fits
@@ -71,7 +77,7 @@ impl FrameFits {
     fn search(&mut self, crossings: &Crossings, like: &Signal, progress: &mut dyn FnMut(f64)) {
         let search = Search { problem: &self.problem, crossings, step: self.step };
         self.kinds = KindFit::all(search.every_kind(like, progress), &self.samples);
-        self.correlation = correlation(&self.of(Kind::Free).residuals);
+        self.correlation = slow_correlation(&self.of(Kind::Free).residuals);
     }
 
     /// The same from the columns of a fit of the freest kind, which may be better than where the search ends.
@@ -80,7 +86,7 @@ impl FrameFits {
         let last = &mut self.kinds[Kind::Free as usize];
         if free.solution.cost < last.solution.cost {
             *last = free;
-            self.correlation = correlation(&last.residuals);
+            self.correlation = slow_correlation(&last.residuals);
         }
     }
 

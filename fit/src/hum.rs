@@ -1,30 +1,74 @@
 //! The sine that stands out of a signal's residuals.
 
 use crate::bins::Bin;
-use crate::signal::{Hum, Signal};
+use crate::columns::Mains;
+use crate::signal::{Bounds, Hum, Signal};
 
-/// The fewest periods in a trace: fewer cannot be told from a drift or from the shutter's own shape.
-const FEWEST: f64 = 1.5;
+/// From so many periods in a record on, it tells any frequency.
+pub const FEWEST: f64 = 3.0;
+/// The fewest periods of the mains: of fewer, a record shows a drift.
+const LEAST: f64 = 0.4;
+/// The mains' frequencies and twice them, in hertz, where a record does not tell them apart.
+const MAINS: [Bounds; 2] = [(50.0, 60.0), (100.0, 120.0)];
+/// The mains keep theirs to this share.
+const KEPT: f64 = 0.01;
+/// A hum explains so many times as much as sines of so many periods more in the record; one of few periods more still.
+const STANDS_OUT: f64 = 30.0;
+const SHORT_STANDS_OUT: f64 = 100.0;
+const ABOVE: [u8; 5] = [4, 5, 6, 7, 8];
 /// The most frequencies that are tried, half a period of the whole trace apart.
 const MOST: usize = 600;
 
-/// The sine that explains most of what the signal misses, or none where the trace is too short for any.
-pub fn strongest(bins: &[Bin], signal: &Signal) -> Option<Hum> {
+/// How long the bins last.
+fn length(bins: &[Bin]) -> f64 {
+    bins.last().map_or(0.0, |last| last.to - bins[0].from)
+}
+
+/// How many periods of a hum the bins last.
+pub fn periods(bins: &[Bin], hum: &Hum) -> f64 {
+    hum.frequency * length(bins)
+}
+
+/// Where the frequency of a hum may lie: the mains' alone below [`FEWEST`] periods, or where they are known.
+fn ranges(bins: &[Bin], Mains { second, hertz }: Mains) -> Vec<Bounds> {
+    let length = length(bins);
+    let few = FEWEST / length;
+    let band = |(low, high): Bounds| (low * second, high * second);
+    let Some(hertz) = hertz else {
+        let short = MAINS.map(band).into_iter().filter(|band| band.1 < few || band.0 < few);
+        let short = short.map(|(low, high)| (low.max(LEAST / length), high.min(few)));
+        // Up to a quarter of the intervals a period, as far as the tries go.
+        let most = (0.25 * bins.len() as f64).min(0.5 * MOST as f64) / length;
+        return short.chain([(few, most)]).filter(|(low, high)| low <= high).collect();
+    };
+    let known = [hertz, 2.0 * hertz].map(|hertz| {
+        // In a few periods nobody sees it stray.
+        let strays = if hertz * second < few { 0.0 } else { KEPT };
+        band((hertz * (1.0 - strays), hertz * (1.0 + strays)))
+    });
+    known.into_iter().filter(|(low, _)| *low > LEAST / length).collect()
+}
+
+/// The sine of each range that explains most of what the signal misses.
+pub fn strongest(bins: &[Bin], signal: &Signal, mains: Mains) -> Vec<Hum> {
     let missed = missed(bins, signal);
-    let length = bins.last()?.to - bins.first()?.from;
-    let spacing = 0.5 / length;
-    // Up to a quarter of the intervals a period, as far as the tries go.
-    let most = ((bins.len() as f64 / 4.0 / length / spacing) as usize).min(MOST);
-    let first = (FEWEST / length / spacing).ceil() as usize;
-    let tries = (first..=most).map(|k| sine(&missed, k as f64 * spacing));
-    let (_, best) = tries.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    // Between its neighbours, by golden section.
-    let (mut low, mut high) = (best.frequency - spacing, best.frequency + spacing);
-    for _ in 0..20 {
-        let (a, b) = (high - 0.618 * (high - low), low + 0.618 * (high - low));
-        if sine(&missed, a).0 > sine(&missed, b).0 { high = b } else { low = a }
-    }
-    Some(sine(&missed, 0.5 * (low + high)).1)
+    let period = length(bins).recip();
+    let best_in = |range: Bounds| {
+        let (low, high) = range;
+        let tries = (2.0 * (high - low) / period).ceil().max(1.0);
+        let apart = (high - low) / tries;
+        let all = (0..=tries as usize).map(|k| sine(&missed, low + k as f64 * apart, range));
+        let best = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?.1;
+        // Between its neighbours, by golden section.
+        let (mut a, mut b) =
+            ((best.frequency - apart).max(low), (best.frequency + apart).min(high));
+        for _ in 0..20 {
+            let (c, d) = (b - 0.618 * (b - a), a + 0.618 * (b - a));
+            if sine(&missed, c, range).0 > sine(&missed, d, range).0 { b = d } else { a = c }
+        }
+        Some(sine(&missed, 0.5 * (a + b), range).1)
+    };
+    ranges(bins, mains).into_iter().filter_map(best_in).collect()
 }
 
 /// What the signal misses of each bin: when, how much, and of how many samples.
@@ -38,22 +82,44 @@ fn missed(bins: &[Bin], signal: &Signal) -> Vec<(f64, f64, f64)> {
     bins.iter().map(miss).collect()
 }
 
-/// Is the hum as strong outside the curve as on the whole? `signal` is what was fitted without it.
-pub fn is_in_the_dark(bins: &[Bin], signal: &Signal, hum: &Hum) -> bool {
+/// Is a signal's hum no part of the shutter or of the noise: as strong in the dark as on the whole, and beyond what
+/// sines of higher frequencies would explain of the rest, of which 1/f noise has nearly as much?
+pub fn is_one(bins: &[Bin], signal: &Signal) -> bool {
+    let Some(hum) = signal.hum else { return false };
     let (start, end) = (signal.curve.start, signal.curve.end());
-    let mut dark = missed(bins, signal);
-    dark.retain(|(t, ..)| *t < start || *t > end);
-    let (_, alone) = sine(&dark, hum.frequency);
+    let missed = missed(bins, signal);
+    let above = ABOVE.map(|k| hum.frequency + f64::from(k) / length(bins));
+    let usual = above.map(|frequency| sine(&missed, frequency, hum.range).0).iter().sum::<f64>();
+    let mut all: Vec<_> = missed.iter().map(|(t, _, weight)| (*t, hum.at(*t), *weight)).collect();
+    let power = sine(&all, hum.frequency, hum.range).0;
+    for (sine, (_, miss, _)) in all.iter_mut().zip(&missed) {
+        sine.1 += miss;
+    }
+    all.retain(|(t, ..)| *t < start || *t > end);
+    let (_, alone) = sine(&all, hum.frequency, hum.range);
     // The part of it that is in phase.
     let shared = alone.cosine * hum.cosine + alone.sine * hum.sine;
-    (0.5..2.0).contains(&(shared / hum.amplitude().powi(2)))
+    let share = shared / hum.amplitude().powi(2);
+    let beyond = if periods(bins, &hum) < FEWEST { SHORT_STANDS_OUT } else { STANDS_OUT };
+    (0.5..2.0).contains(&share) && power * ABOVE.len() as f64 > beyond * usual
 }
 
-/// The best sine of a frequency, and by how much it lowers the sum of squares.
-fn sine(missed: &[(f64, f64, f64)], frequency: f64) -> (f64, Hum) {
+/// The best sine of a frequency beside a level, and by how much it lowers the sum of squares.
+fn sine(missed: &[(f64, f64, f64)], frequency: f64, range: Bounds) -> (f64, Hum) {
+    let waves = |t: f64| (std::f64::consts::TAU * frequency * t).sin_cos();
+    let [mut n, mut level, mut mc, mut ms] = [0.0; 4];
+    for (t, miss, weight) in missed {
+        let (sine, cosine) = waves(*t);
+        n += weight;
+        level += weight * miss;
+        mc += weight * cosine;
+        ms += weight * sine;
+    }
+    let [level, mc, ms] = [level, mc, ms].map(|sum| sum / n);
     let [mut cc, mut cs, mut ss, mut c, mut s] = [0.0; 5];
     for (t, miss, weight) in missed {
-        let (sine, cosine) = (std::f64::consts::TAU * frequency * t).sin_cos();
+        let (sine, cosine) = waves(*t);
+        let (sine, cosine, miss) = (sine - ms, cosine - mc, miss - level);
         cc += weight * cosine * cosine;
         cs += weight * cosine * sine;
         ss += weight * sine * sine;
@@ -64,5 +130,5 @@ fn sine(missed: &[(f64, f64, f64)], frequency: f64) -> (f64, Hum) {
     let (cosine, sine) = ((c * ss - s * cs) / determinant, (s * cc - c * cs) / determinant);
     let gain = cosine * c + sine * s;
     let gain = if gain.is_finite() { gain } else { 0.0 };
-    (gain, Hum { frequency, cosine, sine })
+    (gain, Hum { frequency, range, cosine, sine })
 }

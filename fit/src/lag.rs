@@ -3,7 +3,8 @@
 
 use crate::bins::Bin;
 use crate::curve::Exposure;
-use crate::solve::{Cholesky, Problem, Solution};
+use crate::signal::Signal;
+use crate::solve::{Cholesky, Solution};
 
 /// The lag's time constant, in closing ramps. From 0.4 to 1.6 it tells the same.
 pub const LAG: f64 = 0.8;
@@ -108,21 +109,36 @@ impl Score {
     }
 }
 
-/// Does a tail explain as much as the drift does that a signal was given?
-pub fn passes_for_drift(problem: &Problem, solution: &Solution, step: f64) -> bool {
-    let (signal, bins) = (solution.signal, &problem.bins);
-    let (Some(drift), Some(lagging)) = (signal.drift, lagging(solution, bins, step)) else {
-        return false;
+/// What a capacitor's charge takes from each bin: as much as has come by then, to first order.
+pub fn charge(solution: &Solution, bins: &[Bin]) -> Vec<f64> {
+    let exposure = Exposure::new(&solution.signal.curve);
+    bins.iter().map(|bin| -exposure.collected(0.5 * (bin.from + bin.to)).amount).collect()
+}
+
+/// Does a tail explain as much as the drift and the hum do that a signal was given?
+pub fn passes_for_columns(solution: &Solution, bins: &[Bin], step: f64) -> bool {
+    let lagging = lagging(solution, bins, step);
+    let falls = lagging.and_then(|lagging| falls(solution, bins, &lagging));
+    falls.is_some_and(|(by_tail, by_columns)| by_tail >= by_columns)
+}
+
+/// What the sum of squares falls by with a pattern in place of the signal's drift and hum, and what with these; less
+/// than nothing where the pattern would have to be turned round.
+pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64, f64)> {
+    let Signal { kind, drift, hum, .. } = solution.signal;
+    let columns = drift.map_or(0, |_| 1) + hum.map_or(0, |_| 3);
+    let place = kind.parameters() + 2;
+    let movable = Movable::new(solution, bins, |k| !(place..place + columns).contains(&k));
+    let beside = |bin: &Bin| {
+        let t = 0.5 * (bin.from + bin.to);
+        drift.unwrap_or(0.0) * t + hum.map_or(0.0, |hum| hum.at(t))
     };
-    let place = signal.kind.parameters() + 2;
-    let movable = Movable::new(solution, bins, |k| k != place);
-    let line: Vec<f64> = bins.iter().map(|bin| 0.5 * (bin.from + bin.to)).collect();
+    let beside: Vec<f64> = bins.iter().map(beside).collect();
     let missed: Vec<f64> =
-        movable.missed.iter().zip(&line).map(|(missed, t)| missed + drift * t).collect();
-    // What the sum of squares falls by, and the way.
+        movable.missed.iter().zip(&beside).map(|(missed, b)| missed + b).collect();
     let falls = |pattern: &[f64]| {
         let Score { along, square } = Score::new(&movable.rest(pattern), &missed, bins);
         along * along.abs() / square
     };
-    falls(&lagging) >= falls(&line).abs()
+    (columns > 0).then(|| (falls(pattern), falls(&beside).abs()))
 }

@@ -21,6 +21,7 @@ mod doubts;
 mod errors;
 mod explain;
 mod frame;
+mod gaps;
 mod hum;
 mod json;
 mod kind;
@@ -72,6 +73,7 @@ pub fn fit(
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
     let pulses = found(trace, options.light)?;
     let asked = shots::asked(&pulses.frames, options.frame)?;
+    let gap = gaps::gaps(&pulses, &pulses.frames[asked])?;
     let counted = Frames::new(&pulses.frames, asked);
     let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
     let frames = fit_frames(&pulses, asked, differ, options, progress);
@@ -81,7 +83,8 @@ pub fn fit(
     let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
     let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
     let test = judged(fits, chosen, reason);
-    let model = errors::results(fits, chosen, n).outside(&fits.units, peak);
+    let hidden = if test.unseen > structure::UNSEEN { test.unseen } else { 0.0 };
+    let model = errors::results(fits, chosen, n).with_unseen(hidden).outside(&fits.units, peak);
     let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
     let results = from_trace.map(|results| results.outside(&fits.units, peak));
@@ -109,6 +112,7 @@ pub fn fit(
         inverted: pulses.inverted,
         middle: fits.units.seconds(0.0),
     };
+    fit.warnings.extend(gap);
     if differ {
         fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
     }
@@ -122,8 +126,11 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     let plain = pulses(trace, light);
     let is_sound = !matches!(plain, Err(Refusal::Unsound | Refusal::TooFewSamples { .. }));
     let coupled = if is_sound && light == Light::Auto { undone(trace) } else { None };
-    let Some((mut pulses, seconds)) = coupled else { return plain };
+    let Some((mut pulses, seconds, error)) = coupled else { return plain };
     pulses.warnings.push(Warning::Coupled { seconds });
+    // Under the pulse and behind it the level is off by what its charge is not known to.
+    let open = pulses.frames.iter().map(|frame| frame.exposure).fold(0.0, f64::max);
+    pulses.rounding = pulses.rounding.hypot(0.15 * error * open / seconds * pulses.light());
     Ok(pulses)
 }
 
@@ -137,7 +144,14 @@ fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> Test {
     let found = structure::structure(fits, kind);
     let explained = found.explained && !matches!(reason, Reason::NoKind { .. });
     let at = fits.units.seconds(found.at);
-    Test { explained, tested: found.tested, sigma: found.sigma, share: found.share, at }
+    Test {
+        explained,
+        tested: found.tested,
+        sigma: found.sigma,
+        unseen: found.unseen,
+        share: found.share,
+        at,
+    }
 }
 
 /// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.
@@ -154,7 +168,7 @@ fn fit_frames(
     let mut frames = Vec::new();
     for (i, k) in once(asked).chain(others).enumerate() {
         let mut progress = |done: f64| progress((i as f64 + done) / steps);
-        frames.push(explain::fits(pulses, &pulses.frames[k], &mut progress));
+        frames.push(explain::fits(pulses, &pulses.frames[k], options.mains, &mut progress));
     }
     progress(1.0);
     frames

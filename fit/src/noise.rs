@@ -3,6 +3,9 @@
 /// The least standard deviation that counts, as a share of the light: below, rounding and the model's own limits rule.
 pub const LEAST: f64 = 1e-5;
 
+/// So many blocks show the noise's slow end.
+const BLOCKS: usize = 16;
+
 /// How many samples stand for an independent one: the power of the residuals at frequency 0 over their variance.
 ///
 /// By an autoregressive model (Yule and Walker's equations, solved by Levinson and Durbin, the order by Akaike's criterion):
@@ -40,6 +43,16 @@ pub fn correlation(residuals: &[f64]) -> f64 {
     best.clamp(1.0, (n as f64 / 20.0).max(1.0))
 }
 
+/// The same where it counts what such a model does not see, as 1/f noise has it: by means over long blocks.
+pub fn slow_correlation(residuals: &[f64]) -> f64 {
+    let n = residuals.len();
+    let length = (n / BLOCKS).max(1);
+    let means = residuals.chunks_exact(length).map(|few| few.iter().sum::<f64>() / length as f64);
+    let slow = length as f64 * mean_square(&means.collect::<Vec<_>>());
+    let most = (n as f64 / 20.0).max(1.0);
+    correlation(residuals).max((slow / mean_square(residuals).max(f64::MIN_POSITIVE)).min(most))
+}
+
 /// The mean of the squares.
 pub fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64
@@ -49,6 +62,15 @@ pub fn mean_square(values: &[f64]) -> f64 {
 pub fn fast(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
     0.5 * mean_square(&differ)
+}
+
+/// The ratio of two mean squares that is as unlikely as a normal number: the other way round.
+pub fn ratio_of(sigma: f64, (above, below): (f64, f64)) -> f64 {
+    let (a, b, s) = (2.0 / (9.0 * above), 2.0 / (9.0 * below), sigma * sigma);
+    let (p, q, r) = ((1.0 - b).powi(2) - s * b, (1.0 - a) * (1.0 - b), (1.0 - a).powi(2) - s * a);
+    // Of few samples no ratio is that unlikely.
+    let root = (q * q - p * r).max(0.0).sqrt();
+    if p > 0.0 { ((q + root) / p).powi(3) } else { f64::INFINITY }
 }
 
 /// A ratio of two mean squares in standard deviations of a normal number of the same chance (Wilson and Hilferty).

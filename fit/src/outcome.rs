@@ -30,6 +30,8 @@ pub struct Options {
     pub light: Light,
     /// How many triggers are judged and planned: 1 to [`crate::MOST_TRIGGERS`], clamped to that.
     pub triggers: u32,
+    /// The mains' frequency in hertz, where that is known: a hum has it.
+    pub mains: Option<f64>,
     /// When the edge of the camera's sync comes, in seconds of the trace, where that is known.
     pub sync: Option<f64>,
 }
@@ -48,6 +50,7 @@ impl Default for Options {
             frame: None,
             light: Light::Auto,
             triggers: Self::TRIGGERS,
+            mains: None,
             sync: None,
         }
     }
@@ -149,6 +152,8 @@ pub struct Test {
     pub tested: bool,
     /// By how many standard deviations the most telling of the tests is off.
     pub sigma: f64,
+    /// Structure that moves the triggers by less than this share of the exposure would not be seen.
+    pub unseen: f64,
     /// The greatest structure that is left, as a share of the light.
     pub share: f64,
     /// When that is, in seconds.
@@ -210,6 +215,7 @@ impl Fit {
         let signals = self.candidates.iter().map(|candidate| candidate.signal);
         [self.exposure, self.efficiency].iter().chain(&self.triggers).all(sound)
             && self.exposure.value > self.exposure.error
+            && self.efficiency.value <= 1.0
             && length > 0.0
             && signals.into_iter().all(|s| s.gain > 0.0 && s.gain.is_finite() && s.dark.is_finite())
     }

@@ -121,7 +121,7 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
 
 /// Whether the model explains the trace.
 fn judgement(fit: &Fit) -> String {
-    let Test { explained, tested, sigma, share, at } = fit.test;
+    let Test { explained, tested, sigma, share, at, .. } = fit.test;
     if explained && !tested {
         return "untested: there is too little dark to know the noise by".into();
     }

@@ -1,9 +1,12 @@
 //! Exposure and triggers from the samples themselves, by a running sum: where no model explains them, and beside the model's.
 
+use std::f64::consts::PI;
+
 use crate::curve::fractions;
 use crate::errors::{Measured, Results};
 use crate::frame::FrameFits;
 use crate::missed::{Parts, least_open, missed};
+use crate::noise::mean_square;
 use crate::signal::Kind;
 use crate::structure::Walk;
 use crate::tail;
@@ -11,9 +14,11 @@ use crate::trace::median;
 
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
 const FLAT: f64 = 0.2;
-const PARTS: usize = 8;
+const MOST_PARTS: usize = 8;
 /// Stretches that scatter so many times as much as the flattest are flat as well.
 const ALIKE: f64 = 2.0;
+/// The noise is known by a dozen of blocks: a standard error from it is so much larger than from all of it.
+const KNOWN: f64 = 1.2;
 /// A block in the dark that is so many times as large as the usual ones is light.
 const IS_LIGHT: f64 = 5.0;
 
@@ -26,9 +31,11 @@ struct Running {
     early: Option<f64>,
     /// The level of full light, and its standard error.
     level: Measured,
-    /// The variance of a sum over a unit of time, and for how long the dark was seen.
+    /// The variance of a sum over a unit of time, that of the dark's level, and of what that wanders by beside the
+    /// noise.
     walk: f64,
     dark: f64,
+    wanders: f64,
 }
 
 /// The results of the samples, or none where there is too little dark beside them.
@@ -37,24 +44,26 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
     let integral = fits.exposure(kind);
     let (end, area) = *running.sums.last()?;
     let length = end - running.start;
-    let baseline = running.walk / running.dark;
-    let rounding = fits.rounding * integral.area();
-    let noise = (running.walk * length + baseline * length * length).sqrt().hypot(rounding);
+    let baseline = running.dark + running.wanders;
+    let noise = KNOWN * (running.walk * length + baseline * length * length).sqrt();
     let Measured { value: level, error: spread } = running.level;
     let value = area / level;
     let exposure = Measured { value, error: (noise / level).hypot(value * spread / level) };
     let of_length = fits.of(kind).solution.signal.curve.length();
     let model = crate::errors::results(fits, kind, 1);
-    let efficiency = Measured {
-        value: exposure.value / of_length,
-        error: (exposure.error / of_length).hypot(model.efficiency.error),
-    };
+    let value = exposure.value / of_length;
+    let error = (exposure.error / of_length).hypot(model.efficiency.error);
+    // No shutter lets more light in than one that is open all the time.
+    let value = if value - 2.0 * error < 1.0 { value.min(1.0) } else { value };
+    let efficiency = Measured { value, error };
     let trigger = |u: f64| {
         let value = running.reaches(u * area);
         let (early, late) = (value - running.start, end - value);
         let walk = running.walk * (u * u * late + (1.0 - u) * (1.0 - u) * early).max(0.0);
+        // A level that is off, and one that goes from below to above.
         let tilt = baseline * (early - u * length).powi(2);
-        let amount = (walk + tilt).sqrt().hypot(rounding);
+        let turns = running.wanders * (early * late / length).powi(2);
+        let amount = KNOWN * (walk + tilt + turns).sqrt();
         Measured { value, error: amount / least_open(&integral, value) }
     };
     let triggers: Vec<Measured> = fractions(n).map(trigger).collect();
@@ -65,7 +74,7 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
     let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
     let error = model.start.error.hypot(apart).hypot(model.start.value - value);
     let start = Measured { value, error };
-    Some(Results { exposure, efficiency, start, triggers })
+    Some(Results { exposure, efficiency, start, triggers }.widened(fits, kind))
 }
 
 impl Running {
@@ -78,14 +87,14 @@ impl Running {
         let blocks: Vec<f64> =
             dark.chunks(length).map(|few| few.iter().sum::<f64>() / few.len() as f64).collect();
         let usual = median(blocks.iter().map(|b| b.abs()).collect()) / 0.6745 + 1e-6;
-        let base = median(blocks);
+        let base = median(blocks.clone());
         let lit = |k: usize| {
             let few = &missed[k..(k + length).min(missed.len())];
             (few.iter().sum::<f64>() / few.len() as f64 - base).abs() > IS_LIGHT * usual
         };
         let (mut from, mut to) = (parts.pulse.start, parts.pulse.end);
         let starts = |range: std::ops::Range<usize>| range.step_by(length);
-        from = starts(parts.before).find(|k| lit(*k)).map_or(from, |k| k.min(from));
+        from = starts(parts.before.clone()).find(|k| lit(*k)).map_or(from, |k| k.min(from));
         let last = starts(parts.after.clone()).rfind(|k| lit(*k));
         to = last.map_or(to, |k| (k + length).min(missed.len()).max(to));
         // A tail is light as well, though none of its blocks stands out.
@@ -97,34 +106,45 @@ impl Running {
         let sums: Vec<(f64, f64)> = (from..to)
             .map(|k| {
                 let bin = &fits.samples[k];
-                sum += (opened[k] - base) * (bin.to - bin.from);
-                (bin.to, sum)
+                // Each half of a gap is as the sample beside it.
+                let begins =
+                    if k > from { 0.5 * (fits.samples[k - 1].to + bin.from) } else { bin.from };
+                let ends =
+                    if k + 1 < to { 0.5 * (bin.to + fits.samples[k + 1].from) } else { bin.to };
+                sum += (opened[k] - base) * (ends - begins);
+                (ends, sum)
             })
             .collect();
         let level = Self::level(fits, &opened, base, walk.power)?;
-        let dark = dark.len() as f64 * fits.step;
+        // A median is known less well than a mean; and a level that wanders more than the noise, as a drift or a hum
+        // makes it, does so in the pulse as well.
+        let unlit = blocks.iter().map(|b| b - base).filter(|b| b.abs() <= IS_LIGHT * usual);
+        let wanders =
+            mean_square(&unlit.collect::<Vec<_>>()) - walk.power / (length as f64 * fits.step);
+        let dark = 0.5 * PI * walk.power / (dark.len() as f64 * fits.step);
         let start = fits.samples.get(from)?.from;
         let early = (from < parts.pulse.start).then_some(start);
-        Some(Self { sums, start, early, level, walk: walk.power, dark })
+        Some(Self { sums, start, early, level, walk: walk.power, dark, wanders: wanders.max(0.0) })
     }
 
     /// Full light, by the stretch of the pulse that is flattest: what a shutter does before it rests does not count.
     fn level(fits: &FrameFits, opened: &[f64], base: f64, walk: f64) -> Option<Measured> {
         let mean = |from: f64, to: f64| -> Option<f64> {
-            let first = fits.samples.partition_point(|bin| bin.from < from);
-            let end = fits.samples.partition_point(|bin| bin.to <= to);
+            let first = fits.samples.partition_point(|bin| bin.from + bin.to < 2.0 * from);
+            let end = fits.samples.partition_point(|bin| bin.from + bin.to < 2.0 * to);
             let values = opened.get(first..end).filter(|values| !values.is_empty())?;
             Some(values.iter().sum::<f64>() / values.len() as f64 - base)
         };
         // In pulses from the middle; each stretch in parts, whose scatter tells how flat it is.
-        let part = FLAT / PARTS as f64;
+        let parts = ((FLAT / fits.step / 1.5) as usize).clamp(2, MOST_PARTS);
+        let part = FLAT / parts as f64;
         let stretch = |k: usize| -> Option<(f64, f64)> {
             let from = -0.5 + 0.5 * part * k as f64;
-            let means: Option<Vec<f64>> = (0..PARTS)
+            let means: Option<Vec<f64>> = (0..parts)
                 .map(|i| mean(from + part * i as f64, from + part * (i + 1) as f64))
                 .collect();
             let means = means?;
-            let level = means.iter().sum::<f64>() / PARTS as f64;
+            let level = means.iter().sum::<f64>() / parts as f64;
             let scatter = means.iter().map(|m| (m - level).powi(2)).sum::<f64>();
             // A stretch of a ramp or of the dark is flat as well.
             (level > 0.6).then_some((scatter, level))
@@ -142,9 +162,9 @@ impl Running {
             n => (least, alike.iter().sum::<f64>() / n as f64),
         };
         let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
-        let usual = walk / part * (PARTS - 1) as f64;
+        let usual = walk / part * (parts - 1) as f64;
         // Where even that is not flat, it is no rest.
-        let uneven = ((scatter - usual).max(0.0) / PARTS as f64).sqrt();
+        let uneven = ((scatter - usual).max(0.0) / parts as f64).sqrt();
         let noise = (walk / FLAT).sqrt().hypot(fits.rounding);
         let error = noise.hypot(uneven).hypot(apart).hypot(0.2 * (value - middle));
         (value > 0.0).then_some(Measured { value, error })

@@ -103,6 +103,8 @@ impl Kind {
 pub struct Hum {
     /// Periods in a unit of time.
     pub frequency: f64,
+    /// Where that has to lie.
+    pub range: Bounds,
     /// What its cosine is multiplied by.
     pub cosine: f64,
     /// What its sine is multiplied by.
@@ -123,7 +125,7 @@ impl Hum {
 
     /// Its mean over an interval, and how that moves with the frequency, the cosine and the sine.
     fn mean(&self, middle: f64, width: f64) -> (f64, [f64; 3]) {
-        let Self { frequency, cosine, sine } = *self;
+        let Self { frequency, cosine, sine, .. } = *self;
         let (s, c) = (TAU * frequency * middle).sin_cos();
         let value = cosine * c + sine * s;
         let turned = sine * c - cosine * s;
@@ -242,8 +244,9 @@ impl Signal {
             dark: rest[0],
             gain: rest[1],
             drift: self.drift.map(|_| columns[0]),
-            hum: self.hum.map(|_| Hum {
+            hum: self.hum.map(|Hum { range, .. }| Hum {
                 frequency: columns[at],
+                range,
                 cosine: columns[at + 1],
                 sine: columns[at + 2],
             }),
@@ -254,11 +257,14 @@ impl Signal {
         }
     }
 
-    /// The bounds of each: no length below 0, and control numbers in [0, 1].
+    /// The bounds of each: no length below 0, control numbers in [0, 1], a hum's frequency in its range.
     pub(super) fn bounds(&self) -> Vec<Bounds> {
         let mut bounds = vec![ANY; self.len()];
         for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
             *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { (0.0, 1.0) };
+        }
+        if let Some(hum) = self.hum {
+            bounds[self.kind.parameters() + 2 + self.drift.map_or(0, |_| 1)] = hum.range;
         }
         bounds
     }

@@ -9,17 +9,21 @@ use std::ops::Range;
 use crate::curve::fractions;
 use crate::frame::FrameFits;
 use crate::missed::{Missed, Parts, least_open, missed};
-use crate::noise::{fast, mean_square, normal_of};
+use crate::noise::{correlation, fast, mean_square, normal_of, ratio_of};
 use crate::signal::Kind;
 use crate::tail::{self, Tail};
 
-/// So many standard deviations are beyond chance: a normal number is there once in 100 000 times. With some ten tests, a curve
-/// that explains the samples fails once in 10 000 times.
-const BEYOND: f64 = 4.3;
+/// So many standard deviations are beyond chance: a normal number is there once in 30 000 times. With some ten tests, a
+/// curve that explains the samples fails once in 3000 times.
+const BEYOND: f64 = 4.0;
 /// Light that a curve leaves out lies so near to it, in pulses.
 const AROUND: f64 = 0.3;
 /// Of blocks in the dark, by their own median: that is known less well.
 const STANDS_OUT: f64 = 7.0;
+/// A test that misses so much of the exposure has too little power.
+pub const UNSEEN: f64 = 0.0035;
+/// Of the light for a fifth of the pulse, that is as much.
+pub const FIFTH: f64 = 0.2;
 /// What is missed matters from this share of the exposure on; below, cubic ramps are taken for what they stand for.
 const MATTERS: f64 = 4e-4;
 
@@ -34,6 +38,8 @@ pub struct Structure {
     pub sigma: f64,
     /// And by how many that test may be.
     beyond: f64,
+    /// Structure that moves the triggers by less than this share of the exposure would not be seen.
+    pub unseen: f64,
     /// The greatest structure, as a share of the light, and when, in the frame's unit.
     pub share: f64,
     pub at: f64,
@@ -50,8 +56,15 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     let missed = missed(fits, kind);
     let light = Light { fits, kind, parts: &parts, missed: &missed };
     let tested = Walk::new(light.missed, &parts, fits.step).is_some();
-    let mut found =
-        Structure { explained: true, tested, sigma: 0.0, beyond: BEYOND, share: 0.0, at: 0.0 };
+    let mut found = Structure {
+        explained: true,
+        tested,
+        sigma: 0.0,
+        beyond: BEYOND,
+        unseen: light.unseen(),
+        share: 0.0,
+        at: 0.0,
+    };
     let mut length = 2;
     while parts.pulse.len() / length >= 6 {
         for sigma in [light.in_pulse(length), light.after(length)].into_iter().flatten() {
@@ -72,10 +85,11 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
             found.take(sigma, BEYOND, (share, t));
         }
     }
-    if let Some(Tail { sigma, moves, share, at }) = tail::tail(fits, kind)
-        && moves > tail::MATTERS
-    {
-        found.take(sigma, tail::BEYOND, (share, at));
+    if let Some(Tail { sigma, moves, unseen, share, at }) = tail::tail(fits, kind) {
+        found.unseen = found.unseen.max(unseen);
+        if moves > tail::MATTERS {
+            found.take(sigma, tail::BEYOND, (share, at));
+        }
     }
     found
 }
@@ -147,7 +161,9 @@ impl Light<'_> {
         let slow = (mean_square(&in_pulse) - rounding).max(0.0) / (fast(pulse) + 1e-12);
         let usual = (mean_square(&in_dark) + 1e-12 / length as f64) / (fast(&dark) + 1e-12);
         let matters = self.worth(mean_square(&in_pulse).sqrt(), in_pulse.len(), length);
-        matters.then(|| normal_of(slow / usual, (in_pulse.len() as f64, in_dark.len() as f64)))
+        let alike = correlation(&in_dark);
+        let counts = (in_pulse.len() as f64 / alike, in_dark.len() as f64 / alike);
+        matters.then(|| normal_of(slow / usual, counts))
     }
 
     /// The dark after against the dark before.
@@ -159,7 +175,8 @@ impl Light<'_> {
         }
         let usual = mean_square(&early) + self.rounding() + 1e-12;
         let matters = self.worth(mean_square(&late).sqrt(), late.len(), length);
-        let counts = (late.len() as f64, early.len() as f64);
+        let alike = correlation(&early);
+        let counts = (late.len() as f64 / alike, early.len() as f64 / alike);
         matters.then(|| normal_of(mean_square(&late) / usual, counts))
     }
 
@@ -210,6 +227,21 @@ impl Light<'_> {
         let means = blocks(&self.missed[from..], length).into_iter().enumerate();
         let (k, mean) = means.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or((0, 0.0));
         (mean, self.fits.samples[(from + k * length + length / 2).min(self.missed.len() - 1)].from)
+    }
+
+    /// Structure that moves the triggers by less, the root of their mean square, as a share of the exposure, passes.
+    fn unseen(&self) -> f64 {
+        let Some(walk) = Walk::new(self.missed, self.parts, self.fits.step) else { return 0.0 };
+        let missed = Missed::new(self.fits, self.kind);
+        let [start, _, _, end] = missed.exposure.curve.times();
+        let area = missed.exposure.area();
+        let squares = fractions(16).map(|u| {
+            let t = missed.exposure.trigger(u).0;
+            let spread =
+                walk.power * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start)).max(0.0);
+            spread / (least_open(&missed.exposure, t) * area).powi(2)
+        });
+        (squares.sum::<f64>() / 16.0 * ratio_of(BEYOND, (1.0, walk.blocks as f64))).sqrt()
     }
 
     /// By how many standard deviations the samples put a trigger elsewhere, the greatest; when, and by which share of the

@@ -8,7 +8,7 @@ use crate::curve::{Exposure, fractions};
 use crate::frame::FrameFits;
 use crate::lag::{LAG, Movable, Score, lagging};
 use crate::missed::{Parts, least_open};
-use crate::noise::{LEAST, correlation, fast, normal_of};
+use crate::noise::{LEAST, correlation, fast, normal_of, ratio_of};
 use crate::signal::Kind;
 
 /// There is a tail beyond so many standard deviations: a normal number is there once in 1400 times, on this side. That is less than
@@ -27,6 +27,8 @@ pub struct Tail {
     pub sigma: f64,
     /// By how much the triggers move with it, the root of their mean square, as a share of the exposure.
     pub moves: f64,
+    /// Less than this, in the same measure, would not be seen.
+    pub unseen: f64,
     /// Where it is highest: its share of the light, and when.
     pub share: f64,
     pub at: f64,
@@ -54,11 +56,14 @@ pub fn tail(fits: &FrameFits, kind: Kind) -> Option<Tail> {
     let usual = noise.along(&rest, bins, &fits.exposure(kind)).sqrt() + rounding;
     let off = along / usual;
     let amount = along / square;
+    let moves = moves(fits, kind, &movable.without_levels(&lagging));
+    let least = ratio_of(BEYOND, (1.0, noise.known)).sqrt() * usual / square;
     let (k, highest) =
         lagging.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
     Some(Tail {
         sigma: normal_of(off * off, (1.0, noise.known)) * off.signum(),
-        moves: amount.abs() * moves(fits, kind, &movable.without_levels(&lagging)),
+        moves: amount.abs() * moves,
+        unseen: least * moves,
         share: amount * highest / solution.signal.gain,
         at: bins[k].from,
     })

@@ -55,8 +55,9 @@ impl Units {
             dark: self.dark + self.light * signal.dark,
             gain: self.light * signal.gain,
             drift: signal.drift.map(|drift| drift * self.light / self.pulse),
-            hum: signal.hum.map(|Hum { frequency, cosine, sine }| Hum {
+            hum: signal.hum.map(|Hum { frequency, range, cosine, sine }| Hum {
                 frequency: frequency / self.pulse,
+                range: (range.0 / self.pulse, range.1 / self.pulse),
                 cosine: cosine * self.light,
                 sine: sine * self.light,
             }),

@@ -70,6 +70,9 @@ pub struct Args {
     /// How many triggers
     #[arg(long, value_name = "N", default_value_t = Options::TRIGGERS, value_parser = trigger_count())]
     triggers: u32,
+    /// The mains' frequency in hertz: a hum in the trace has it
+    #[arg(long, value_name = "50|60", value_parser = mains)]
+    mains: Option<f64>,
     /// When the edge of the camera's sync comes, in the trace: 0, 1.5ms; the scene has the delay from there to the opening
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
     sync: Option<f64>,
@@ -94,6 +97,14 @@ fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("a number above 0 is required".into()),
+    }
+}
+
+fn mains(text: &str) -> Result<f64, String> {
+    match text {
+        "50" => Ok(50.0),
+        "60" => Ok(60.0),
+        _ => Err("50 or 60 is required".into()),
     }
 }
 
@@ -219,6 +230,7 @@ fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
         frame: args.frame,
         light: args.light,
         triggers: args.triggers,
+        mains: args.mains,
         sync: args.sync,
     };
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());

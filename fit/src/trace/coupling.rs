@@ -9,13 +9,15 @@ use super::samples::Trace;
 
 /// The dark on either side is looked at in so many parts.
 const PARTS: usize = 16;
-/// The square sum of the dark has to fall so far by it, against a drift's, that chance does not do that.
-const FALLS: f64 = 3.0;
+/// The square sum of the dark has to fall so far by it, against a drift's, that chance does not do that: by five
+/// standard deviations.
+const FALLS: f64 = 2.0;
 /// A pulse's tails are no dark: so many pulses on either side are left out.
 const ROOM: f64 = 0.15;
 
-/// The pulses with the coupling undone, and its time constant in seconds; none where the dark does not ask for it.
-pub fn undone(trace: &Trace) -> Option<(Pulses, f64)> {
+/// The pulses with the coupling undone, its time constant in seconds and its relative error; none where the dark does
+/// not ask for it.
+pub fn undone(trace: &Trace) -> Option<(Pulses, f64, f64)> {
     let Trace { times, values } = trace;
     let n = times.len();
     let few = (n / 50).max(3);
@@ -59,7 +61,8 @@ pub fn undone(trace: &Trace) -> Option<(Pulses, f64)> {
         return None;
     }
     let found = pulses(&with(trace, &integral, rate, slope / unit), Light::Auto).ok()?;
-    (!found.frames.is_empty()).then_some((found, 1.0 / rate))
+    let error = (by_pole / (by_drift - by_pole) / (rows.len() - 3) as f64).sqrt();
+    (!found.frames.is_empty()).then_some((found, 1.0 / rate, error))
 }
 
 /// What has come above a level by each sample's time.

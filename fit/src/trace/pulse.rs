@@ -25,8 +25,10 @@ const SWITCH: (f64, f64) = (0.4, 0.6);
 /// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
 const GLITCH: f64 = 0.2;
 
-/// No camera fires again so soon, in seconds, but a lamp on the mains or behind a switch does.
-const FASTEST: f64 = 0.011;
+/// No camera fires again so soon, in seconds, but a lamp behind a switch does.
+const FASTEST: f64 = 1.0 / 150.0;
+/// And a lamp on the mains flashes so often, in hertz, to a fiftieth.
+const MAINS: [f64; 2] = [100.0, 120.0];
 
 /// So far below the dark, as a share of the light, neither drift nor hum take a signal.
 const UNDERSHOOT: f64 = 0.1;
@@ -203,13 +205,15 @@ fn common_rounding(values: &[f64]) -> f64 {
 fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     let Trace { times, values } = trace;
     let n = values.len();
+    let least = least_step(values);
     let is_spike = |i: usize| {
         let near = (i.saturating_sub(4)..i.saturating_sub(1)).chain((i + 2).min(n)..(i + 5).min(n));
         let (low, high) = near.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| {
             (low.min(values[k]), high.max(values[k]))
         });
         let outside = (values[i] - high).max(low - values[i]);
-        outside > (SPIKE * noise).max(1.5 * (high - low))
+        // A step of the values more is no spike.
+        outside > (SPIKE * noise).max(1.5 * (high - low)) + least
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
@@ -358,7 +362,8 @@ fn pulsed(times: &[f64], runs: &[Range<usize>]) -> Option<Warning> {
     let gaps: Vec<f64> =
         runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
     let period = if gaps.is_empty() { return None } else { median(gaps) };
-    (period < FASTEST).then_some(Warning::Pulsed { hertz: 1.0 / period })
+    let is_mains = MAINS.into_iter().any(|hertz| (hertz * period - 1.0).abs() < 0.02);
+    (period < FASTEST || is_mains).then_some(Warning::Pulsed { hertz: 1.0 / period })
 }
 
 /// Drops the runs with too little light to be pulses, and tells how many.

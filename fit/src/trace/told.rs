@@ -126,6 +126,13 @@ pub enum Refusal {
         /// As seen.
         seen: f64,
     },
+    /// The samples of a ramp are missing.
+    LostRamp {
+        /// From when, in seconds.
+        from: f64,
+        /// Until when.
+        to: f64,
+    },
     /// No delay can be told from the edge of the camera's sync.
     NoDelay {
         /// Why not.
@@ -230,6 +237,12 @@ impl fmt::Display for Refusal {
                 out,
                 "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the \
                  trace's own unit, the dark level included"
+            ),
+            Self::LostRamp { from, to } => write!(
+                out,
+                "samples are missing from {} to {}, and the light changes there: a ramp is lost; record it again",
+                time(*from),
+                time(*to)
             ),
             Self::NoDelay { reason } => write!(out, "--sync: {reason}"),
             Self::Undetermined => out.write_str(
@@ -379,6 +392,17 @@ pub enum Warning {
         /// As a share of the light.
         amplitude: f64,
     },
+    /// A sine of so few periods in the record that a drift or the shutter itself may pass for it.
+    ShortHum {
+        /// In hertz: the mains'.
+        hertz: f64,
+        /// As a share of the light.
+        amplitude: f64,
+        /// So many.
+        periods: f64,
+        /// Was the mains' frequency given?
+        is_known: bool,
+    },
     /// The dark level drifts.
     Drift {
         /// Over the frame, as a share of the light.
@@ -396,6 +420,30 @@ pub enum Warning {
     },
     /// There is no plateau: full light may never be reached.
     NoPlateau,
+    /// A large standard error.
+    WideError {
+        /// The largest, as a share of the exposure.
+        share: f64,
+    },
+    /// Samples are missing in the pulse or beside it.
+    Gap {
+        /// So many.
+        count: usize,
+        /// From when the longest gap lasts, in seconds.
+        from: f64,
+        /// Until when.
+        to: f64,
+    },
+    /// So few samples, or so much noise, that the test of the fit is blind for much.
+    Unseen {
+        /// For so much of the light, over a fifth of the pulse.
+        share: f64,
+    },
+    /// A drift that may as well be a capacitor's step.
+    DriftOrCapacitor {
+        /// As a share of the light.
+        amount: f64,
+    },
     /// No model passes the samples as closely as their noise allows.
     Misfit {
         /// The greatest structure that is left, as a share of the light.
@@ -435,10 +483,15 @@ impl Warning {
             Self::Inverted => "inverted",
             Self::Clipped { .. } => "clipped",
             Self::Hum { .. } => "hum",
+            Self::ShortHum { .. } => "short_hum",
             Self::Drift { .. } => "drift",
             Self::NoiseHidesRamps { .. } => "noise",
             Self::SharpEdges { .. } => "sharp_edges",
             Self::NoPlateau => "no_plateau",
+            Self::WideError { .. } => "wide_error",
+            Self::Gap { .. } => "gap",
+            Self::Unseen { .. } => "unseen",
+            Self::DriftOrCapacitor { .. } => "drift_or_capacitor",
             Self::Misfit { .. } => "misfit",
             Self::Untested => "untested",
             Self::ZeroMoved => "zero_moved",
@@ -556,6 +609,17 @@ impl fmt::Display for Warning {
                 unit::short(*hertz, 4),
                 100.0 * amplitude
             ),
+            Self::ShortHum { hertz, amplitude, periods, is_known } => write!(
+                out,
+                "hum of {:.2} % of the light, taken out at {}, of which the record holds {periods:.1} periods: a drift or the \
+                 shutter's own shape may pass for it; record three periods (60 ms), or run it all on batteries",
+                100.0 * amplitude,
+                if *is_known {
+                    format!("{} Hz", unit::short(*hertz, 4))
+                } else {
+                    format!("{} Hz (--mains 50 or 60 says which)", unit::short(*hertz, 2))
+                },
+            ),
             Self::Drift { amount } => write!(
                 out,
                 "the dark level drifts by {:.2} % of the light, fitted and taken out",
@@ -573,8 +637,35 @@ impl fmt::Display for Warning {
                 time(step / 12f64.sqrt())
             ),
             Self::NoPlateau => out.write_str(
-                "there is no plateau: the shutter may never open fully; the peak counts as full light unless --full \
-                 gives the signal of full light",
+                "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light unless \
+                 --full gives the signal of full light",
+            ),
+            Self::WideError { share } => write!(
+                out,
+                "the exposure or a trigger is known to ± {} % of the exposure only (a standard error): take more samples, or \
+                 more light",
+                unit::short(100.0 * share, 2)
+            ),
+            Self::Gap { count, from, to } => write!(
+                out,
+                "samples are missing at {} in the pulse or beside it, the longest gap from {} to {}: what the shutter did there \
+                 is not known; record it again",
+                counted(*count, "place"),
+                time(*from),
+                time(*to)
+            ),
+            Self::Unseen { share } => write!(
+                out,
+                "too few samples, or too much noise, to see a bounce, a dip or a tail of less than {} % of the light for a \
+                 fifth of the pulse; that is in the errors; sample faster, or average several shots",
+                unit::short(100.0 * share, 2)
+            ),
+            Self::DriftOrCapacitor { amount } => write!(
+                out,
+                "the dark is {:.2} % of the light {} after the pulse than before: a drift, as which it is taken out, or a \
+                 capacitor before the recorder (AC), which would move the triggers; couple it for DC, or record more dark",
+                100.0 * amount.abs(),
+                if *amount < 0.0 { "lower" } else { "higher" }
             ),
             Self::Misfit { share, after, by_trace } => write!(
                 out,

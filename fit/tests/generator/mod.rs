@@ -3,9 +3,9 @@
 
 // One table needs them.
 #[allow(dead_code)]
-pub mod fresh;
-#[allow(dead_code)]
 pub mod physics;
+#[allow(dead_code)]
+pub mod unseen;
 
 /// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
 #[allow(dead_code)]

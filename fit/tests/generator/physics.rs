@@ -9,7 +9,7 @@ const FINE: usize = 60_000;
 
 /// A shutter's openness over a trace, which lasts from 0 to 1.
 pub struct Openness {
-    at: Vec<f64>,
+    pub at: Vec<f64>,
     sums: Vec<f64>,
 }
 
@@ -64,9 +64,10 @@ pub enum Family {
     Pulsed,
     Differing,
     Coarse,
+    Creep,
 }
 
-pub const FAMILIES: [Family; 16] = [
+pub const FAMILIES: [Family; 17] = [
     Family::Bounce,
     Family::DeepBounce,
     Family::Dip,
@@ -83,6 +84,7 @@ pub const FAMILIES: [Family; 16] = [
     Family::Pulsed,
     Family::Differing,
     Family::Coarse,
+    Family::Creep,
 ];
 
 /// A trace of a shutter, and the truth.
@@ -173,6 +175,15 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
                 let late = (t - close).max(0.0) / closed;
                 let up = 1.0 - (-(t - start).max(0.0) / open).exp();
                 up * ((1.0 - share) * (-late).exp() + share * (-late / slow).exp())
+            })
+        }
+        // A leaf that hardly moves when it is nearly closed.
+        Family::Creep => {
+            let slow = random.within(0.5, 1.5);
+            Openness::new(move |t| {
+                let late = (t - close).max(0.0) / b;
+                let down = 0.85 * (1.0 - late).max(0.0).powi(2) + 0.15 * (-late / slow).exp();
+                leaf((t - start) / a) * if late > 0.0 { down } else { 1.0 }
             })
         }
         _ => Openness::new(plain),
