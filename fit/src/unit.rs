@@ -25,7 +25,9 @@ pub enum Unit {
 }
 
 impl Unit {
-    const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+    /// All, the largest first.
+    pub const ALL: [Self; 4] =
+        [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
