@@ -84,8 +84,8 @@ pub struct Values {
     pub delay: Option<f64>,
 }
 
-/// The keys of [`Values`], as they are numbered in a fault's place.
-const KEYS: [&str; 13] = [
+/// The keys of [`Values`], as a page numbers them and as a fault's place does.
+pub const KEYS: [&str; 13] = [
     "open_start",
     "open_end",
     "close_start",
@@ -100,6 +100,35 @@ const KEYS: [&str; 13] = [
     "min_pulse",
     "delay",
 ];
+
+impl Values {
+    /// So many numbers: one for each key, and eight for `shutteropening`.
+    pub const NUMBERS: usize = KEYS.len() + 7;
+
+    /// Those of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is.
+    pub fn read(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
+        let place = |key: &str| {
+            let before = KEYS.iter().take_while(|known| **known != key);
+            before.map(|key| if *key == "shutteropening" { 8 } else { 1 }).sum::<usize>()
+        };
+        let number = |key| numbers[place(key)];
+        let optional = |key| Some(number(key)).filter(|x| !x.is_nan());
+        let eight = || std::array::from_fn(|i| numbers[place("shutteropening") + i]);
+        Self {
+            unit,
+            times: ["open_start", "open_end", "close_start", "close_end"].map(number),
+            shutteropening: optional("shutteropening").map(|_| eight()),
+            triggers: number("triggers"),
+            timer_hz: number("timer_hz"),
+            min_gap: number("min_gap"),
+            nominal: optional("nominal"),
+            pulse: optional("pulse"),
+            duty: optional("duty"),
+            min_pulse: optional("min_pulse"),
+            delay: optional("delay"),
+        }
+    }
+}
 
 impl TryFrom<Values> for Scene {
     type Error = Fault;

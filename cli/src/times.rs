@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
-use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY};
+use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY, Values};
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
@@ -86,6 +86,26 @@ impl Times {
             }
         }
         Self::new(&scene::read(text)?)
+    }
+
+    /// The triggers at these times of a scene that is made of values, counted from the start of opening at 0.
+    ///
+    /// # Errors
+    /// Whatever is wrong with the scene.
+    pub fn of_values(values: Values, times: &[f64]) -> Result<Self, Fault> {
+        let scene = scene::Scene::try_from(values)?;
+        let place = scene.triggers.span();
+        let at = |time| Spanned::new(place.clone(), Number::Any(time));
+        Self::new(&Scene {
+            unit: scene.unit,
+            open_start: at(0.0),
+            trigger_times: Spanned::new(place.clone(), times.iter().copied().map(at).collect()),
+            timer_hz: scene.timer_hz,
+            timer_bits: None,
+            min_gap: scene.min_gap,
+            nominal: scene.nominal,
+            delay: scene.delay,
+        })
     }
 
     fn new(scene: &Scene) -> Result<Self, Fault> {

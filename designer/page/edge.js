@@ -1,6 +1,6 @@
 // Where a handle may be: it slides along the border of what is allowed.
 
-import { INNER, TIMES, innerOf, tidy, withTimes } from './scene.js';
+import { INNER, TIMES, innerOf, tidy, withInner, withTimes } from './scene.js';
 
 /** The handles: the four times, then the four inner control points. */
 export const HANDLES = [...TIMES, 't1', 't2', 't5', 't6'];
@@ -19,7 +19,7 @@ export function moved(scene, i, t, y) {
   const inner = [...innerOf(scene)], at = INNER.indexOf(HANDLES[i]);
   inner[at] = tidy((t - start) / (end - start), 9);
   inner[at + 1] = y;
-  return { ...scene, inner };
+  return withInner(scene, inner);
 }
 
 /** Between which times a handle can be moved at all. */

@@ -1,15 +1,17 @@
 // The curve with the equal shares and the triggers, a trace, another curve beside it; below it the share of the exposure.
 
+import { $, button, element, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
-import { perSecond, short, tidy } from './scene.js';
-import { svg } from './svg.js';
+import { change, model, tell } from './model.js';
+import { isSameShape, perSecond, short, tidy } from './scene.js';
+import { view as viewOf } from './view.js';
 
 const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
 /** More triggers than this have no dots, and more than that no shares. */
 const MOST_DOTS = 64, MOST_SHARES = 400;
 
 /** Round numbers in a range, some `count` of them. */
-export function rounds(from, to, count) {
+function rounds(from, to, count) {
   const raw = (to - from) / count;
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((by) => by * power >= raw * 0.999) * power;
@@ -33,10 +35,39 @@ export function openness({ times: [a, b, c, d], ramps }, t) {
   return at(low, 1);
 }
 
-/** The graph in `box`, which tells of what is under the pointer in `readout`. */
+/** Times and the share of the light that has come by then: by the curve, or between the triggers that a trace tells. */
+export function collected({ scene, view }) {
+  if (!scene.measured) return view.cdf;
+  return [[0, 0], ...view.marks.map(([t, , u]) => [t, u]), [Math.max(view.times[3], 1.02 * view.marks.at(-1)[0]), 1]];
+}
+
+/** The share in such a list at a time. */
+export function shareAt(list, t) {
+  if (t <= list[0][0]) return 0;
+  if (t >= list.at(-1)[0]) return 1;
+  let [low, high] = [0, list.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (list[middle][0] <= t) low = middle;
+    else high = middle;
+  }
+  const [[t0, u0], [t1, u1]] = [list[low], list[high]];
+  return u0 + ((t - t0) / (t1 - t0 || 1)) * (u1 - u0);
+}
+
+/** What a scene's curve leaves of a trace's samples, where `fitted` is the view of the curve that was fitted. */
+function left({ samples }, fitted, view) {
+  return samples.map(([t, o, r]) => [t, o, r + openness(fitted, t) - openness(view, t)]);
+}
+
+/** The root of the mean square of what is left. */
+export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum + r * r, 0) / samples.length);
+
+/** The graph in `box`. */
 export class Graph {
-  constructor(box, readout, change) {
-    Object.assign(this, { box, readout });
+  constructor(box) {
+    this.box = box;
+    this.isNew = { all: watch(), cursor: watch(), hold: watch(), words: watch(), other: watch(), trace: watch() };
     const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
@@ -47,17 +78,20 @@ export class Graph {
     this.paths = {
       even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'), other: layer('other'),
       curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
-      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'), cross: layer('cross'), arms: layer('arms'),
+      residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'), cross: layer('cross'), fired: layer('fired'), arms: layer('arms'),
     };
-    this.handles = new Handles(this, change);
-    box.append(root);
+    this.handles = new Handles(this);
+    box.append(root, element('div', undefined, { id: 'hold', role: 'status', hidden: '' }));
     this.room = box.clientWidth;
     new ResizeObserver(([{ contentRect }]) => {
       this.room = contentRect.width;
       this.draw();
     }).observe(box);
-    root.addEventListener('pointermove', (event) => !this.dragged && this.readAt(this.t(this.pointer(event)[0])));
-    root.addEventListener('pointerleave', () => this.dragged || this.readAt());
+    // A finger reads as well: what it has touched last stays.
+    const reads = (event) => this.dragged || this.pointAt(this.t(this.pointer(event)[0]));
+    root.addEventListener('pointerdown', reads);
+    root.addEventListener('pointermove', reads);
+    root.addEventListener('pointerleave', ({ pointerType }) => this.dragged || pointerType !== 'mouse' || this.pointAt());
   }
 
   pointer(event) {
@@ -87,59 +121,78 @@ export class Graph {
     };
   }
 
-  /** Shows a scene and the view of the last one that is valid. */
-  show(scene, view) {
-    Object.assign(this, { scene, view });
-    this.draw();
+  /** The cursor of the model at a time in the scene's unit; at none. */
+  cursorAt(t) {
+    return { cursor: Number.isFinite(t) ? t / this.perUnit : null, isPlaying: false };
   }
 
-  /** A trace as (seconds, openness, residual), and its triggers as (seconds, error). */
-  trace(trace) {
-    if (this.traced === trace) return;
-    this.traced = trace;
-    this.draw();
+  pointAt(t) {
+    tell(this.cursorAt(t));
   }
 
-  /** Another curve's view, beside this one. */
-  compare(other) {
-    this.other = other;
-    this.draw();
+  /** Draws the model; what has no curve of its own keeps the last one, which is marked. */
+  show({ now: { scene, other, trace }, last, cursor, isPlaying, hold }) {
+    if (!last) return;
+    Object.assign(this, { scene, view: last });
+    if (this.isNew.other(other)) this.other = other && viewOf(other).Ok;
+    if (this.isNew.trace(trace)) this.fitted = trace?.fit && viewOf(trace.scene).Ok;
+    if (this.isNew.all(scene, last, other, trace, this.dragged)) this.draw();
+    if (this.isNew.cursor(last, cursor, scene.unit, isPlaying, this.size)) this.point(cursor, isPlaying);
+    if (this.isNew.hold(hold, this.size)) this.tellHold(hold);
   }
 
-  /** Tells of a time, in the scene's unit; of none what the handles are for. */
-  readAt(t) {
-    const { view, scene } = this;
-    const per = perSecond(scene.unit);
-    const isRead = t !== undefined && view && Number.isFinite(t);
-    this.paths.cross.setAttribute('d', isRead ? `M${this.x(t).toFixed(1)} ${TOP}V${this.cdfBottom}` : '');
-    const words = isRead ? this.words(t / per, per) : '';
-    if (this.readout.textContent !== words) this.readout.textContent = words;
+  // The time that is pointed at, in words; and while an exposure plays, the triggers that have just fired.
+  point(cursor, isPlaying) {
+    const per = this.perUnit;
+    const isRead = cursor !== null;
+    this.paths.cross.setAttribute('d', isRead ? `M${this.x(cursor * per).toFixed(1)} ${TOP}V${this.cdfBottom}` : '');
+    const recent = isPlaying ? 0.02 * (this.view.times[3] - this.view.times[0]) : 0;
+    const fired = isPlaying ? this.view.marks.filter(([t]) => t <= cursor && t > cursor - recent) : [];
+    this.paths.fired.setAttribute('d', fired.map(([t, o]) => `M${this.x(t * per).toFixed(1)} ${this.y(o).toFixed(1)}h0`).join(''));
+    write($('readout'), isRead && !isPlaying ? this.words(cursor, per) : '');
+  }
+
+  // What holds a handle, beside it.
+  tellHold(hold) {
+    const box = $('hold');
+    box.hidden = !hold;
+    if (!hold) return;
+    const told = [hold.words, ...hold.remedies.flat()];
+    if (this.isNew.words(...told)) box.replaceChildren(hold.words, ...hold.remedies.map(([words, scene]) => button(words, () => change({ scene: { ...scene, given: [...scene.given, 'triggers', 'min_gap', 'lamp'] } }))));
+    const [x, y] = [this.x(hold.t), this.y(hold.o)];
+    const left = x > LEFT + this.width / 2 ? `calc(${x - 18}px - 100%)` : `${x + 18}px`;
+    // Moved so, it is no shift of the layout.
+    box.style.transform = `translate(${left}, ${Math.min(Math.max(y - 14, 4), this.bottom - 40)}px)`;
   }
 
   words(s, per) {
     const { view, scene } = this;
-    const { cdf } = view;
-    const k = Math.min(Math.max(cdf.findIndex(([t]) => t >= s), 0) || (s > cdf[0][0] ? cdf.length - 1 : 0), cdf.length - 1);
-    const [[t0, u0], [t1, u1]] = [cdf[Math.max(k - 1, 0)], cdf[k]];
-    const u = t1 > t0 ? u0 + (u1 - u0) * Math.min(Math.max((s - t0) / (t1 - t0), 0), 1) : u1;
+    const u = shareAt(collected(this), s);
+    const [[first], [last]] = [view.marks[0], view.marks.at(-1)];
+    const isKnown = !scene.measured || (s >= first && s <= last);
+    const part = isKnown ? `${short(100 * u, 3)} %` : `${s < first ? 'under' : 'over'} ${short((s < first ? 50 : 100 * view.marks.length - 50) / view.marks.length, 3)} %`;
     const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
-    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(100 * openness(view, s), 3)} % open`, `${short(100 * u, 3)} % collected`];
+    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(100 * openness(view, s), 3)} % open`, `${part} collected`];
     const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
-    if (view.plan.Ok) parts.push(`trigger ${near}: tick ${view.plan.Ok.ticks[near]}`);
+    if (view.plan.Ok) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
     return parts.join(' · ');
   }
 
   fit() {
-    const width = Math.max(280, Math.floor(this.room));
-    const strip = this.traced ? RESIDUAL : 0;
-    const height = Math.round(Math.min(520, Math.max(400, width * 0.56))) + strip;
+    const width = Math.max(220, Math.floor(this.room));
+    const strip = this.samples ? RESIDUAL : 0;
+    const height = Math.round(Math.min(440, Math.max(360, width * 0.5))) + strip;
     Object.assign(this, { width: width - LEFT - RIGHT, height: Math.round((height - strip - TOP - BETWEEN - BOTTOM) * 0.62) });
     this.bottom = TOP + this.height;
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
     const per = perSecond(this.scene.unit);
     const points = [this.view, ...(this.other ? [this.other] : [])].flatMap((view) => view.ramps.flat());
-    const [times, heights] = [points.map(([t]) => t * per), points.map(([, y]) => y)];
+    // A trace is seen whole, as far as there is light.
+    const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
+    const lit = light.length ? [light[0], light.at(-1)] : [];
+    const times = [...points, ...lit, ...this.view.marks.slice(0, 1), ...this.view.marks.slice(-1)].map(([t]) => t * per);
+    const heights = [...points.map(([, y]) => y), ...(this.samples ? [Math.max(...light.map(([, o]) => o), 1)] : [])];
     const room = 0.05 * (Math.max(...times) - Math.min(...times));
     const ends = [Math.min(...times) - room, Math.max(...times) + room];
     const [low, high] = [Math.min(-0.1, ...heights.map((y) => y - 0.08)), Math.max(1.12, ...heights.map((y) => y + 0.08))];
@@ -148,7 +201,7 @@ export class Graph {
       this.range = [Math.min(ends[0], this.range[0]), Math.max(ends[1], this.range[1])];
       [this.low, this.high] = [Math.min(low, this.low), Math.max(high, this.high)];
     } else Object.assign(this, { range: ends, low, high });
-    const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit}`;
+    const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit} ${this.samples && this.zoom()}`;
     if (size === this.size) return;
     this.size = size;
     this.root.setAttribute('viewBox', `0 0 ${width} ${height}`);
@@ -177,22 +230,26 @@ export class Graph {
       text(this.x(t), this.cdfBottom + 17, short(t, 6), 'middle');
     }
     text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start', 'title');
-    if (this.traced) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start', 'title');
+    if (this.samples) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start', 'title');
     text(right, height - 8, `time (${this.scene.unit})`, 'end', 'title');
     for (const [key, value] of Object.entries({ x: LEFT - 5, y: 0, width: this.width + 10, height })) this.framed.setAttribute(key, value);
   }
 
   // The residual is drawn so many times as high as the trace. Edges within one sample would hide all else.
   zoom() {
-    const sizes = this.traced.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
+    const sizes = this.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
     const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
     return Math.max(1, Number(((0.5 * (RESIDUAL - 20)) / most / (this.height / (this.high - this.low))).toPrecision(1)));
   }
 
   draw() {
     if (!this.view || !this.room) return;
+    const { view, paths } = this;
+    const { trace } = model.now;
+    const fit = trace?.fit;
+    const isFitted = fit && isSameShape(trace.scene, this.scene);
+    this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
     this.fit();
-    const { view, paths, traced } = this;
     const per = perSecond(this.scene.unit);
     const f = (x) => x.toFixed(1);
     const X = (seconds) => this.x(seconds * per);
@@ -202,6 +259,8 @@ export class Graph {
       const [opening, closing] = ramps.map((ramp) => ramp.map(([t, y]) => `${f(X(t))} ${f(this.y(y))}`));
       return `L${opening[0]}C${opening.slice(1)}L${closing[0]}C${closing.slice(1)}`;
     };
+    // Where a trace tells the triggers, no curve does.
+    paths.curve.classList.toggle('beside', Boolean(this.scene.measured));
     const line = (view) => `M${LEFT} ${zero}H${f(X(view.times[0]))}${outline(view)}L${f(X(view.times[3]))} ${zero}H${LEFT + this.width}`;
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
     set(paths.curve, line(view));
@@ -210,7 +269,8 @@ export class Graph {
 
     const top = f(this.y(this.high));
     const shares = ['', ''];
-    if (view.edges.length <= MOST_SHARES) {
+    if (!view.edges.length) shares[0] = '';
+    else if (view.edges.length <= MOST_SHARES) {
       for (let i = 1; i < view.edges.length; i++) shares[i % 2] += `M${f(X(view.edges[i - 1]))} ${top}V${zero}H${f(X(view.edges[i]))}V${top}Z`;
     } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
     set(paths.even, shares[0]);
@@ -233,7 +293,8 @@ export class Graph {
     set(paths.dots, dots[0]);
     set(paths.cdfStems, stems[1]);
     set(paths.cdfDots, dots[1]);
-    set(paths.cdf, `M${LEFT} ${bottom}H${start}${view.cdf.map(([t, u]) => `L${f(X(t))} ${f(this.u(u))}`).join('')}H${LEFT + this.width}`);
+    const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
+    set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`);
 
     const tick = (ticks) => f(X(view.times[0] + ticks / this.scene.timer_hz));
     const pulses = view.plan.Ok?.pulses ?? [];
@@ -241,15 +302,15 @@ export class Graph {
     set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
     if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
     else paths.lamp.removeAttribute('clip-path');
-    const keys = { lamp: pulses.length, trace: traced, other: this.other };
-    for (const [name, isThere] of Object.entries(keys)) this.box.parentElement.querySelector(`.${name}-key`).hidden = !isThere;
-    const samples = traced?.samples ?? [];
-    const points = (y) => (samples.length ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
+    const { samples } = this;
+    const keys = { lamp: pulses.length, trace: samples, other: this.other };
+    for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
+    const points = (y) => (samples ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
     set(paths.trace, points(([, o]) => this.y(o)));
-    const scale = traced ? (this.zoom() * this.height) / (this.high - this.low) : 0;
+    const scale = samples ? (this.zoom() * this.height) / (this.high - this.low) : 0;
     const half = 0.5 * (RESIDUAL - 20), middle = this.bottom + 20 + half;
-    set(paths.residual, traced ? `${points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half))}M${LEFT} ${middle}H${LEFT + this.width}` : '');
-    set(paths.errors, (traced?.triggers ?? []).map(([t, error]) => {
+    set(paths.residual, samples ? `${points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half))}M${LEFT} ${middle}H${LEFT + this.width}` : '');
+    set(paths.errors, (isFitted ? fit.triggers : []).map(([t, error]) => {
       const y = f(this.y(openness(view, t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
     }).join(''));

@@ -1,8 +1,10 @@
 // The handles of the graph: moved by mouse, finger and keys, never beyond what is allowed.
 
 import { HANDLES, limits, moved, placeOf, slide } from './edge.js';
+import { svg } from './dom.js';
+import { change, model, tell } from './model.js';
+import { heldBy } from './remedies.js';
 import { INNER, innerOf, short, tidy } from './scene.js';
-import { svg } from './svg.js';
 import { allowed } from './view.js';
 
 /** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
@@ -11,9 +13,8 @@ const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed',
   'opening ramp, first control point', 'opening ramp, second control point', 'closing ramp, first control point', 'closing ramp, second control point'];
 
 export class Handles {
-  /** On a graph; `change(scene, isDone, key)` is told of each move. */
-  constructor(graph, change) {
-    Object.assign(this, { graph, change });
+  constructor(graph) {
+    this.graph = graph;
     this.groups = [];
     // In the order of the picture, which is Tab's.
     for (const i of [0, 4, 5, 1, 2, 6, 7, 3]) this.groups[i] = this.make(HANDLES[i], i);
@@ -30,27 +31,36 @@ export class Handles {
     group.addEventListener('touchstart', (event) => event.preventDefault(), { passive: false });
     group.addEventListener('pointerdown', (event) => this.grab(event));
     group.addEventListener('keydown', (event) => this.key(event, i));
-    group.addEventListener('focus', () => this.graph.readAt(placeOf(this.graph.scene, i)[0]));
+    group.addEventListener('focus', () => this.graph.pointAt(placeOf(this.graph.scene, i)[0]));
     return group;
   }
 
-  // The scene with a handle as near to a place as is allowed, planned if it was before.
+  // The scene with a handle as near to a place as is allowed, planned if it was before. `tried` is what was asked for, if
+  // that is not it.
   slid(scene, i, place) {
     const { graph } = this;
     const fine = 10 ** Math.floor(Math.log10(graph.perPixel / 20));
     const next = slide(scene, i, place, [fine, 1e-4], (scene) => allowed(scene, false) > 0);
-    if (allowed(next, true) > 1 || allowed(scene, true) < 2) return next;
-    // The triggers come too close: so far on the way there as they do not.
+    const asked = moved(scene, i, ...place);
+    const isShort = String(placeOf(next, i)) !== String(placeOf(asked, i));
+    if (scene.measured || allowed(next, true) > 1 || allowed(scene, true) < 2) return { next, tried: isShort ? asked : null };
+    // The triggers come too close: so far on the way there as they do not, at a round place.
     const [from, to] = [placeOf(scene, i), placeOf(next, i)];
     let good = scene, [low, high] = [0, 1];
     for (let k = 0; k < 7; k++) {
       const part = 0.5 * (low + high);
-      const [t, y] = from.map((x, axis) => tidy(x + part * (to[axis] - x), 7));
+      const [t, y] = from.map((x, axis) => tidy(Math.round((x + part * (to[axis] - x)) / [fine, 1e-4][axis]) * [fine, 1e-4][axis], 9));
       const tried = moved(scene, i, t, i < 4 ? from[1] : y);
       if (allowed(tried, true) > 1) [good, low] = [tried, part];
       else high = part;
     }
-    return good;
+    return { next: good, tried: next };
+  }
+
+  // What holds a handle is told beside it.
+  told(i, { next, tried }) {
+    const [t, o] = placeOf(next, i);
+    return { hold: tried && { t, o, ...heldBy(tried, i) }, ...this.graph.cursorAt(t) };
   }
 
   key(event, i) {
@@ -68,10 +78,9 @@ export class Handles {
     else if (i < 4) t = stepped(t, by[0] || by[1], 10 ** Math.floor(Math.log10(length * step) + 0.31));
     else if (by[1]) y = stepped(y, by[1], step);
     else t = scene.times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
-    const next = this.slid(scene, i, [t, y]);
+    const slid = this.slid(scene, i, [t, y]);
     // A key that is held is one step.
-    this.change(next, true, event.repeat ? `held ${i}` : undefined);
-    this.graph.readAt(placeOf(next, i)[0]);
+    change({ scene: slid.next }, { key: event.repeat ? `held ${i}` : undefined, told: this.told(i, slid) });
   }
 
   grab(event) {
@@ -111,26 +120,28 @@ export class Handles {
         const [x, y] = graph.pointer(event);
         if (Math.hypot(x - start[0], y - start[1]) < SAME) return;
         const miss = (i) => {
-          const [t, o] = placeOf(this.slid(first, i, to(i, event)), i);
+          const [t, o] = placeOf(this.slid(first, i, to(i, event)).next, i);
           return Math.hypot(map.x(t) - pixels(i)[0] - x + start[0], map.y(o) - pixels(i)[1] - y + start[1]);
         };
         const misses = new Map(together.map((i) => [i, miss(i)]));
         take(together.reduce((a, b) => (misses.get(b) < misses.get(a) - 1 ? b : a)));
       }
+      // Somebody undid meanwhile, or chose another curve: that one stays.
+      if (model.now.scene !== last) return end();
       // A time is moved from where it was at first: on each way its ramp's shape is rounded.
-      last = this.slid(i < 4 ? first : last, i, to(i, event));
-      this.change(last, false);
-      graph.readAt(placeOf(last, i)[0]);
+      const slid = this.slid(i < 4 ? first : last, i, to(i, event));
+      last = slid.next;
+      change({ scene: last }, { isDraft: true, told: this.told(i, slid) });
     };
     const end = (event) => {
       for (const [name, listener] of listeners) holder.removeEventListener(name, listener);
       removeEventListener('keydown', escape, true);
-      for (const group of this.groups) group.classList.remove('dragged');
       graph.dragged = null;
-      this.change(event.type === 'pointerup' ? last : first, true);
-      graph.draw();
+      const { hold } = model;
+      if (model.now.scene === last && event) change({ scene: event.type === 'pointerup' ? last : first });
       if (i === undefined) take(nearest);
       for (const group of this.groups) group.classList.remove('dragged');
+      tell({ hold: event?.type === 'pointerup' ? hold : null });
     };
     const escape = (event) => event.key === 'Escape' && end(event);
     const listeners = [['pointermove', move], ['pointerup', end], ['pointercancel', end]];
@@ -144,6 +155,7 @@ export class Handles {
       const found = isFree ? undefined : candidates.find((it) => Math.abs(it - value) < MAGNET * perPixel);
       return found ?? tidy(Math.round(value / round) * round, 9);
     };
+    // Where the neighbours are, and 0 and 1.
     const ends = i < 4 ? [times[i - 1], times[i + 1]].filter((t) => t !== undefined) : i < 6 ? times.slice(0, 2) : times.slice(2);
     const t = near(map.t(x), map.perPixel, ends, 10 ** Math.floor(Math.log10(map.perPixel)) * 2);
     return [t, i < 4 ? placeOf({ times }, i)[1] : near(map.o(y), map.perPixelY, [0, 1], 0.01)];

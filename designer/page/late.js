@@ -1,29 +1,27 @@
-// The panels further down: ticks, cost, the moving bar, the set-ups.
+// The panels further down, which are loaded and written when they are seen: ticks and set-ups.
 
-import { $, element, rows, write as put } from './dom.js';
+import { $, element, rows, svg, write as put } from './dom.js';
 import { openness } from './graph.js';
 import { perSecond, short } from './scene.js';
-import { svg } from './svg.js';
 
 /** Longer tables lose their middle. */
 const MOST_ROWS = 300;
 
-/** Writes a panel. */
-export function write(id, scene, view, range) {
-  const plan = view.plan.Ok;
+/** Writes a panel of the model. */
+export function write(id, { now: { scene }, view }) {
+  const plan = view?.plan.Ok;
+  if (!plan) return;
   if (id === 'ticks') ticks(scene, plan, view.marks);
-  if (id === 'cost') cost(plan);
-  if (id === 'exposed') bars(plan, view.marks.length);
-  if (id === 'set-ups') setUps(scene, plan, view, range);
+  if (id === 'set-ups') setUps(scene, plan, view);
 }
 
+// As the CSV has it, in the scene's unit.
 function ticks(scene, plan, marks) {
-  const { pulses } = plan;
+  const { pulses, delay } = plan;
   const table = $('ticks');
-  const names = ['#', 'u', `time (${scene.unit})`, 'ticks', 'gap', ...(pulses.length ? ['on', 'off'] : [])];
+  const names = ['#', 'share', `time, ${scene.unit}`, 'ticks', 'gap', ...(delay == null ? [] : ['from sync']), ...(pulses.length ? ['on', 'off'] : [])];
   if (table.dataset.names !== String(names)) {
     table.dataset.names = names;
-    table.style.setProperty('--columns', names.length);
     const head = element('tr');
     head.append(...names.map((name) => element('th', name, { scope: 'col' })));
     table.replaceChildren(element('thead'), element('tbody'));
@@ -40,52 +38,24 @@ function ticks(scene, plan, marks) {
   const per = perSecond(scene.unit);
   for (let row = 0; row < lines.length; row++) {
     const i = hidden && row >= MOST_ROWS / 2 ? row + hidden : row;
-    const { children } = lines[row];
-    const [t, , u] = marks[i];
-    put(children[0], String(i));
-    put(children[1], u.toFixed(5));
-    put(children[2], short(t * per, 6));
-    put(children[3], String(plan.ticks[i]));
-    put(children[4], i ? String(plan.ticks[i] - plan.ticks[i - 1]) : '–');
-    if (pulses.length) {
-      put(children[5], String(pulses[i][0]));
-      put(children[6], String(pulses[i][1]));
-    }
+    const [t, , u] = marks[i], tick = plan.ticks[i];
+    const cells = [i, u.toFixed(5), short(t * per, 6), tick, i ? tick - plan.ticks[i - 1] : '–', ...(delay == null ? [] : [delay + tick]), ...(pulses[i] ?? [])];
+    cells.forEach((cell, k) => put(lines[row].children[k], String(cell)));
   }
-}
-
-function cost(plan) {
-  const box = $('cost');
-  if (!box.firstChild) {
-    const table = element('table');
-    const head = element('tr');
-    head.append(...['call', 'typical', 'worst', 'code'].map((name) => element('th', name, { scope: 'col' })));
-    table.append(element('thead'), element('tbody'));
-    table.tHead.append(head);
-    for (const { call, typical, worst, code } of plan.costs) {
-      const row = element('tr');
-      row.append(element('th', call.replaceAll('`', ''), { scope: 'row' }), element('td', String(typical)), element('td', String(worst)), element('td', String(code)));
-      table.tBodies[0].append(row);
-    }
-    const note = `Cycles of a Cortex-M4F, modelled, and bytes of code: of the shutters measured in docs/internals/cost.md, not of this one. A curve built by the compiler takes ${plan.bytes} bytes of flash.`;
-    box.append(element('p', undefined, { class: 'direct' }), table, element('p', note, { class: 'note' }));
-  }
-  const n = plan.ticks.length;
-  const { direct } = plan;
-  put(box.firstChild, direct >= n ? `All ${n} triggers are placed without a search (up to ${direct} would be).`
-    : direct ? `A frame of ${n} needs a search; frames of up to ${direct} do not.` : 'Triggers of this curve may need a search.');
 }
 
 const UP = 54;
+const TITLES = ['The camera stays open, and equal pulses at the triggers stand in for the shutter',
+  'The shutter is in the light’s path: it dims the same pulses', 'The shutter is in the light’s path: pulses that are made for it get equal light through it'];
 
-function setUps(scene, plan, view, range) {
+function setUps(scene, plan, view) {
   const box = $('set-ups');
   if (!plan.set_ups.length) {
-    box.replaceChildren(element('p', 'Drawn for up to 128 pulses.', { class: 'empty' }));
+    box.replaceChildren(element('p', scene.measured ? 'Drawn where a curve tells the triggers.' : 'Drawn for up to 128 pulses.', { class: 'empty' }));
     return;
   }
   if (!box.querySelector('figure')) {
-    box.replaceChildren(...plan.set_ups.map(({ title }) => {
+    box.replaceChildren(...TITLES.map((title) => {
       const figure = element('figure');
       const picture = svg('svg', { preserveAspectRatio: 'none', viewBox: `0 0 1000 ${2 * UP + 14}`, 'aria-hidden': true });
       for (const name of ['lamp-on', 'light', 'base', 'dose', 'full']) svg('path', { class: name }, picture);
@@ -93,7 +63,8 @@ function setUps(scene, plan, view, range) {
       return figure;
     }), element('p', 'Outlined: the lamp is on. Filled: its light that arrives; below, each pulse’s dose against an equal pulse that nothing dims (dashed).', { class: 'note' }));
   }
-  const X = (t) => ((t - range[0]) / (range[1] - range[0])) * 1000;
+  const [start, , , end] = view.times;
+  const X = (t) => 50 + ((t - start) / (end - start)) * 900;
   plan.set_ups.forEach(({ is_shuttered, pulses }, i) => {
     const figure = box.children[i];
     const [on, light, base, dose, full] = figure.querySelectorAll('path');
@@ -126,36 +97,4 @@ function setUps(scene, plan, view, range) {
     const between = (a, b, unit) => (b - a <= 0.01 * b ? `${b} ${unit}` : `${a} to ${b} ${unit}`);
     put(figure.lastChild, `doses ${between(least, most, '%')}; pulses of ${between(shortest, longest, scene.unit)}`);
   });
-}
-
-// From linear light to the bytes of a picture: a warm white.
-const WARM = [255, 244, 224];
-const encode = (x) => (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
-
-function bars(plan, n) {
-  const box = $('exposed');
-  if (!box.firstChild) {
-    for (let i = 0; i < 2; i++) {
-      const figure = element('figure');
-      figure.append(element('figcaption'), element('canvas', undefined, { width: 480, height: 1, role: 'img' }));
-      box.append(figure);
-    }
-    box.append(element('p', undefined, { class: 'note' }));
-  }
-  const names = ['ideal: the curve itself', `${n} ${plan.pulses.length ? 'pulses' : 'flashes'}`];
-  [plan.ideal, plan.triggered].forEach((light, i) => {
-    const [caption, canvas] = box.children[i].children;
-    put(caption, names[i]);
-    canvas.setAttribute('aria-label', `The exposed bar, ${names[i]}`);
-    const context = canvas.getContext('2d');
-    const picture = context.createImageData(480, 1);
-    light.forEach((x, column) => {
-      const value = encode(0.012 + 0.988 * Math.min(1, Math.max(0, x)));
-      for (let k = 0; k < 3; k++) picture.data[4 * column + k] = WARM[k] * value;
-      picture.data[4 * column + 3] = 255;
-    });
-    context.putImageData(picture, 0, 0);
-  });
-  const squares = plan.ideal.reduce((sum, x, i) => sum + (x - plan.triggered[i]) ** 2, 0);
-  put(box.lastChild, `The pictures differ by ${short(100 * Math.sqrt(squares / 480), 2)} % of the brightest (rms). More triggers, or a wider bar, and the steps vanish.`);
 }

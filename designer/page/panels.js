@@ -1,73 +1,68 @@
-// What is seen beside the curve: the facts; and the panels further down, which are loaded and written when they are seen.
+// What is seen beside the curve: the exposure as a speed, the facts, and the gap.
 
-import { $, element, rows, write } from './dom.js';
-import { perSecond, short } from './scene.js';
-
-const PANELS = ['ticks', 'cost', 'exposed', 'set-ups'];
-let newest, late;
-const seen = new Set();
-
-/** Begins to look which of the panels further down are seen. */
-export function start() {
-  const observer = new IntersectionObserver(async (entries) => {
-    for (const { target, isIntersecting } of entries) seen[isIntersecting ? 'add' : 'delete'](target);
-    if (seen.size && !late) late = await import('./late.js');
-    writeSeen();
-  }, { rootMargin: '80px' });
-  for (const id of PANELS) observer.observe($(id).closest('section'));
-}
-
-/** All panels, for a scene, the view of it, and the range of time that the graph shows; is the curve a measured one? */
-export function show(scene, view, range, isMeasured) {
-  newest = [scene, view, range];
-  facts(scene, view.plan.Ok);
-  speed(scene, view.plan.Ok, isMeasured);
-  writeSeen();
-}
-
-function writeSeen() {
-  if (!late || !newest) return;
-  for (const id of PANELS) if (seen.has($(id).closest('section'))) late.write(id, ...newest);
-}
+import { $, element, rows, watch, write } from './dom.js';
+import { isSameShape, perSecond, short } from './scene.js';
 
 // A speed as a dial has it: from a third of a second on, seconds are what it shows.
-const dial = (s) => (s < 0.3 ? `1/${1 / s < 100 ? short(1 / s, 3) : Math.round(1 / s)}` : short(s, 3));
+export const dial = (s) => (s < 0.3 ? `1/${1 / s < 100 ? short(1 / s, 3) : Math.round(1 / s)}` : short(s, 3));
 
-const DIALS = [1 / 8000, 1 / 4000, 1 / 2000, 1 / 1000, 1 / 500, 1 / 250, 1 / 125, 1 / 60, 1 / 30, 1 / 15, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8];
+const DIALS = [1 / 8000, 1 / 4000, 1 / 2000, 1 / 1000, 1 / 500, 1 / 250, 1 / 125, 1 / 60, 1 / 30, 1 / 15, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8, 16, 32];
 
-// The exposure as a speed, beside the nominal one, for which a measured shutter's is the nearest that a dial has.
-function speed(scene, { exposure }, isMeasured) {
+/** The nearest full step of a dial; nothing where none is near. */
+export function nearest(exposure) {
   const far = (dial) => Math.abs(Math.log2(exposure / dial));
-  const nearest = DIALS.reduce((a, b) => (far(b) < far(a) ? b : a));
-  const nominal = scene.nominal ? scene.nominal / perSecond(scene.unit) : isMeasured && far(nearest) < 0.75 && nearest;
-  const ev = nominal && Math.log2(exposure / nominal);
-  write($('speed'), `${dial(exposure)} s${nominal ? ` for ${dial(nominal)}, ${ev < 0 ? '−' : '+'}${Math.abs(ev).toFixed(2)} EV` : ''}`);
+  const found = DIALS.reduce((a, b) => (far(b) < far(a) ? b : a));
+  return far(found) < 0.75 ? found : null;
 }
 
-function facts(scene, plan) {
-  const lines = rows($('facts'), plan.facts.length, () => {
+/** By how many stops one exposure is longer than another. */
+export const stops = (exposure, nominal) => {
+  const ev = Math.log2(exposure / nominal);
+  return `${Math.abs(ev) < 0.005 ? '±' : ev < 0 ? '−' : '+'}${Math.abs(ev).toFixed(2)} EV`;
+};
+
+const isNew = watch();
+
+export function draw({ now: { scene, trace }, view, last }) {
+  if (!last || !isNew(scene, trace, view)) return;
+  const per = perSecond(scene.unit);
+  const of = (seconds, digits = 5) => `${short(seconds * per, digits)} ${scene.unit}`;
+  // A curve that does not explain its trace tells no exposure; the trace does.
+  const isFitted = trace?.fit && isSameShape(trace.scene, scene);
+  const exposure = !scene.measured ? last.exposure : isFitted ? trace.fit.exposure[0] : null;
+  const nominal = scene.nominal ? scene.nominal / per : isFitted && exposure ? nearest(exposure) : null;
+  write($('speed'), exposure === null ? `${scene.measured.length} measured times` : `${dial(exposure)} s${nominal ? ` for ${dial(nominal)}, ${stops(exposure, nominal)}` : ''}`);
+
+  const plan = view?.plan.Ok;
+  const [a, b, c, d] = last.times;
+  const lines = [];
+  if (exposure !== null) lines.push(['Exposure', `${scene.measured ? trace.fit.told : of(exposure)}, as if fully open`]);
+  if (!scene.measured) {
+    lines.push(['Opens in', of(b - a)], ['Stays open', of(c - b)], ['Closes in', of(d - c)]);
+    lines.push(['Half open', plan ? `for ${of(plan.half_open)}` : '–'], ['Efficiency', `${short(100 * last.efficiency, 4)} %`]);
+  }
+  const hz = scene.timer_hz;
+  lines.push(['Timer', hz >= 1e6 ? `${short(hz / 1e6, 6)} MHz` : hz >= 1e3 ? `${short(hz / 1e3, 6)} kHz` : `${hz} Hz`]);
+  lines.push(['Sync', plan?.delay != null ? `${plan.delay} ticks before it opens` : 'no delay known']);
+  lines.push(['Flashes', !plan ? `${scene.triggers} do not fit` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`]);
+  const list = rows($('facts'), lines.length, () => {
     const line = element('div');
     line.append(element('dt'), element('dd'));
     return line;
   });
-  plan.facts.forEach(([what, fact], i) => {
-    write(lines[i].firstChild, what);
-    write(lines[i].lastChild, fact);
+  lines.forEach(([what, fact], i) => {
+    write(list[i].firstChild, what);
+    write(list[i].lastChild, fact);
   });
+
   // The closest gap beside what is required of it.
   const box = $('gap');
-  box.hidden = Number.isNaN(plan.closest) || plan.min_gap === 0;
+  box.hidden = !plan || Number.isNaN(plan.closest) || plan.min_gap === 0;
   if (box.hidden) return;
-  if (!box.firstChild) {
-    const bar = element('div', undefined, { class: 'meter', 'aria-hidden': true });
-    bar.append(element('i'), element('b'));
-    box.append(bar, element('p'));
-  }
   const { closest, min_gap } = plan;
   const most = 1.25 * Math.max(closest, min_gap);
   const [bar, text] = box.children;
-  bar.firstChild.style.width = `${(100 * closest) / most}%`;
-  bar.lastChild.style.left = `${(100 * min_gap) / most}%`;
-  const per = perSecond(scene.unit);
-  write(text, `closest ${short(closest * per, 4)} ${scene.unit}; ${short(min_gap * per, 4)} ${scene.unit} required`);
+  bar.firstChild.style.transform = `scaleX(${closest / most})`;
+  bar.lastChild.style.transform = `translateX(${(100 * min_gap) / most}%)`;
+  write(text, `closest ${of(closest, 4)} apart; ${of(min_gap, 4)} required`);
 }

@@ -1,38 +1,34 @@
-// The exposure, played: a bar of light sweeps over the graph, and the triggers flash.
+// The exposure, played: the cursor of the model goes through it once.
 
-import { $, element } from './dom.js';
+import { collected } from './graph.js';
+import { model, tell } from './model.js';
 
 /** How long an exposure takes here, in milliseconds. */
 const LENGTH = 4000;
-const FLASH = 160;
 
-let running = [];
+let frame = 0;
 
 export function stop() {
-  for (const animation of running) animation.cancel();
-  running = [];
-  $('sweep')?.remove();
+  cancelAnimationFrame(frame);
+  frame = 0;
+  if (model.isPlaying) tell({ cursor: null, isPlaying: false });
 }
 
-/** Plays the exposure on a graph once. */
-export function play(graph, view) {
+export function play() {
   stop();
-  const box = element('div', undefined, { id: 'sweep', 'aria-hidden': true });
-  const [bar, spark] = [element('i'), element('b')];
-  box.append(bar, spark);
-  graph.box.append(box);
-  const X = (seconds) => graph.x(seconds * graph.perUnit);
-  const [start, end] = [view.times[0], view.times[3]].map(X);
-  const at = (x) => `translateX(${x.toFixed(1)}px)`;
-  running.push(bar.animate([{ transform: at(start), opacity: 0 }, { opacity: 0.9, offset: 0.04 }, { opacity: 0.9, offset: 0.96 }, { transform: at(end), opacity: 0 }], { duration: LENGTH }));
-  // More flashes than a screen can show in that time would be one.
-  const most = LENGTH / 2 / FLASH, n = view.marks.length;
-  const shown = view.marks.filter((_, i) => n <= most || Math.floor((i * most) / n) !== Math.floor(((i - 1) * most) / n));
-  for (const [t, o] of shown) {
-    const flash = spark.cloneNode();
-    flash.style.translate = `${X(t).toFixed(1)}px ${graph.y(o).toFixed(1)}px`;
-    box.append(flash);
-    running.push(flash.animate([{ opacity: 1, scale: 1.4 }, { opacity: 0, scale: 0.6 }], { duration: 2.5 * FLASH, delay: (LENGTH * (X(t) - start)) / (end - start || 1) }));
-  }
-  running[0].onfinish = stop;
+  const { view, now: { scene } } = model;
+  if (!view) return;
+  const list = collected({ scene, view });
+  const [start, end] = [list[0][0], list.at(-1)[0]];
+  let first;
+  tell({ hold: null });
+  const next = (time) => {
+    first ??= time;
+    const part = (time - first) / LENGTH;
+    // Another curve, or a pointer, ends it.
+    if (part > 1 || model.view !== view || (frame && time !== first && !model.isPlaying)) return stop();
+    tell({ cursor: start + part * (end - start), isPlaying: true });
+    frame = requestAnimationFrame(next);
+  };
+  frame = requestAnimationFrame(next);
 }

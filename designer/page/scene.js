@@ -1,11 +1,19 @@
 // A scene's numbers: as an object, as TOML, as the part of the address behind '#'.
 
-export const UNITS = ['s', 'ms', 'µs', 'ns'];
+import { KEYS, UNITS } from './presets.js';
+
 export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
-export const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
+/** The numbers that a person writes, in the order of the engine's question. */
+export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER : key));
+const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
 const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
+const LAMP = ['pulse', 'duty', 'min_pulse'];
+/** The numbers that are times, beside those of the curve. */
+export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
+/** A longer part of an address is no link of this page's. */
+const LONGEST = 60_000;
 
 export const perSecond = (unit) => 1000 ** UNITS.indexOf(unit);
 
@@ -19,10 +27,10 @@ export function short(x, digits = 5) {
   return String(Number(x.toPrecision(digits)));
 }
 
-/** A scene as `shutter` keeps it, as an object of this page. */
+/** A scene as `shutter` keeps it, as an object of this page. Nobody has given any of its numbers yet. */
 export function fromScene(name, it) {
   const unit = it.unit ?? 's';
-  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, spare: {} };
+  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, measured: null, doubt: null, spare: {}, given: [] };
   for (const key of COUNTS) scene[key] = it[key];
   for (const key of OPTIONAL) scene[key] = it[key] ?? null;
   if (it.unit) return scene;
@@ -36,11 +44,35 @@ export function inUnit(scene, unit) {
   const by = UNITS.indexOf(unit) - UNITS.indexOf(scene.unit);
   const factor = 1000 ** Math.abs(by);
   const convert = (x) => (x == null ? x : tidy(by < 0 ? x / factor : x * factor));
-  const converted = { ...scene, unit, times: scene.times.map(convert) };
   const { spare } = scene;
+  const converted = { ...scene, unit, times: scene.times.map(convert), measured: scene.measured?.map(convert) ?? null };
   converted.spare = { ...spare, pulse: convert(spare.pulse), min_pulse: convert(spare.min_pulse) };
-  for (const key of ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay']) converted[key] = convert(scene[key]);
+  for (const key of SPANS) converted[key] = convert(scene[key]);
   return converted;
+}
+
+/**
+ * The shutter of a fit to a trace. Of the scene before there stays what a person gave; its nominal speed and the delay of its
+ * sync are another shutter's, unless the same trace was read otherwise.
+ */
+export function withFit(scene, name, fit, isSame) {
+  const found = fromScene(name, fit.scene);
+  const { given } = scene;
+  const unit = given.includes('unit') ? scene.unit : found.unit;
+  const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
+  const kept = ['triggers', 'timer_hz', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
+  for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
+  Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
+  if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
+  const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
+  if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
+  return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null };
+}
+
+/** Are two scenes of the same shutter? */
+export function isSameShape(a, b) {
+  const shape = (scene) => String([inUnit(scene, 'ns').times, scene.inner, scene.measured && inUnit(scene, 'ns').measured]);
+  return shape(a) === shape(b);
 }
 
 /** The inner control points; those of straight ramps where the scene has none. */
@@ -48,10 +80,13 @@ export function innerOf(scene) {
   return scene.inner ?? placed(STRAIGHT, scene.times);
 }
 
+/** The scene with other inner control points. */
+export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, doubt: null });
+
 /** The scene with straight ramps, or again with those that it had before. */
 export function straight(scene, isStraight) {
   const { inner, spare } = scene;
-  return isStraight ? { ...scene, inner: null, spare: { ...spare, inner } } : { ...scene, inner: spare.inner ?? innerOf(scene) };
+  return isStraight ? { ...withInner(scene, null), spare: { ...spare, inner } } : withInner(scene, spare.inner ?? innerOf(scene));
 }
 
 /** The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses. */
@@ -95,50 +130,64 @@ function placed(parts, times) {
 export function withTimes(scene, times) {
   const isSound = times.every(Number.isFinite) && times[3] > times[0];
   const along = (inner) => (inner && isSound ? placed(relative(inner, scene.times), times) : inner);
-  return { ...scene, times, inner: along(scene.inner), spare: { ...scene.spare, inner: along(scene.spare.inner) } };
+  return { ...withInner(scene, along(scene.inner)), times, spare: { ...scene.spare, inner: along(scene.spare.inner) } };
 }
 
-const number = (x) => (Number.isNaN(x) ? 'nan' : x === Infinity ? 'inf' : x === -Infinity ? '-inf'
-  : Math.abs(x) >= 1e15 ? x.toExponential() : String(x));
+const number = (x) => (x === Infinity ? 'inf' : x === -Infinity ? '-inf' : Math.abs(x) >= 1e15 ? x.toExponential() : String(x));
+const list = (numbers) => `[${numbers.map(number).join(', ')}]`;
 
-/** The scene as the text that `shutter plan` reads. */
+/** The scene as the text that `shutter plan` reads: by its curve, or by the times that a trace tells. */
 export function toml(scene) {
+  const { measured } = scene;
   const lines = [`# ${scene.name.replace(/[^\x20-\x7e]/g, '_')}`, `unit = "${scene.unit}"`];
-  TIMES.forEach((key, i) => lines.push(`${key} = ${number(scene.times[i])}`));
-  if (scene.inner) lines.push(`shutteropening = [${scene.inner.map(number).join(', ')}]`);
-  for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) lines.push(`${key} = ${number(scene[key])}`);
+  if (measured) lines.push('open_start = 0', `trigger_times = ${list(measured)}`);
+  else TIMES.forEach((key, i) => lines.push(`${key} = ${number(scene.times[i])}`));
+  if (scene.inner && !measured) lines.push(`shutteropening = ${list(scene.inner)}`);
+  for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null && !(measured && key === 'triggers')) lines.push(`${key} = ${number(scene[key])}`);
   return lines.join('\n') + '\n';
 }
 
-/** The scene as the part of an address behind '#', with another one beside it if there is one. */
-export function hash(scene, other) {
+/** The scene as the part of an address behind '#', with another one and a table of speeds beside it if there are such. */
+export function hash({ scene, other, speeds }) {
   const part = (key, value) => `${key}=${encodeURIComponent(value)}`;
   const parts = [part('name', scene.name), part('unit', scene.unit === 'µs' ? 'us' : scene.unit), `times=${scene.times}`];
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
-  if (other) parts.push(part('with', hash(other).slice(1)));
+  if (scene.measured) parts.push(`measured=${scene.measured}`);
+  if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
+  if (speeds) parts.push(part('speeds', speeds.map((row) => row.join(',')).join(';')));
   return '#' + parts.join('&');
 }
 
-/** The scene in such a part of an address, and the one beside it; an error says what is wrong. */
+/** What such a part of an address holds; an error says what is wrong. */
 export function fromAddress(text) {
-  const other = new URLSearchParams(text.replace(/^#/, '')).get('with');
-  return { scene: fromHash(text), other: other ? fromHash(other) : null };
+  const parts = new URLSearchParams(text.replace(/^#/, ''));
+  const other = parts.get('with');
+  const speeds = parts.get('speeds')?.split(';').map((row) => {
+    const [name, kind, ...numbers] = row.split(',');
+    if (numbers.length !== 4 || !numbers.every((x) => x && Number.isFinite(Number(x)))) throw new Error('speeds: a name, a kind and 4 numbers are required in each row');
+    return [name, kind, ...numbers.map(Number)];
+  });
+  return { scene: fromHash(text), other: other ? fromHash(other) : null, speeds: speeds ?? null };
 }
 
 function fromHash(text) {
-  if (text.length > 8000) throw new Error(`it is ${text.length} characters long`);
+  if (text.length > LONGEST) throw new Error(`it is ${text.length} characters long`);
   const parts = new URLSearchParams(text.replace(/^#/, ''));
   const numbers = (key, count) => {
     const list = (parts.get(key) ?? '').split(',').map((x) => (x.trim() ? Number(x) : NaN));
-    if (list.length !== count) throw new Error(`${key}: ${count} numbers are required, not ${parts.has(key) ? list.length : 0}`);
+    if (count && list.length !== count) throw new Error(`${key}: ${count} numbers are required, not ${parts.has(key) ? list.length : 0}`);
+    if (list.some(Number.isNaN)) throw new Error(`${key}: a number is required`);
     return list;
   };
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, spare: {} };
+  const given = ['name', 'unit', 'triggers', 'timer_hz', 'min_gap', 'lamp'];
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: null, spare: {}, given };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
+  if (parts.has('measured')) scene.measured = numbers('measured');
+  if (scene.measured && scene.measured.length !== scene.triggers) throw new Error(`measured: ${scene.triggers} times are required, one for each trigger`);
   return scene;
 }

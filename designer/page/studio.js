@@ -1,58 +1,60 @@
-// Asks the worker: one question at a time, and of what waits in a queue the newest.
+// Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
 
 import { toml } from './scene.js';
 
-let worker;
-let asked; // { resolve, progress }
-const queues = new Map();
+const failed = (reason) => ({ Err: { reason, notes: [] } });
 
-function ask(question, payload, progress) {
-  return new Promise((resolve) => {
-    if (!worker) {
-      worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
-      worker.onmessage = ({ data }) => {
-        if ('progress' in data) return asked?.progress?.(data.progress);
+class Asked {
+  // The question that is asked, and the newest of those that wait.
+  ask(question, payload, progress) {
+    return new Promise((resolve) => {
+      this.waiting?.resolve(undefined);
+      this.waiting = { question, payload, progress, resolve };
+      this.next();
+    });
+  }
+
+  next() {
+    if (this.asked || !this.waiting) return;
+    [this.asked, this.waiting] = [this.waiting, null];
+    if (!this.worker) {
+      this.worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
+      this.worker.onmessage = ({ data }) => {
+        if ('progress' in data) return this.asked?.progress?.(data.progress);
         // What failed may have left anything behind: the next question gets a new worker.
-        if ('failed' in data) return cancel(`this could not be computed (${data.failed})`);
-        const { resolve } = asked;
-        asked = null;
+        if ('failed' in data) return this.end(failed(`this could not be computed (${data.failed})`));
+        const { resolve } = this.asked;
+        this.asked = null;
         resolve(data.answer);
-        next();
+        this.next();
       };
-      worker.onerror = () => cancel('this could not be computed');
+      this.worker.onerror = () => this.end(failed('this could not be computed'));
     }
-    asked = { resolve, progress };
-    worker.postMessage({ question: JSON.stringify(question), payload });
-  });
+    const { question, payload } = this.asked;
+    this.worker.postMessage({ question: JSON.stringify(question), payload });
+  }
+
+  /** Ends what is asked, with such an answer; nothing means that something newer came. */
+  end(answer) {
+    if (!this.asked) return;
+    this.worker?.terminate();
+    this.worker = null;
+    const { resolve } = this.asked;
+    this.asked = null;
+    resolve(answer);
+    this.next();
+  }
 }
 
-function next() {
-  const [first] = queues;
-  if (asked || !first) return;
-  queues.delete(first[0]);
-  const { question, payload, progress, resolve } = first[1];
-  ask(question, payload, progress).then(resolve);
+const [forms, scenes, fits] = [new Asked(), new Asked(), new Asked()];
+
+/** The answers are `{ Ok }` or `{ Err }`; nothing if something newer came first. */
+export const emit = (scene, form) => forms.ask({ ask: 'emit', name: scene.name, scene: toml(scene), form });
+export const parse = (name, text) => scenes.ask({ ask: 'scene', name, scene: text });
+export function fit(name, asked, file, progress) {
+  cancel();
+  return fits.ask({ ask: 'fit', name, asked }, file, progress);
 }
 
-/** The answer as `{ Ok }` or `{ Err }`; nothing if a newer question of the same queue came first. */
-function queued(queue, question, payload, progress) {
-  return new Promise((resolve) => {
-    queues.get(queue)?.resolve(undefined);
-    queues.set(queue, { question, payload, progress, resolve });
-    next();
-  });
-}
-
-/** Ends what is being computed. */
-export function cancel(reason = 'stopped') {
-  worker?.terminate();
-  worker = null;
-  const was = asked;
-  asked = null;
-  was?.resolve({ Err: { reason, notes: [] } });
-  next();
-}
-
-export const emit = (scene, form) => queued('emit', { ask: 'emit', name: scene.name, scene: toml(scene), form });
-export const parse = (name, text) => queued('scene', { ask: 'scene', name, scene: text });
-export const fit = (name, asked, file, progress) => queued('fit', { ask: 'fit', name, asked }, file, progress);
+/** Ends the fit that is computed. */
+export const cancel = () => fits.end(undefined);

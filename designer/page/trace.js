@@ -1,9 +1,13 @@
 // A measured trace: how its file is read, its fit, and what is doubtful about either.
 
-import { $, element } from './dom.js';
+import { $, button, element, watch, write } from './dom.js';
+import { rms } from './graph.js';
+import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
+import { UNITS } from './presets.js';
 import { told } from './save.js';
-import { UNITS, fromScene, inUnit, perSecond, short } from './scene.js';
+import { fromScene, inUnit, isSameShape, perSecond, short, tidy, withFit } from './scene.js';
+import { remember } from './speeds.js';
 import * as studio from './studio.js';
 
 /** Longer files are not read. */
@@ -12,105 +16,134 @@ const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse' };
 
 const empty = $('trace').firstElementChild;
-// Who came last: an answer that is late must not overwrite what came after.
-let newest = 0;
 
-/** Opens a file: a scene, or a trace, which is fitted. */
-export function bring(page, file) {
-  return /\.toml$/i.test(file.name) ? open(page, file) : read(page, file, {});
+/** Opens files: a scene; a trace, which is fitted; several traces, of which a table is made. */
+export function bring(files) {
+  if (files.length > 1) return measure(files.filter(({ name }) => !/\.toml$/i.test(name)));
+  return /\.toml$/i.test(files[0].name) ? open(files[0]) : read(files[0], {});
 }
 
-async function open(page, file) {
-  const mine = ++newest;
+const refuse = (words) => tell({ busy: null, note: { words, isWrong: true } });
+
+async function open(file) {
   const name = file.name.replace(/\.toml$/i, '');
-  const refuse = (words) => say(page, `${file.name}: ${words}`, true);
-  if (file.size > LONGEST_SCENE) return refuse('this is too long for a scene');
+  if (file.size > LONGEST_SCENE) return refuse(`${file.name}: this is too long for a scene`);
+  const busy = begin(`Opening ${file.name}`);
   const answer = await studio.parse(name, await file.text());
-  if (mine !== newest || !answer) return;
-  if (answer.Err) return refuse([answer.Err.reason, ...answer.Err.notes].join('\n'));
-  page.change({ scene: fromScene(name, answer.Ok), trace: null });
+  if (model.busy !== busy || !answer) return;
+  if (answer.Err) return refuse([`${file.name}: ${answer.Err.reason}`, ...answer.Err.notes].join('\n'));
+  tell({ busy: null });
+  change({ scene: fromScene(name, answer.Ok), trace: null });
   told(`Opened ${file.name}.`);
 }
 
-// Reads the trace in a file as is asked for, and fits it.
-async function read(page, file, asked) {
-  const mine = ++newest;
-  if (file.size > LONGEST_TRACE) return say(page, `${file.name}: ${file.size >> 20} MB: cut the trace to the pulse`, true);
-  const p = say(page, `Reading ${file.name} …`);
-  const stop = element('button', 'Stop', { type: 'button' });
-  stop.onclick = () => studio.cancel();
-  p.append(' ', stop);
-  const { triggers } = page.screen.scene;
-  const answer = await studio.fit(file.name, { ...asked, triggers }, file, (share) => (p.firstChild.data = `Fitting ${file.name}: ${Math.round(100 * share)} % …`));
-  if (mine !== newest || !answer) return;
-  if (answer.Err) return say(page, `${file.name}: ${answer.Err.reason}`, true);
-  const trace = { file, asked, measured: answer.Ok, fit: answer.Ok.fit.Ok };
-  if (!trace.fit) return render(page, trace);
-  // The fit is of the shutter: triggers, lamp and gap are whose they were.
-  const { scene } = page.screen;
-  const fitted = inUnit(fromScene(file.name.replace(/\.\w+$/, ''), trace.fit.scene), scene.unit);
-  page.change({ scene: { ...scene, name: fitted.name, times: fitted.times, inner: fitted.inner, spare: { ...scene.spare, inner: null } }, trace });
-}
-
-function say(page, words, isWrong) {
-  const p = element('p', words, { class: isWrong ? 'wrong' : 'empty', role: isWrong ? 'alert' : 'status' });
-  $('trace').replaceChildren(p, ...stays(page), ...(page.screen.trace ? [remove(page)] : []));
-  return p;
-}
-
-// What is still on the graph, and is not what was opened last.
-function stays(page) {
-  const { trace } = page.screen;
-  return trace ? [element('p', `The trace of ${trace.file.name} stays on the graph.`, { class: 'note' })] : [];
-}
-
-function remove(page) {
-  const button = element('button', page.screen.trace ? 'Remove the trace' : 'Close', { type: 'button' });
-  button.onclick = () => {
-    newest++;
-    if (page.screen.trace) page.change({ trace: null });
-    else show(page);
+// What is computed from now on; whatever came before is ended.
+function begin(words) {
+  model.busy?.cancel();
+  const busy = {
+    words,
+    cancel() {
+      model.busy = null;
+      studio.cancel();
+    },
   };
-  return button;
+  tell({ busy, note: null });
+  return busy;
 }
 
-/** Shows what belongs to the screen: its trace, or none. */
-export function show(page) {
-  const { trace } = page.screen;
-  if (trace) render(page, trace);
-  else $('trace').replaceChildren(empty);
+// The fit to a file that is read as is asked for; nothing if something newer came first.
+async function fitted(busy, file, asked) {
+  if (file.size > LONGEST_TRACE) return { Err: { reason: `${file.size >> 20} MB: cut the trace to the pulse` } };
+  const { words } = busy;
+  const answer = await studio.fit(file.name, asked, file, (share) => {
+    busy.words = `${words}: ${Math.round(100 * share)} %`;
+    if (model.busy === busy) tell({ busy });
+  });
+  return model.busy === busy ? answer : undefined;
 }
 
-function render(page, trace) {
-  const { file, asked, measured, fit } = trace;
-  const again = (changes) => read(page, file, { ...asked, ...changes });
-  const parts = [element('h3', file.name)];
-  const controls = form(trace, again);
-  if (!fit) parts.push(message(measured.fit.Err, controls, 'p', { class: 'wrong', role: 'alert' }), ...stays(page));
-  else {
-    parts.push(results(fit));
-    const warnings = element('ul', undefined, { class: 'warnings' });
-    warnings.append(...fit.warnings.map((warning) => message(warning, controls, 'li')));
-    if (fit.warnings.length) parts.push(warnings);
+/** Reads the trace in a file as is asked for, and fits it for so many triggers. */
+export async function read(file, asked, triggers = model.now.scene.triggers) {
+  const isSame = model.now.trace?.file === file;
+  const busy = begin(`Reading ${file.name}`);
+  const answer = await fitted(busy, file, { ...asked, triggers });
+  if (!answer) return;
+  if (answer.Err) return refuse(`${file.name}: ${answer.Err.reason}`);
+  const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
+  // What cannot be fitted as it is read can be read otherwise.
+  if (!fit) return tell({ busy: null, note: { words: `${file.name}: ${Err.text}`, isWrong: true, mend: Err.mend, pending: { file, name: file.name, asked, measured } } });
+  tell({ busy: null });
+  const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame);
+  change({ scene, trace: { file, name: file.name, asked, measured, fit, scene } });
+}
+
+// Measures the speeds of several traces, one after the other.
+async function measure(files) {
+  const speeds = [];
+  for (const [i, file] of files.entries()) {
+    const busy = begin(`Measuring ${i + 1} of ${files.length}: ${file.name}`);
+    const answer = await fitted(busy, file, { triggers: 12 });
+    if (!answer) return;
+    const fit = answer.Ok?.fit.Ok;
+    // A link has commas and semicolons between them.
+    const words = [file.name, fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${answer.Err?.reason ?? answer.Ok.fit.Err.text}`];
+    speeds.push([...words.map((it) => it.replace(/[,;]/g, ' ').slice(0, 120)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
   }
-  parts.push(element('h4', 'How the file is read'), table(measured), controls);
-  if (fit) parts.push(...details(fit, page.screen.scene));
+  tell({ busy: null });
+  remember(files);
+  change({ speeds });
+}
+
+const isNew = watch();
+
+/** Draws the panel of the model's trace, of which the graph shows `samples`. */
+export function draw({ now: { scene, trace }, note }, samples) {
+  const isHand = trace && !isSameShape(trace.scene, scene);
+  if (isNew(trace, note, scene.unit, isHand)) $('trace').replaceChildren(...panel(note?.pending ?? trace, trace, note, isHand, scene));
+  if (isHand && samples) {
+    write($('by-hand'), `Changed by hand since the fit: the curve now misses the trace by ${short(100 * rms(samples), 3)} % of the light, the fit by ${short(100 * trace.fit.rms, 3)} %. The flashes are those of the changed curve.`);
+  }
+}
+
+function panel(shown, trace, note, isHand, scene) {
+  if (!shown) return [empty];
+  const { file, name, asked, measured, fit } = shown;
+  const again = (changes) => read(file, { ...asked, ...changes });
+  const parts = [element('h3', name)];
+  const controls = form(shown, again);
+  if (!fit) {
+    parts.push(message({ text: note.words, mend: note.mend }, controls, 'p', { class: 'wrong' }));
+    if (trace) parts.push(element('p', `The trace of ${trace.name} stays on the graph.`, { class: 'note' }));
+  } else {
+    if (isHand) {
+      parts.push(element('p', '', { id: 'by-hand', class: 'wrong' }), button('Back to the fit', () => {
+        const { times, inner, measured, doubt } = inUnit(trace.scene, model.now.scene.unit);
+        change({ scene: { ...model.now.scene, times, inner, measured, doubt, ...(measured && { triggers: measured.length }) } });
+      }));
+    } else parts.push(results(fit));
+    const warnings = element('ul', undefined, { class: 'warnings' });
+    // Of a curve that is changed, only how the file is read is in doubt.
+    warnings.append(...fit.warnings.filter(({ mend }) => mend || !isHand).map((warning) => message(warning, controls, 'li')));
+    if (warnings.firstChild) parts.push(warnings);
+  }
+  parts.push(element('h4', 'How the file is read'), table(measured));
+  parts.push(file ? controls : element('p', 'To read it otherwise, open the file again.', { class: 'note' }));
+  if (fit && !isHand) parts.push(...details(fit, scene));
   const buttons = element('span', undefined, { class: 'buttons' });
-  const other = element('button', 'Replace it…', { type: 'button' });
-  other.onclick = () => $('file').click();
-  buttons.append(other, remove(page));
+  buttons.append(button('Replace it…', () => $('file').click()));
+  if (trace) buttons.append(button('Remove the trace', () => change({ trace: null, scene: { ...model.now.scene } })));
+  if (!fit) buttons.append(button('Close', () => tell({ note: null })));
   parts.push(buttons);
-  $('trace').replaceChildren(...parts);
+  return parts;
 }
 
 // What is wrong or doubtful, with a button to what mends it.
 function message({ text, mend }, controls, tag, attributes) {
   const p = element(tag, text, attributes);
   const control = mend && controls.querySelector(`[name=${mend}]`);
-  const button = element('button', control ? MEND[mend] : 'Open another file…', { type: 'button' });
-  button.onclick = () => (control ?? $('file'))[control ? 'focus' : 'click']();
+  const leads = button(control ? MEND[mend] : 'Open another file…', () => (control ?? $('file'))[control ? 'focus' : 'click']());
   if (control) control.classList.add('mend');
-  if (control || tag === 'p') p.append(' ', button);
+  if (control || tag === 'p') p.append(' ', leads);
   return p;
 }
 
@@ -121,12 +154,12 @@ function results(fit) {
     row.append(element('dt', what), element('dd', fact));
     list.append(row);
   };
-  line('fitted', `${fit.kind}: ${fit.because}`);
-  line('exposure', `${fit.exposure} (standard error)`);
+  line('fitted', fit.kind);
+  line('exposure', `${fit.told} (standard error)`);
   line('residual', `${short(100 * fit.rms, 3)} % of the light (rms)`);
-  line('test', !fit.explained ? `structure that the curve has not: ${short(100 * fit.structure, 2)} % of the light`
+  line('test', !fit.explained ? `the trace has structure that the curve has not: ${short(100 * fit.structure, 2)} % of the light`
     : fit.tested ? 'the curve explains the trace' : 'untested: there is too little dark to know the noise by');
-  line('triggers', fit.from_trace ? 'by the trace itself, which the curve does not explain: below' : 'by the curve');
+  line('flashes', fit.own ? 'at the trace’s own times, which are what is exported; the curve is drawn beside it' : 'by the curve');
   return list;
 }
 
@@ -176,7 +209,7 @@ function form({ asked, measured: { names, read }, fit }, again) {
     input.onchange = () => {
       let x = null;
       try {
-        x = parse(input.value);
+        x = parse(input.value, name === 'rate' ? 'rate' : 'part');
       } catch (error) {
         input.setCustomValidity(error.message);
         return input.reportValidity();
@@ -213,8 +246,7 @@ function details(fit, { unit }) {
   };
   const per = perSecond(unit);
   const lines = fit.triggers.map(([t, error], i) => `${i}  ${short(t * per, 7)} ± ${short(error * per, 2)}`);
-  const triggers = element('pre', `#  ${unit} after the opening, with standard error\n${lines.join('\n')}`, { tabindex: 0 });
-  const made = fold(`The triggers by the ${fit.from_trace ? 'trace' : 'curve'}, with their errors`, triggers);
-  made.open = fit.from_trace;
+  const triggers = element('pre', `#  ${unit} after the start of opening, with standard error\n${lines.join('\n')}`, { tabindex: 0 });
+  const made = fold(`The ${fit.triggers.length} times by the ${fit.own ? 'trace' : 'curve'}, with their errors`, triggers);
   return [made, fold('The whole report', element('pre', fit.report, { tabindex: 0 }))];
 }

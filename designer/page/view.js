@@ -1,6 +1,7 @@
 // The crate as WebAssembly, for what follows the mouse.
 
-import { OPTIONAL, UNITS } from './scene.js';
+import { UNITS } from './presets.js';
+import { INNER, NUMBERS, TIMES } from './scene.js';
 
 const decoder = new TextDecoder();
 let module;
@@ -15,11 +16,14 @@ async function start() {
   exports = (await WebAssembly.instantiate(module, {})).exports;
 }
 
-function ask(scene, bar) {
-  const optional = OPTIONAL.map((key) => scene[key]);
-  const has = [...optional, scene.inner].reduce((has, x, i) => has | ((x !== null) << i), 0);
-  const question = [bar, UNITS.indexOf(scene.unit), has, ...scene.times, scene.triggers, scene.timer_hz, scene.min_gap,
-    ...(scene.inner ?? Array(8).fill(0)), ...optional.map((x) => x ?? 0)];
+// A scene's number by its key; NaN for none.
+function numberOf(scene, key) {
+  const i = TIMES.indexOf(key), k = INNER.indexOf(key);
+  return i >= 0 ? scene.times[i] : k >= 0 ? (scene.inner?.[k] ?? NaN) : (scene[key] ?? NaN);
+}
+
+function ask(scene) {
+  const question = [UNITS.indexOf(scene.unit), ...NUMBERS.map((key) => numberOf(scene, key)), ...(scene.measured ?? [])];
   const to = exports.question(8 * question.length);
   const bytes = new DataView(exports.memory.buffer, to);
   question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
@@ -28,7 +32,7 @@ function ask(scene, bar) {
 /** How good a scene is: 2 with a plan, 1 with a curve alone, 0 without; only what is `isDeep` is planned. */
 export function allowed(scene, isDeep) {
   try {
-    ask(scene, 0);
+    ask(scene);
     return exports.allowed(isDeep);
   } catch {
     start();
@@ -37,9 +41,9 @@ export function allowed(scene, isDeep) {
 }
 
 /** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export function view(scene, bar) {
+export function view(scene) {
   try {
-    ask(scene, bar);
+    ask(scene);
     const length = exports.view();
     const answer = JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
     if (answer.Ok) read(answer.Ok, exports.memory.buffer, exports.numbers());
@@ -63,9 +67,9 @@ function read(view, memory, at) {
   view.cdf = tuples(view.cdf, 2);
   view.edges = numbers(view.edges);
   view.marks = tuples(view.marks, 3);
+  [view.exposure, view.efficiency] = numbers(view.exposure);
   const plan = view.plan.Ok;
   if (!plan) return;
-  const [closest, min_gap, exposure] = numbers(plan.seconds);
-  Object.assign(plan, { closest, min_gap, exposure, ideal: numbers(plan.ideal), triggered: numbers(plan.triggered) });
+  [plan.closest, plan.min_gap, plan.half_open] = numbers(plan.seconds);
   for (const set_up of plan.set_ups) set_up.pulses = tuples(set_up.pulses, 3);
 }

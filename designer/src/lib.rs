@@ -6,8 +6,6 @@
 #[cfg(target_family = "wasm")]
 mod abi;
 mod answer;
-mod bar;
-mod cost;
 #[cfg(feature = "studio")]
 mod studio;
 mod view;

@@ -6,6 +6,7 @@ use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
 use shutter::planned::Planned;
 use shutter::scene;
+use shutter::times::Times;
 use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter_fit::unit::{Unit, plus_minus};
 use shutter_fit::{From, Options};
@@ -112,27 +113,41 @@ struct Read {
 /// A trace's fit.
 #[derive(Serialize)]
 struct Fitted {
+    /// The curve, from its start of opening on.
     scene: scene::Scene,
+    /// Where the curve does not explain the trace: the trace's own triggers as the program writes them.
+    own: Option<Own>,
     /// As the program prints it.
     report: String,
     kind: &'static str,
-    because: String,
     rms: f64,
-    exposure: String,
+    /// Told, and in seconds with its standard error.
+    told: String,
+    exposure: (f64, f64),
     /// Does the model explain the trace; could that be tested; what is left, as a share of the light.
     explained: bool,
     tested: bool,
     structure: f64,
-    /// Are the triggers the trace's own?
-    from_trace: bool,
     /// In seconds after the opening, each with its standard error.
     triggers: Vec<(f64, f64)>,
     pulses: usize,
+    /// By what share their exposures differ.
+    scatter: f64,
     pulse: usize,
     falls: bool,
     warnings: Vec<Told>,
     /// The trace as (time in seconds of the scene, openness, residual).
     samples: Vec<(f64, f64, f64)>,
+}
+
+/// A trace's own triggers.
+#[derive(Serialize)]
+struct Own {
+    /// In seconds from the start of opening.
+    times: Vec<f64>,
+    timer_hz: u32,
+    /// From there to where the curve starts to open, in seconds.
+    until_curve: f64,
 }
 
 /// Reads the trace in `bytes`, and fits it.
@@ -198,7 +213,17 @@ fn fitted(
     let no_scene = |fault: scene::Fault| Refusal::NoScene { reason: fault.reason };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let best = fit.best();
-    let (signal, start) = (&best.signal, best.signal.curve.start);
+    let signal = &best.signal;
+    let own = match fit.from {
+        From::Model => None,
+        From::Trace => {
+            let text = fitted::scene(&fit, name, Zero::Open)?.text;
+            let Times { triggers, timer_hz, .. } = Times::parse(&text).map_err(no_scene)?;
+            let times = triggers.iter().map(|trigger| trigger.time).collect();
+            Some(Own { times, timer_hz, until_curve: signal.curve.start - fit.opens })
+        }
+    };
+    let start = signal.curve.start - own.as_ref().map_or(0.0, |own| own.until_curve);
     let samples = fit.samples.times.iter().zip(&fit.samples.values).map(|(&t, &v)| {
         let residual = (v - fit.value(t)) / signal.gain;
         (t - start, (v - signal.dark) / signal.gain, residual)
@@ -210,9 +235,9 @@ fn fitted(
         scene: scene::parse(&text).map_err(no_scene)?,
         report: report.collect::<Vec<_>>().join("\n"),
         kind: fit.chosen.title(),
-        because: shutter_fit::because(&fit),
         rms: best.rms,
-        exposure: plus_minus(
+        exposure: (fit.exposure.value, fit.exposure.error),
+        told: plus_minus(
             fit.unit().of(fit.exposure.value),
             fit.unit().of(fit.exposure.error),
             fit.unit().name(),
@@ -220,9 +245,10 @@ fn fitted(
         explained: fit.test.explained,
         tested: fit.test.tested,
         structure: fit.test.share,
-        from_trace: fit.from == From::Trace,
+        own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
         pulses: fit.frames.count,
+        scatter: fit.frames.scatter,
         pulse: fit.frames.fitted,
         falls: fit.inverted,
         warnings,

@@ -1,17 +1,16 @@
 //! All that the page shows of a scene.
 
 use serde::Serialize;
-use shutter::facts;
+use shutter::facts::Facts;
 use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::{Scene, Values};
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
+use shutter::times::Times;
 use shutter_curve::{CubicBezier, CurveError, Part as CurvePart};
 use shutter_fit::unit::Unit;
 
 use crate::answer::{Wrong, json};
-use crate::bar::Bar;
-use crate::cost::{BYTES, COSTS, Cost};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
@@ -27,33 +26,31 @@ struct View {
     ramps: Part,
     /// Times, each with its share of the exposure.
     cdf: Part,
-    /// Where the equal shares of the exposure begin and end.
+    /// Where the equal shares of the exposure begin and end; none where a trace tells the triggers.
     edges: Part,
     /// Of each trigger the time, the openness and the share of the exposure.
     marks: Part,
+    /// The curve's exposure, and the share of the interval that it is.
+    exposure: Part,
     plan: Result<Planned, Wrong>,
 }
 
 #[derive(Serialize)]
 struct Planned {
-    facts: Vec<(&'static str, String)>,
     ticks: Vec<u32>,
     pulses: Vec<(u32, u32)>,
-    /// The least gap between two, or the least darkness, where there are two; what is asked for; the exposure.
+    /// In ticks, from the sync's edge to the start of opening.
+    delay: Option<u32>,
+    /// So many triggers keep what is asked for; unknown of times that were measured.
+    most: Option<u32>,
+    /// The least gap between two, or the least darkness, where there are two; what is asked for; how long it is half open.
     seconds: Part,
-    direct: u32,
-    /// The moving bar's brightness along its way: ideal, and as it is triggered.
-    ideal: Part,
-    triggered: Part,
     set_ups: Vec<Doses>,
-    bytes: u32,
-    costs: [Cost; 3],
 }
 
 /// One of the set-ups.
 #[derive(Serialize)]
 struct Doses {
-    title: &'static str,
     is_shuttered: bool,
     /// When the lamp is on and off, and the dose of light, of each pulse.
     pulses: Part,
@@ -76,64 +73,36 @@ impl Numbers {
     }
 }
 
-/// A scene's numbers, as the page writes them into memory.
-struct Question(Vec<f64>);
+/// A scene's values, and the times of its triggers in its unit where a trace tells them.
+struct Question {
+    values: Values,
+    measured: Vec<f64>,
+}
 
 impl Question {
-    /// The numbers of a question.
-    const LENGTH: usize = 23;
-
-    /// Of the bytes of so many `f64`, or what is wrong with them.
+    /// Of the bytes of `f64`: the unit's place among all, the values', the measured times.
     fn read(bytes: &[u8]) -> Result<Self, Wrong> {
-        let (numbers, rest) = bytes.as_chunks();
-        let numbers: Vec<_> = numbers.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
-        match numbers.len() == Self::LENGTH && rest.is_empty() {
-            true => Ok(Self(numbers)),
-            false => Err("the question has another length".to_string().into()),
-        }
-    }
-
-    fn bar(&self) -> f32 {
-        self.0[0] as f32
-    }
-
-    fn values(&self) -> Values {
-        let Self(numbers) = self;
-        // Which of the optional values there are, a bit each.
-        let has = numbers[2] as u32;
-        let optional = |i: usize| (has & (1 << i) != 0).then(|| numbers[18 + i]);
-        Values {
-            unit: match numbers[1] as u32 {
-                0 => Unit::Second,
-                1 => Unit::Millisecond,
-                2 => Unit::Microsecond,
-                _ => Unit::Nanosecond,
-            },
-            times: std::array::from_fn(|i| numbers[3 + i]),
-            triggers: numbers[7],
-            timer_hz: numbers[8],
-            min_gap: numbers[9],
-            shutteropening: (has & (1 << 5) != 0).then(|| std::array::from_fn(|i| numbers[10 + i])),
-            nominal: optional(0),
-            pulse: optional(1),
-            duty: optional(2),
-            min_pulse: optional(3),
-            delay: optional(4),
-        }
+        let numbers: Vec<_> =
+            bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+        let short = || Wrong::from("the question is too short".to_string());
+        let (unit, numbers) = numbers.split_first().ok_or_else(short)?;
+        let (values, measured) = numbers.split_first_chunk().ok_or_else(short)?;
+        let unit = Unit::ALL.get(*unit as usize).copied().unwrap_or(Unit::Second);
+        Ok(Self { values: Values::read(unit, values), measured: measured.to_vec() })
     }
 }
 
 /// All that is shown of the scene in the question: JSON, and the numbers that it speaks of.
 pub fn view(question: &[u8]) -> (String, Vec<f64>) {
     let mut numbers = Numbers::default();
-    let view = Question::read(question).and_then(|question| View::new(&question, &mut numbers));
+    let view = Question::read(question).and_then(|question| View::new(question, &mut numbers));
     (json(&view), numbers.0)
 }
 
 /// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. Only what is `deep` is planned.
 pub fn allowed(question: &[u8], deep: bool) -> u32 {
     let scene = Question::read(question)
-        .and_then(|question| Ok(Scene::try_from(question.values())?))
+        .and_then(|question| Ok(Scene::try_from(question.values)?))
         .ok()
         .filter(|scene| scene.shape().is_ok_and(|shape| shape.curve().is_ok()));
     scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
@@ -144,8 +113,9 @@ impl View {
     ///
     /// # Errors
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
-    fn new(question: &Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
-        let scene = Scene::try_from(question.values())?;
+    fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
+        let Question { values, measured } = question;
+        let scene = Scene::try_from(values.clone())?;
         let planned = Plan::new(&scene);
         let shape = scene.shape()?;
         let curve = match shape.curve() {
@@ -155,53 +125,78 @@ impl View {
                 return Err(Wrong { ramp: ramp(error), ..fault.into() });
             }
         };
-        let n = scene.triggers().min(MOST_TRIGGERS);
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
         let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
-        let u = |i: f32| i / n as f32;
-        let marks = (0..n).zip(curve.trigger_times(n));
         let points = ramps(&shape).map(|ramp| ramp.points());
-        Ok(Self {
+        let common = Self {
             times: numbers.put(shape.times),
             ramps: numbers.put(points.into_iter().flatten().flat_map(|(t, y)| [t, y])),
             cdf: numbers.put(times.flat_map(|t| [t, curve.cdf(t)])),
+            exposure: numbers.put([curve.exposure(), curve.efficiency()]),
+            edges: Part(0, 0),
+            marks: Part(0, 0),
+            plan: Err(String::new().into()),
+        };
+        if !measured.is_empty() {
+            let n = measured.len() as f64;
+            let mark =
+                |(i, t): (usize, f64)| [t, curve.openness(t as f32).into(), (i as f64 + 0.5) / n];
+            let times = measured.iter().map(|time| values.unit.seconds(*time));
+            return Ok(Self {
+                marks: numbers.put(times.enumerate().flat_map(mark)),
+                plan: Times::of_values(values, &measured)
+                    .map(|times| Planned::of_times(&times, numbers))
+                    .map_err(Wrong::from),
+                ..common
+            });
+        }
+        let n = scene.triggers().min(MOST_TRIGGERS);
+        let u = |i: f32| i / n as f32;
+        let marks = (0..n).zip(curve.trigger_times(n));
+        Ok(Self {
             edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
             marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.openness(t), u(i as f32 + 0.5)])),
-            plan: planned
-                .map(|plan| Planned::new(&plan, question.bar(), numbers))
-                .map_err(Wrong::from),
+            plan: planned.map(|plan| Planned::new(&plan, numbers)).map_err(Wrong::from),
+            ..common
         })
     }
 }
 
 impl Planned {
-    fn new(plan: &Plan, bar: f32, numbers: &mut Numbers) -> Self {
+    fn new(plan: &Plan, numbers: &mut Numbers) -> Self {
         let pulses: Vec<_> = plan.triggers.iter().filter_map(|trigger| trigger.pulse).collect();
         let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
         let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
         let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
-        let bar = Bar::new(plan, bar.clamp(0.005, 1.0));
         let SetUps { length, rows } = SetUps::new(plan);
         let rows = if plan.triggers.len() > MOST_DOSES { Vec::new() } else { Vec::from(rows) };
         let mut doses = |row: &Row| {
             let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(plan, length, (on, off))];
             let pulses = numbers.put(row.pulses.iter().flat_map(dose));
-            Doses { title: row.title, is_shuttered: row.is_shuttered, pulses }
+            Doses { is_shuttered: row.is_shuttered, pulses }
         };
         let set_ups = rows.iter().map(&mut doses).collect();
-        // The name is the page's.
-        let facts = facts::lines("", plan).into_iter().filter(|(what, _)| *what != "scene");
         Self {
-            facts: facts.collect(),
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
             pulses,
-            seconds: numbers.put([closest, plan.min_gap, plan.curve.exposure().into()]),
-            direct: facts::Facts::new(plan).direct_triggers,
-            ideal: numbers.put(bar.ideal),
-            triggered: numbers.put(bar.triggered),
+            delay: plan.from_edge(0),
+            most: Some(plan.most),
+            seconds: numbers.put([closest, plan.min_gap, Facts::new(plan).half_open]),
             set_ups,
-            bytes: BYTES,
-            costs: COSTS,
+        }
+    }
+
+    fn of_times(times: &Times, numbers: &mut Numbers) -> Self {
+        let ticks: Vec<_> = times.triggers.iter().map(|given| given.ticks).collect();
+        let closest = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
+        let closest = closest.map_or(f64::NAN, |gap| f64::from(gap) / f64::from(times.timer.hz));
+        Self {
+            ticks,
+            pulses: Vec::new(),
+            delay: times.delay.map(|delay| delay.ticks),
+            most: None,
+            seconds: numbers.put([closest, times.min_gap, f64::NAN]),
+            set_ups: Vec::new(),
         }
     }
 }

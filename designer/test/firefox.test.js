@@ -1,64 +1,65 @@
-// The page in Firefox: what a stranger does first. All else is held in Chromium.
+// The page in Firefox: what a stranger does first, and the main ones of the model's. All else is held in Chromium.
 
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { once } from 'node:events';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { launch } from 'puppeteer-core';
+import { test } from 'node:test';
+import { ROOT, bouncing, choose, curve, drag, drop, middle, open, page, preset, ready, setUp, ticks, trace, values, wait } from './harness.js';
 
-const ROOT = join(import.meta.dirname, '..', '..');
-let server, url, browser;
-
-before(async () => {
-  server = spawn(process.env.SHUTTER, ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')], { stdio: ['ignore', 'pipe', 'inherit'] });
-  const [told] = await once(server.stdout, 'data');
-  url = String(told).match(/http:\S+/)[0];
-  browser = await launch({ browser: 'firefox', executablePath: process.env.FIREFOX, headless: true, timeout: 120_000 });
-});
-
-after(async () => {
-  await browser?.close();
-  server?.kill();
-});
+setUp('firefox');
 
 test('in Firefox a trace is fitted, a handle dragged, and both undone', { timeout: 180_000 }, async () => {
-  const page = await browser.newPage();
-  const complaints = [];
-  page.on('console', (message) => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  await page.setViewport({ width: 1280, height: 1500 });
-  await page.goto(url);
-  await page.waitForSelector('body[data-ready]');
-  const values = () => page.$$eval('[role=slider]', (all) => all.map((one) => one.getAttribute('aria-valuenow')));
-  const until = (what) => page.waitForFunction((what) => document.body.innerText.includes(what), { timeout: 60_000 }, what);
+  await open('', { width: 1280, height: 1500 });
   const first = await values();
-
   await (await page.$('input[type=file]')).uploadFile(join(ROOT, 'cli', 'traces', 'leaf.csv'));
-  await until('the curve explains the trace');
+  await page.says('the curve explains the trace');
   // As `shutter fit` has it: see the README.
-  await until('6.2541 ± 0.0015 ms');
+  await page.says('6.2541 ± 0.0015 ms');
   const fitted = await values();
   assert.notDeepEqual(fitted, first);
-
-  const handle = (await page.$$('[role=slider]'))[1];
-  const { x, y, width, height } = await handle.boundingBox();
-  const [across, down] = [x + width / 2, y + height / 2];
-  await page.mouse.move(across, down);
-  await page.mouse.down();
-  await page.mouse.move(across + 30, down - 10, { steps: 5 });
+  await drag('open_end', 30, -10);
+  await page.says('Changed by hand since the fit');
   await page.mouse.up();
-  const dragged = await values();
-  assert.notEqual(dragged[1], fitted[1]);
-
-  const undo = async () => {
-    await page.keyboard.down('Control');
-    await page.keyboard.press('z');
-    await page.keyboard.up('Control');
-  };
-  await undo();
+  assert.notEqual((await values())[3], fitted[3]);
+  await page.press('Control+z');
   assert.deepEqual(await values(), fitted);
-  await undo();
+  await page.press('Control+z');
   assert.deepEqual(await values(), first);
-  assert.deepEqual(complaints, []);
+});
+
+test('in Firefox a misfit is exported by its own times, and several traces make a table', { timeout: 180_000 }, async () => {
+  await open('', { width: 1280, height: 2800 });
+  await drop(['bounce.csv', bouncing()]);
+  await page.says('at the trace’s own times');
+  await choose('toml');
+  assert.match(await page.text('#code'), /trigger_times = /);
+  assert.equal((await ticks()).length, 12);
+  await drop(['250.csv', trace({ open: 1.5 })], ['125.csv', trace({ open: 5.5 })]);
+  await page.waitForSelector('#speeds:not([hidden])', { timeout: 60_000 });
+  assert.deepEqual(await page.$$eval('#speeds-table tbody tr', (all) => all.map((row) => row.children[1].textContent)), ['1/250', '1/125']);
+});
+
+test('in Firefox a reload keeps the steps, a drag is undone, and what is refused is mended', { timeout: 180_000 }, async () => {
+  await open('', { width: 1280, height: 2800 });
+  await wait(300);
+  await preset('leaf');
+  await wait(300);
+  const leaf = await curve();
+  await preset('box');
+  await wait(300);
+  await page.reload();
+  await ready();
+  await page.goBack();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, leaf);
+  await drag('open_end', 20, 0);
+  await page.press('Control+z');
+  const [x, y] = await middle('open_end');
+  await page.mouse.move(x + 30, y);
+  await page.mouse.up();
+  assert.equal(await curve(), leaf);
+  await page.fill('#min_gap', '0.1');
+  await page.fill('#triggers', '30');
+  assert.ok(await page.isDisabled('#copy'));
+  await page.push('Ask for no gap');
+  assert.ok(!(await page.isSeen('#problem')));
+  assert.equal((await ticks()).length, 30);
 });

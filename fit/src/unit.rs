@@ -25,7 +25,8 @@ pub enum Unit {
 }
 
 impl Unit {
-    pub(crate) const ALL: [Self; 4] =
+    /// All, the largest first.
+    pub const ALL: [Self; 4] =
         [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
 
     /// As it is written.

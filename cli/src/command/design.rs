@@ -148,6 +148,7 @@ fn kind(path: &Path) -> Option<&'static str> {
         "css" => "text/css; charset=utf-8",
         "js" => "text/javascript; charset=utf-8",
         "svg" => "image/svg+xml",
+        "png" => "image/png",
         "csv" => "text/csv; charset=utf-8",
         "wasm" => "application/wasm",
         _ => return None,

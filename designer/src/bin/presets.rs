@@ -1,10 +1,11 @@
-//! Prints the scenes of `cli/scenes` as the module that the page takes its presets from.
+//! Prints the module that the page takes from here: the scenes of `cli/scenes`, and the order of the numbers in a question.
 
 use std::error::Error;
 use std::fs;
 
 use serde::Serialize;
-use shutter::scene::{self, Scene};
+use shutter::scene::{self, KEYS, Scene};
+use shutter_fit::unit::Unit;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../cli/scenes");
 /// The page begins with it.
@@ -46,6 +47,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         presets.push(Preset { name, about, caption, scene });
     }
     presets.sort_by_key(|preset| (preset.name != FIRST, preset.name.clone()));
-    println!("// The scenes of cli/scenes.\nexport default {};", serde_json::to_string(&presets)?);
+    println!("export const UNITS = {};", serde_json::to_string(&Unit::ALL)?);
+    println!("export const KEYS = {};", serde_json::to_string(&KEYS)?);
+    println!("export default {};", serde_json::to_string(&presets)?);
     Ok(())
 }

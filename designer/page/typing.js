@@ -1,0 +1,95 @@
+// What is typed: numbers as people write them become those of the scene, and stay as they are typed.
+
+import { $ } from './dom.js';
+import { change, model, refuse, seal } from './model.js';
+import { parse } from './numbers.js';
+import { INNER, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, straight, tidy, withInner, withLamp, withTimes } from './scene.js';
+
+const KINDS = { triggers: 'count', timer_hz: 'rate' };
+const LAMP = ['pulse', 'duty', 'min_pulse'];
+
+let loadTraces;
+
+/** Begins. What fits a trace is loaded when it is needed; `settle` writes the fields once nobody types. */
+export function start(loads, settle) {
+  loadTraces = loads;
+  const numbers = $('numbers');
+  numbers.addEventListener('input', onInput);
+  numbers.addEventListener('submit', (event) => event.preventDefault());
+  numbers.addEventListener('focusout', () => {
+    seal();
+    echo();
+    // Once the focus is elsewhere.
+    setTimeout(settle);
+  });
+  $('flashes').addEventListener('input', ({ target }) => setTriggers(Math.round(2 ** target.value), 'flashes'));
+  $('flashes').addEventListener('change', seal);
+}
+
+// The number in a field of the form; an error says why there is none.
+function read(id, unit) {
+  const kind = TIMES.includes(id) || SPANS.includes(id) ? 'time' : KINDS[id];
+  const value = parse($(id).value, kind, unit);
+  if (!Number.isNaN(value)) return value;
+  if ($(id).hasAttribute('data-optional')) return null;
+  throw new Error(`${id}: a number is required`);
+}
+
+/** Is a field typed in just now, and tells this number in words of its own? */
+export function tells(id, value, unit) {
+  try {
+    return document.activeElement === $(id) && read(id, unit) === value;
+  } catch {
+    return false;
+  }
+}
+
+// What is read is told beside the field where it is written otherwise.
+function echo(input, value) {
+  const small = $('echo');
+  const words = input && Number.isFinite(value) && String(value) !== input.value.trim() ? `= ${value}` : '';
+  small.textContent = words;
+  small.hidden = !words;
+  if (words) input.parentElement.append(small);
+}
+
+/** Changes the scene; of the numbers, `keys` are a person's from now on. */
+function give(changes, keys, key) {
+  const { scene } = model.now;
+  change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...keys])] } }, { key });
+}
+
+// So many flashes. Those of a trace are its own: it is asked again.
+async function setTriggers(n, key) {
+  const { scene, trace } = model.now;
+  if (!scene.measured || n === scene.measured.length) return give({ triggers: n }, ['triggers'], key);
+  if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
+  if (!(Number.isInteger(n) && n > 0 && n <= 10_000)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
+  (await loadTraces()).read(trace.file, trace.asked, n);
+}
+
+function onInput({ target }) {
+  const { id } = target;
+  const { scene } = model.now;
+  if (id === 'name') return give({ name: target.value.trim() || 'shutter' }, [id], id);
+  if (id === 'unit') return give(inUnit(scene, target.value), [id]);
+  if (id === 'straight') return give(straight(scene, target.checked), []);
+  if (id === 'lamp') return give(withLamp(scene, target.value, tidy(((model.view?.exposure ?? 0) * perSecond(scene.unit)) / scene.triggers / 4, 2) || 1), [id]);
+  if (!NUMBERS.includes(id)) return;
+  let value;
+  try {
+    value = read(id, scene.unit);
+  } catch (error) {
+    echo();
+    return refuse(error.message, id);
+  }
+  echo(target, value);
+  const i = TIMES.indexOf(id), k = INNER.indexOf(id);
+  if (id === 'triggers') setTriggers(value, id);
+  // A ramp keeps its shape when its time is typed, as when it is dragged.
+  else if (i >= 0) give(withTimes(model.good?.unit === scene.unit ? { ...scene, ...shapeOf(model.good) } : scene, scene.times.with(i, value)), [], id);
+  else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
+  else give({ [id]: value }, [LAMP.includes(id) ? 'lamp' : id], id);
+}
+
+const shapeOf = ({ times, inner, spare }) => ({ times, inner, spare });

@@ -1,0 +1,99 @@
+// The program and the page say the same: of 100 random scenes, and of 12 traces, misfits among them.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { ROOT, bouncing, copied, drop, open, page, scratch, setUp, shutter, trace } from './harness.js';
+
+setUp();
+
+// A sequence that is the same each time.
+let seed = 20;
+const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+const between = (a, b) => a + (b - a) * random();
+const round = (x, digits = 6) => Number(x.toPrecision(digits));
+
+function scene(i) {
+  const [start, up, open, down] = [between(-5, 5), between(0.1, 4), between(0, 6), between(0.1, 4)];
+  const times = [start, start + up, start + up + open, start + up + open + down].map((t) => round(t));
+  const length = times[3] - times[0];
+  const at = (from, to, part) => round((from + part * (to - from) - times[0]) / length, 7);
+  const [a, b, c, d] = [[0.05, 0.5], [0.5, 0.95], [0.05, 0.5], [0.5, 0.95]].map((range) => between(...range));
+  const inner = [at(times[0], times[1], a), round(between(0, 0.5)), at(times[0], times[1], b), round(between(0.5, 1)), at(times[2], times[3], c), round(between(0.5, 1)), at(times[2], times[3], d), round(between(0, 0.5))];
+  const parts = [`name=r${i}`, `unit=${['ms', 'us', 's'][i % 3]}`, `times=${times}`];
+  if (i % 4) parts.push(`inner=${inner}`);
+  parts.push(`triggers=${Math.ceil(between(0, 40))}`, `timer_hz=${[1e6, 72e6, 32768, 125e6][Math.floor(between(0, 4))]}`, 'min_gap=0');
+  if (i % 5 === 0) parts.push(`nominal=${round(between(1, 9), 3)}`);
+  if (i % 7 === 0) parts.push(`delay=${round(between(0, 9), 4)}`);
+  if (i % 6 === 1) parts.push(`duty=${round(between(0.1, 0.9), 3)}`);
+  if (i % 6 === 2) parts.push('pulse=0.001');
+  return `#${parts.join('&')}`;
+}
+
+test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () => {
+  await open();
+  let refused = 0;
+  for (let i = 0; i < 100; i++) {
+    await page.evaluate((hash) => (location.hash = hash), scene(i));
+    await page.until((name) => document.getElementById('name').value === name, `r${i}`);
+    const toml = await page.evaluate(async () => {
+      const { toml } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'scene.js'));
+      const { model } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'model.js'));
+      return toml(model.now.scene);
+    });
+    const file = join(scratch, `r${i}.toml`);
+    writeFileSync(file, toml);
+    let program;
+    try {
+      program = shutter('plan', file, '--emit', 'json');
+    } catch (error) {
+      // What the program refuses the page refuses, for the same reason.
+      refused++;
+      const reason = await page.evaluate(async () => (await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'model.js'))).model.wrong.reason);
+      assert.ok(reason.length > 10 && error.stderr.includes(reason), `${toml}${reason}\n${error.stderr}`);
+      assert.ok(await page.isDisabled('#copy'));
+      continue;
+    }
+    assert.equal(await copied('json'), program, toml);
+  }
+  console.log(`${100 - refused} of 100 scenes planned, ${refused} refused by both`);
+  assert.ok(refused < 40, String(refused));
+});
+
+// Straight and soft ramps, fast and slow, noisy, with several pulses, light that is lost, a bounce.
+const sine = (t, from, to, height) => (t > from && t < to ? height * Math.sin((Math.PI * (t - from)) / (to - from)) : 0);
+const TRACES = {
+  leaf: () => readFileSync(join(ROOT, 'cli', 'traces', 'leaf.csv'), 'utf8'),
+  plain: () => trace(),
+  fast: () => trace({ up: 0.4, open: 2.6, down: 0.5 }),
+  slow: () => trace({ up: 20, open: 40, down: 30, from: 30, step: 0.1 }),
+  noisy: () => trace({ noise: 0.04, seed: 5 }),
+  triangle: () => trace({ up: 3, open: 0.05, down: 3 }),
+  soft: () => trace({ up: 1, more: (t) => sine(t, 0, 1, -0.08) }),
+  coarse: () => trace({ step: 0.04, samples: 400 }),
+  late: () => trace({ from: 5, samples: 2000 }),
+  bounce: () => bouncing(),
+  dip: () => trace({ noise: 0.002, more: (t) => sine(t, 3, 4.4, -0.2) }),
+  double: () => trace({ noise: 0.002, more: (t) => sine(t, 9.5, 9.9, 0.35) + sine(t, 10.2, 10.5, 0.15), seed: 9 }),
+};
+
+test('12 traces are fitted as the program fits them', { timeout: 600_000 }, async () => {
+  await open();
+  const keys = (text) => Object.fromEntries(text.split('\n').map((line) => /^(\w+) = ([^#]*)/.exec(line)).filter(Boolean).map(([, key, value]) => [key, value.trim()]));
+  let misfits = 0;
+  for (const [name, make] of Object.entries(TRACES)) {
+    const [file, out] = [join(scratch, `${name}.csv`), join(scratch, `${name}.toml`)];
+    writeFileSync(file, make());
+    await drop([`${name}.csv`, make()]);
+    await page.until((name) => document.querySelector('#trace h3')?.textContent === `${name}.csv` && document.getElementById('busy').hidden, name);
+    shutter('fit', file, '--zero', 'open', '--triggers', '12', '--out', out);
+    const [there, here] = [readFileSync(out, 'utf8').replace(/\[\s+/g, '[').replace(/,\s+(?=[\d\]])/g, ', ').replace(/, \]/g, ']'), await copied('toml')].map(keys);
+    if (there.trigger_times) misfits++;
+    assert.deepEqual(here, there, name);
+    const planned = JSON.parse(shutter('plan', out, '--emit', 'json')).triggers.map((it) => it.ticks);
+    assert.deepEqual(JSON.parse(await copied('json')).triggers.map((it) => it.ticks), planned, name);
+  }
+  console.log(`${misfits} of 12 traces are misfits`);
+  assert.ok(misfits >= 2 && misfits <= 6);
+});

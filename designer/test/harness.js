@@ -1,0 +1,201 @@
+// The page in a real browser, by one driver; and the program `shutter` beside it. Run by designer/test.sh.
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, afterEach, before } from 'node:test';
+import { launch } from 'puppeteer-core';
+
+export const ROOT = join(import.meta.dirname, '..', '..');
+export const SCENES = join(ROOT, 'cli', 'scenes');
+export const scratch = mkdtempSync(join(tmpdir(), 'designer-'));
+const downloads = join(scratch, 'downloads');
+const SHUTTER = process.env.SHUTTER;
+
+export let server, url, browser, page;
+/** What went wrong in the page, and what it asked of whom. */
+export let complaints, requests;
+export const forgive = () => (complaints.length = 0);
+
+export const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+export const shutter = (...args) => execFileSync(SHUTTER, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
+
+/** A browser of its own, without what others have kept. */
+export const start = (name = 'chrome') => launch({
+  browser: name, executablePath: name === 'chrome' ? process.env.CHROMIUM : process.env.FIREFOX, headless: true, timeout: 120_000,
+  args: name === 'chrome' ? ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'] : [],
+});
+
+/** Begins with a server and a browser. No test leaves an error on the console, nor a request to anyone else. */
+export function setUp(name = 'chrome') {
+  before(async () => {
+    mkdirSync(downloads, { recursive: true });
+    server = spawn(SHUTTER, ['design', '--no-open', '--port', '0', '--page', join(ROOT, 'designer', 'dist')], { stdio: ['ignore', 'pipe', 'inherit'] });
+    const [told] = await once(server.stdout, 'data');
+    url = String(told).match(/http:\S+/)[0];
+    browser = await start(name);
+    if (name === 'chrome') await browser.defaultBrowserContext().overridePermissions(url.slice(0, -1), ['clipboard-read', 'clipboard-write', 'clipboard-sanitized-write']);
+  });
+  after(async () => {
+    await browser?.close();
+    server?.kill();
+    rmSync(scratch, { recursive: true, force: true });
+  });
+  afterEach(async () => {
+    if (!page) return;
+    if (!page.isClosed()) await page.close();
+    page = null;
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(requests.filter((asked) => !asked.startsWith(url) && !/^(blob|data):/.test(asked)), []);
+  });
+}
+
+/** Opens the page. Tall, so that all panels are seen, and written. */
+export async function open(hash = '', size = { width: 1360, height: 2800 }, search = '') {
+  if (page && !page.isClosed()) await page.close();
+  page = extend(await browser.newPage());
+  [complaints, requests] = [[], []];
+  page.on('console', (message) => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => requests.push(request.url()));
+  await page.setViewport(size);
+  await page.goto(url + search + hash);
+  await ready();
+  return page;
+}
+
+export async function ready(on = page) {
+  await on.waitForSelector('body[data-ready]');
+  await on.waitForSelector('#forms button');
+}
+
+/** The page with what a test asks of it. */
+export function extend(page) {
+  const on = (sel, act, ...args) => page.$eval(sel, act, ...args);
+  return Object.assign(page, {
+    text: (sel) => on(sel, (it) => it.textContent),
+    attribute: (sel, name) => on(sel, (it, name) => it.getAttribute(name), name),
+    value: (sel) => on(sel, (it) => it.value),
+    isSeen: (sel) => page.$$eval(sel, (all) => Boolean(all[0]?.checkVisibility({ visibilityProperty: true }))),
+    isDisabled: (sel) => on(sel, (it) => it.disabled),
+    count: (sel) => page.$$eval(sel, (all) => all.length),
+    focus: (sel) => on(sel, (it) => it.focus()),
+    blur: (sel) => on(sel, (it) => it.blur()),
+    fill: (sel, value) => on(sel, (it, value) => {
+      it.focus();
+      if (it.type === 'checkbox') return it.checked === value || it.click();
+      it.value = value;
+      it.dispatchEvent(new Event(it.tagName === 'SELECT' ? 'change' : 'input', { bubbles: true }));
+      if (it.tagName === 'SELECT') it.dispatchEvent(new Event('input', { bubbles: true }));
+    }, value),
+    until: (what, ...args) => page.waitForFunction(what, { timeout: 60_000 }, ...args),
+    /** Until the page says so. */
+    says: (words) => page.waitForFunction((words) => document.body.innerText.includes(words), { timeout: 60_000 }, words),
+    press: async (keys) => {
+      const all = keys.split('+');
+      for (const key of all.slice(0, -1)) await page.keyboard.down(key);
+      await page.keyboard.press(all.at(-1));
+      for (const key of all.slice(0, -1).reverse()) await page.keyboard.up(key);
+    },
+    /** A button by its words. */
+    push: (words) => page.evaluate((words) => {
+      const found = [...document.querySelectorAll('button')].find((it) => it.textContent === words && it.checkVisibility());
+      if (!found) throw new Error(`no button ${words}`);
+      found.focus();
+      found.click();
+    }, words),
+    box: async (sel) => (await page.$(sel)).boundingBox(),
+  });
+}
+
+export const preset = (name) => page.$eval(`#presets [data-name="${name}"]`, (it) => it.click());
+
+/** What an action copies. */
+export async function copiedBy(act) {
+  await page.evaluate(() => navigator.clipboard.writeText('nothing'));
+  await act();
+  for (let i = 0; i < 500; i++) {
+    const text = await page.evaluate(() => navigator.clipboard.readText());
+    if (text !== 'nothing') return text;
+    await wait(20);
+  }
+  assert.fail('nothing was copied');
+}
+
+/** A form, once it is written. */
+export async function choose(form) {
+  await page.click(`#form-${form}`);
+  await page.until(() => !document.getElementById('code').classList.contains('waits'));
+}
+
+/** A form as it is copied. */
+export async function copied(form) {
+  await choose(form);
+  return copiedBy(() => page.$eval('#copy', (it) => it.click()));
+}
+
+/** The scene as it is copied, planned by the program. */
+export async function planned(form = 'json', name = 'copied') {
+  const file = join(scratch, `${name}.toml`);
+  writeFileSync(file, await copied('toml'));
+  return shutter('plan', file, '--emit', form);
+}
+
+/** The file that an action saves. */
+export async function saved(act) {
+  const session = await page.createCDPSession();
+  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
+  rmSync(downloads, { recursive: true });
+  mkdirSync(downloads);
+  await act();
+  for (let i = 0; i < 300; i++, await wait(20)) {
+    const [name] = readdirSync(downloads);
+    if (name && !name.endsWith('.crdownload')) return { name, path: join(downloads, name) };
+  }
+  assert.fail('nothing was saved');
+}
+
+export const ticks = () => page.$$eval('#ticks tbody tr', (rows) => rows.map((row) => Number(row.children[3].textContent)));
+export const curve = () => page.attribute('#graph path.curve', 'd');
+export const values = () => page.$$eval('[role=slider]', (all) => all.map((it) => it.getAttribute('aria-valuenow')));
+
+export async function middle(name) {
+  await page.$eval(`#handle-${name}`, (it) => it.scrollIntoView({ block: 'nearest' }));
+  const { x, y, width, height } = await page.box(`#handle-${name} > :last-child`);
+  return [x + width / 2, y + height / 2];
+}
+
+/** Drags a handle by so many pixels; it is let go with `page.mouse.up()`. */
+export async function drag(name, dx, dy) {
+  const [x, y] = await middle(name);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + dx, y + dy, { steps: 5 });
+}
+
+/** Drops files on the page; a text may be a function that makes it there. */
+export async function drop(...files) {
+  await page.evaluate((files) => {
+    const data = new DataTransfer();
+    for (const [name, text, isCode] of files) data.items.add(new File([isCode ? eval(text)() : text], name));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, files.map(([name, text]) => [name, String(text), typeof text === 'function']));
+}
+
+/** A trace: it opens in `up`, is open for `open`, closes in `down`, in ms; with noise, and what `more` adds. */
+export function trace({ up = 2, open = 4, down = 3, from = 3, step = 0.01, samples = 1500, more = () => 0, seed = 1, noise = 0.01 } = {}) {
+  const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5;
+  let text = 'time_s,voltage_v\n';
+  for (let i = 0; i < samples; i++) {
+    const t = i * step - from;
+    const f = t < 0 || t > up + open + down ? 0 : t < up ? t / up : t < up + open ? 1 : (up + open + down - t) / down;
+    text += `${((i * step) / 1000).toPrecision(7)},${(0.1 + 2.4 * (f + more(t) + 2 * noise * random())).toFixed(4)}\n`;
+  }
+  return text;
+}
+
+/** One whose shutter bounces, which no curve explains. */
+export const bouncing = (options = {}) => trace({ noise: 0.002, more: (t) => (t > 9.6 && t < 10.4 ? 0.3 * Math.sin((Math.PI * (t - 9.6)) / 0.8) : t > 3 && t < 4.4 ? -0.12 * Math.sin((Math.PI * (t - 3)) / 1.4) : 0), ...options });

@@ -1,0 +1,417 @@
+// One model, one render: nothing on the screen is of another state than the rest. In Chromium.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { bouncing, browser, choose, copied, copiedBy, curve, drag, drop, extend, middle, open, page, preset, ready, scratch, setUp, shutter, ticks, trace, url, wait } from './harness.js';
+
+setUp();
+
+const code = () => page.text('#code');
+const fitted = (name) => page.until((name) => document.querySelector('#trace h3')?.textContent === name && document.querySelector('#trace dl'), name);
+/** A trace that takes seconds to read. */
+const LONG = () => Array.from({ length: 50 }, (_, k) => Array.from({ length: 60_000 }, (_, i) => `${(k * 60_000 + i)}e-6,0.${100000 + ((i * 7919) % 1000)}`).join('\n')).join('\n');
+
+test('a fit keeps no delay and no nominal speed of the last shutter, nor a gap that nobody gave', async () => {
+  await open();
+  await preset('measured');
+  await page.fill('#delay', '3');
+  await page.fill('#nominal', '1/125');
+  await drop(['mine.csv', trace()]);
+  await fitted('mine.csv');
+  assert.deepEqual([await page.value('#delay'), await page.value('#nominal'), await page.value('#min_gap')], ['', '', '0']);
+  assert.doesNotMatch(await copied('rust'), /DELAY/);
+  // A number that a person gave for this trace stays when it is read otherwise.
+  await page.fill('#nominal', '1/125');
+  await page.fill('#min_gap', '0.05');
+  await page.blur('#min_gap');
+  await page.fill('#trace [name=rises]', 'true');
+  await page.until(() => document.querySelector('#trace dl') && document.querySelector('#trace [name=rises]').value === 'true' && document.getElementById('busy').hidden);
+  assert.deepEqual([await page.value('#nominal'), await page.value('#min_gap')], ['8', '0.05']);
+});
+
+test('a fast shutter of one’s own works at its first drop', async () => {
+  await open();
+  await drop(['fast.csv', trace({ up: 0.4, open: 2.6, down: 0.5 })]);
+  await fitted('fast.csv');
+  assert.ok(!(await page.isSeen('#problem')));
+  assert.match(await page.text('#speed'), /^1\/3\d\d s/);
+  assert.match(await copied('rust'), /pub const TICKS: \[u32; 12\]/);
+});
+
+test('a shutter whose flashes do not fit is what is shown, undone and redone; what would help is a button', async () => {
+  await open();
+  await page.fill('#min_gap', '0.4');
+  await page.fill('#triggers', '12');
+  await page.blur('#triggers');
+  await drop(['fast.csv', trace({ up: 0.4, open: 2.6, down: 0.5 })]);
+  await fitted('fast.csv');
+  assert.match(await page.text('#speed'), /^1\/3\d\d s/, 'not the shutter before');
+  assert.ok(await page.isSeen('#problem'));
+  assert.match(await page.text('#problem'), /come 0\.\d+ ms apart, and 0\.4 ms is required/, 'in the unit that is shown');
+  assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')));
+  assert.match(await code(), /^There is nothing to copy yet/);
+  assert.ok(!(await page.isSeen('#ticks')));
+  // It is seen wherever one is.
+  assert.ok(await page.$eval('#problem', (it) => it.getBoundingClientRect().bottom <= innerHeight));
+  const shape = await curve();
+  await page.click('#undo');
+  assert.notEqual(await curve(), shape);
+  assert.ok(!(await page.isSeen('#problem')));
+  await page.click('#redo');
+  assert.equal(await curve(), shape);
+  await page.push('Use 7 flashes');
+  assert.ok(!(await page.isSeen('#problem')));
+  assert.equal(await page.value('#triggers'), '7');
+  assert.match(await copied('rust'), /TICKS: \[u32; 7\]/);
+  await page.click('#undo');
+  await page.push('Ask for no gap');
+  assert.equal((await ticks()).length, 12);
+});
+
+test('a misfit takes the trace’s own triggers away, as the program does; a change by hand is the curve’s, and says so', async () => {
+  await open();
+  await drop(['bounce.csv', bouncing()]);
+  await fitted('bounce.csv');
+  const [file, scene] = [join(scratch, 'bounce.csv'), join(scratch, 'bounce.toml')];
+  writeFileSync(file, bouncing());
+  const times = (text) => /trigger_times = \[([^\]]*)\]/.exec(text)[1].split(',').map(Number).filter((x) => x);
+  const program = (n) => {
+    shutter('fit', file, '--zero', 'open', '--triggers', String(n), '--out', scene);
+    return readFileSync(scene, 'utf8');
+  };
+  assert.deepEqual(times(await copied('toml')), times(program(12)));
+  const json = JSON.parse(await copied('json'));
+  assert.deepEqual(json.triggers.map((it) => it.ticks), JSON.parse(shutter('plan', scene, '--emit', 'json')).triggers.map((it) => it.ticks));
+  assert.deepEqual(await ticks(), json.triggers.map((it) => it.ticks));
+  // The bounce is on the graph, whole.
+  const light = await page.evaluate(() => Math.max(...document.querySelector('path.trace').getAttribute('d').match(/[\d.]+ [\d.]+/g).map((at) => at.split(' ').map(Number)).filter(([, y]) => y < 150).map(([x]) => x)));
+  assert.ok(light < (await page.evaluate(() => Number(document.querySelector('#plot rect').getAttribute('width')))), String(light));
+  assert.match(await page.text('#trace'), /at the trace’s own times/);
+  // Another number of them is asked of the trace.
+  await page.fill('#triggers', '9');
+  await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 9);
+  assert.deepEqual(times(await copied('toml')), times(program(9)));
+  const own = await copied('toml');
+  // A link holds them, without the trace.
+  const link = await copiedBy(() => page.click('#link'));
+  const samples = () => page.attribute('path.residual', 'd');
+  const [before, shown] = [await samples(), await curve()];
+  await drag('open_end', 30, 0);
+  assert.notEqual(await samples(), before, 'what is left moves with the curve');
+  await page.until(() => /Changed by hand.*misses the trace by/.test(document.getElementById('trace').textContent));
+  await page.mouse.up();
+  assert.doesNotMatch(await page.text('#trace'), /own times|curve explains|trace's own/);
+  assert.match(await copied('toml'), /close_end/);
+  await page.push('Back to the fit');
+  assert.equal(await curve(), shown);
+  assert.equal(await copied('toml'), own);
+  await open(link.slice(url.length));
+  assert.equal(await copied('toml'), own);
+  await page.fill('#triggers', '8');
+  assert.match(await page.text('#problem'), /drop the trace again/);
+  assert.ok(await page.isDisabled('#copy'));
+});
+
+test('what a drag leaves of the trace is drawn and told while it is dragged', async () => {
+  await open();
+  await drop(['bench.csv', trace()]);
+  await fitted('bench.csv');
+  await page.says('the curve explains the trace');
+  const before = await page.attribute('path.residual', 'd');
+  await drag('close_start', -40, 0);
+  assert.notEqual(await page.attribute('path.residual', 'd'), before);
+  const told = Number(/misses the trace by ([\d.]+) %/.exec(await page.text('#trace'))[1]);
+  assert.ok(told > 3, String(told));
+  assert.doesNotMatch(await page.text('#trace'), /the curve explains the trace/);
+  await page.press('Escape');
+  await page.mouse.up();
+  assert.equal(await page.attribute('path.residual', 'd'), before);
+  await page.says('the curve explains the trace');
+});
+
+test('what is pointed at is of the curve that is there', async () => {
+  await open();
+  await page.focus('#handle-open_end');
+  await page.press('ArrowRight');
+  const told = await page.text('#readout');
+  await page.fill('#triggers', '11');
+  assert.notEqual(await page.text('#readout'), told);
+  await page.focus('#presets [data-name="liquid-crystal"]');
+  await page.press('Enter');
+  assert.notEqual(await page.text('#readout'), told);
+});
+
+test('a reload keeps the steps, and Back and Forward among them', async () => {
+  await open();
+  const states = [await curve()];
+  const done = async (act) => {
+    await act();
+    await wait(200);
+    states.push(await curve());
+  };
+  await done(() => preset('leaf'));
+  await done(() => preset('box'));
+  await done(() => preset('projector'));
+  await page.goBack();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, states[2]);
+  await page.reload();
+  await ready();
+  assert.equal(await curve(), states[2]);
+  await page.goBack();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, states[1]);
+  await page.goForward();
+  await page.goForward();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, states[3]);
+  for (const k of [2, 1, 0]) {
+    await page.click('#undo');
+    assert.equal(await curve(), states[k]);
+  }
+  await page.click('#redo');
+  assert.equal(await curve(), states[1]);
+  // A trace as well, but for its file.
+  await drop(['bench.csv', trace()]);
+  await fitted('bench.csv');
+  await wait(200);
+  await page.reload();
+  await ready();
+  await fitted('bench.csv');
+  assert.ok((await page.attribute('path.trace', 'd')).length > 1000);
+  assert.match(await page.text('#trace'), /open the file again/);
+});
+
+test('an undo during a drag ends the drag', async () => {
+  await open();
+  await preset('leaf');
+  const before = await curve();
+  await drag('open_end', 40, 0);
+  assert.notEqual(await curve(), before);
+  await page.press('Control+z');
+  assert.equal(await curve(), before);
+  const [x, y] = await middle('open_end');
+  await page.mouse.move(x + 60, y, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await curve(), before);
+  assert.equal(await page.attribute('#presets [data-name="leaf"]', 'aria-pressed'), 'true');
+});
+
+test('a newer choice ends what is computed, which says so meanwhile and never comes after', async () => {
+  await open();
+  await drop(['long.csv', LONG]);
+  await page.waitForSelector('#busy:not([hidden])');
+  assert.match(await page.text('#busy'), /Reading long\.csv/);
+  // The forms are written meanwhile.
+  const start = performance.now();
+  assert.match(await copied('csv'), /^index/);
+  assert.ok(performance.now() - start < 3000);
+  await preset('leaf');
+  assert.ok(!(await page.isSeen('#busy')));
+  assert.match(await page.text('#problem'), /long\.csv.*stopped: another curve was chosen/);
+  const shown = await curve();
+  await wait(3000);
+  assert.equal(await curve(), shown);
+  await drop(['long.csv', LONG]);
+  await page.waitForSelector('#busy:not([hidden])');
+  await drop(['bench.csv', trace()]);
+  await fitted('bench.csv');
+  assert.equal(await page.value('#name'), 'bench');
+});
+
+test('a form that is refused is not offered, and what would help is', async () => {
+  await open();
+  await choose('pico');
+  assert.match(await code(), /^There is nothing to copy yet.*delay/s);
+  assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')));
+  await page.push('Give the sync’s delay');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'delay');
+  await page.push('The sync is the opening: delay 0');
+  await page.until(() => !document.getElementById('copy').disabled);
+  assert.match(await copied('pico'), /^n 1\n/);
+  await preset('strobe');
+  await page.until(() => [...document.querySelectorAll('#code button')].some((it) => it.textContent.endsWith('delay 0')));
+  await page.push('The sync is the opening: delay 0');
+  await page.until(() => /up to 64 pulses/.test(document.getElementById('code').textContent));
+  await page.push('Use 64 flashes');
+  await page.until(() => !document.getElementById('copy').disabled);
+  assert.match(await copied('pico'), /^n 64$/m);
+});
+
+test('what holds a handle is told beside it, with what would help', async () => {
+  await open();
+  // Narrower, twelve flashes no longer keep the gap.
+  await page.fill('#min_gap', '0.55');
+  await page.blur('#min_gap');
+  await drag('close_start', -200, 0);
+  await page.until(() => !document.getElementById('hold').hidden);
+  assert.match(await page.text('#hold'), /12 flashes would come closer than 0\.55 ms/);
+  const held = await page.value('#close_start');
+  assert.ok(held.length < 8, `a round number: ${held}`);
+  await page.mouse.up();
+  const [, n] = /Use (\d+) flash/.exec(await page.text('#hold'));
+  await page.push(`Use ${n} flash${n === '1' ? '' : 'es'}`);
+  assert.equal(await page.value('#triggers'), n);
+  assert.ok(Number(await page.value('#close_start')) < Number(held));
+  assert.ok(!(await page.isSeen('#hold')));
+  assert.ok(!(await page.isDisabled('#copy')));
+  await drag('t1', 0, 200);
+  assert.match(await page.text('#hold'), /cannot go below/);
+  await page.press('Escape');
+  await page.mouse.up();
+  assert.ok(!(await page.isSeen('#hold')));
+});
+
+test('the photograph follows the drag and the number of flashes, and is still where motion is not wanted', async () => {
+  await open();
+  await page.emulateMediaFeatures([{ name: 'prefers-reduced-motion', value: 'reduce' }]);
+  await page.reload();
+  await ready();
+  const photos = () => page.$$eval('.photos canvas', (all) => all.map((it) => it.toDataURL()));
+  const first = await photos();
+  await wait(1500);
+  assert.deepEqual(await photos(), first);
+  await drag('close_start', -60, 0);
+  const dragged = await photos();
+  assert.ok(dragged.every((it, i) => it !== first[i]));
+  await page.press('Escape');
+  await page.mouse.up();
+  await page.mouse.move(5, 5);
+  await page.fill('#min_gap', '0');
+  const slide = (value) => page.$eval('#flashes', (it, value) => {
+    it.value = value;
+    it.dispatchEvent(new Event('input', { bubbles: true }));
+  }, value);
+  const differ = async () => Number(/: ([\d.]+) % off/.exec(await page.text('#flash-caption'))?.[1] ?? 0);
+  const seen = [];
+  for (const [x, n] of [[0, 1], [2, 4], [4, 16], [6, 64], [8, 256]]) {
+    await slide(x);
+    assert.equal(await page.value('#triggers'), String(n));
+    assert.equal((await ticks()).length, n);
+    seen.push(await differ());
+  }
+  assert.ok(seen.every((x, i) => i === 0 || x < seen[i - 1] || x === 0), String(seen));
+  assert.match(await page.text('#flash-caption'), /256 flashes.*hard to tell/);
+});
+
+test('several traces make a table of speeds, which prints, and a link that holds it', async () => {
+  await open();
+  await drop(['250.csv', trace({ open: 1.5 })], ['125.csv', trace({ open: 5.5 })], ['bounce.csv', bouncing()], ['diary.csv', 'dear diary\nnothing\n']);
+  await page.waitForSelector('#speeds:not([hidden])', { timeout: 60_000 });
+  const table = () => page.$$eval('#speeds-table tbody tr', (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
+  const rows = await table();
+  assert.deepEqual(rows.map((row) => row[0]), ['250.csv', 'bounce.csv', '125.csv', 'diary.csv']);
+  assert.deepEqual(rows[0].slice(1, 2).concat(rows[2].slice(1, 2)), ['1/250', '1/125']);
+  assert.match(rows[0][2], /^(3\.99|4\.00)\d? ± [\d.e-]+ ms$/);
+  assert.match(rows[2][3], /^[+−±]0\.0\d EV$/);
+  assert.match(rows[1][6], /the trace itself/);
+  assert.match(rows[3][6], /^not measured: /);
+  const link = await copiedBy(() => page.click('#speeds-link'));
+  // A row is a trace, which is shown.
+  await page.push('125.csv');
+  await fitted('125.csv');
+  await open(link.slice(url.length));
+  assert.deepEqual(await table(), rows);
+  await page.click('#speeds-close');
+  assert.ok(!(await page.isSeen('#speeds')));
+});
+
+test('on paper the curve is whole, with all ticks and no buttons', async () => {
+  await open('', { width: 1440, height: 900 });
+  await page.fill('#triggers', '18');
+  await page.emulateMediaType('print');
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await page.setViewport({ width: 700, height: 900 });
+  await wait(100);
+  const seen = await page.evaluate(() => ({
+    buttons: [...document.querySelectorAll('button')].filter((it) => it.checkVisibility()).length,
+    rows: document.querySelectorAll('#ticks tbody tr').length,
+    cut: [...document.querySelectorAll('.scroll, #graph')].filter((it) => it.checkVisibility() && it.scrollHeight > it.clientHeight + 1).map((it) => it.id || it.ariaLabel),
+    right: document.querySelector('#graph svg').getBoundingClientRect().right,
+  }));
+  assert.deepEqual({ ...seen, right: 0 }, { buttons: 0, rows: 18, cut: [], right: 0 });
+  assert.ok(seen.right <= 700);
+  assert.ok((await page.pdf({ format: 'a4' })).length > 10_000);
+});
+
+test('the table of ticks has the columns of the CSV, and fits at 1024', async () => {
+  await open('', { width: 1024, height: 2800 });
+  await preset('led');
+  await page.fill('#delay', '1.5 ms');
+  const names = await page.$$eval('#ticks th', (all) => all.map((it) => it.textContent));
+  const [head, ...lines] = (await copied('csv')).trim().split('\n').map((line) => line.split(','));
+  assert.deepEqual(head, ['index', 'u', 'time_s', 'ticks', 'gap_ticks', 'from_edge_ticks', 'on_ticks', 'off_ticks']);
+  assert.equal(names.length, head.length);
+  const cells = await page.$$eval('#ticks tbody tr', (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
+  for (const k of [3, 5, 6, 7]) assert.deepEqual(cells.map((row) => row[k]), lines.map((line) => line[k]));
+  assert.ok(await page.$eval('#ticks', (it) => it.scrollWidth <= it.closest('.scroll').clientWidth));
+});
+
+test('a frame leaves the host’s Back alone, fits 320 pixels and leads home', async () => {
+  await open('#name=leaf&unit=ms&times=0,1.1,1.7,3&inner=0.1,0,0.2,1,0.6,1,0.9,0&triggers=8&timer_hz=1000000&min_gap=0', { width: 320, height: 640 }, '?embed');
+  const before = await page.evaluate(() => history.length);
+  for (const dx of [-10, 14, -8]) {
+    await drag('open_end', dx, 0);
+    await page.mouse.up();
+    await wait(150);
+  }
+  assert.equal(await page.evaluate(() => history.length), before);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
+  assert.ok(await page.isSeen('#home'));
+  const home = await page.$eval('#home', (it) => it.href);
+  assert.match(home, /^[^?]*#name=leaf&/);
+});
+
+test('a finger reads the graph; at 320 pixels nothing overflows, nor with large letters', async () => {
+  await open('', { width: 320, height: 2000, hasTouch: true });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
+  const { x, y, width, height } = await page.box('#graph');
+  await page.touchscreen.tap(x + width / 2, y + height / 3);
+  assert.match(await page.text('#readout'), /% open · .*% collected/);
+  await page.setViewport({ width: 640, height: 2000 });
+  await page.evaluate(() => (document.documentElement.style.fontSize = '200%'));
+  await wait(100);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 640);
+  assert.ok((await page.$eval('#copy', (it) => Number.parseFloat(getComputedStyle(it).fontSize))) >= 28, 'letters grow');
+});
+
+test('Copy is at most twelve stops of Tab away, and what is loaded moves nothing', async () => {
+  await page?.close();
+  const fresh = extend(await browser.newPage());
+  await fresh.evaluateOnNewDocument(() => {
+    globalThis.shift = 0;
+    new PerformanceObserver((list) => list.getEntries().forEach(({ value }) => (shift += value))).observe({ type: 'layout-shift', buffered: true });
+  });
+  for (const [width, height] of [[1440, 900], [390, 844]]) {
+    await fresh.setViewport({ width, height });
+    await fresh.goto('about:blank');
+    await fresh.goto(url);
+    await ready(fresh);
+    await wait(1500);
+    const shift = await fresh.evaluate(() => globalThis.shift);
+    assert.ok(shift < 0.05, `${width}: ${shift}`);
+    let stops = 0;
+    for (; (await fresh.evaluate(() => document.activeElement.id)) !== 'copy' && stops < 40; stops++) {
+      await fresh.press('Tab');
+      if (await fresh.evaluate(() => document.activeElement.hash === '#copy')) await fresh.press('Enter');
+    }
+    assert.ok(stops <= 12, `${width}: ${stops}`);
+  }
+  await fresh.close();
+});
+
+test('what is in focus and where one types can be told: 3:1', async () => {
+  await open();
+  for (const colorScheme of ['light', 'dark']) {
+    await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: colorScheme }]);
+    await page.focus('#handle-open_end');
+    await page.press('ArrowRight');
+    const found = await page.evaluate(() => {
+      const light = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((x) => x / 255).map((x) => (x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4)).reduce((sum, x, i) => sum + x * [0.2126, 0.7152, 0.0722][i], 0);
+      const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
+      const card = getComputedStyle(document.querySelector('.card')).backgroundColor;
+      const halo = getComputedStyle(document.querySelector('#handle-open_end .halo'));
+      return [contrast(halo.stroke, card) * Number(halo.opacity), contrast(getComputedStyle(document.getElementById('name')).borderColor, card), contrast(getComputedStyle(document.getElementById('unit')).borderColor, card)];
+    });
+    assert.ok(found.every((x) => x >= 3), `${colorScheme}: ${found}`);
+  }
+});
