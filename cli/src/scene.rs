@@ -159,18 +159,20 @@ impl Fault {
         KEYS.get(self.at?).copied()
     }
 
+    /// The number of its line, from 1, and the line.
+    pub fn line<'a>(&self, text: &'a str) -> Option<(usize, &'a str)> {
+        let line = text.get(..self.at?)?.matches('\n').count();
+        Some((line + 1, text.lines().nth(line).unwrap_or_default()))
+    }
+
     /// `file:line: reason`, the line itself below it, and the notes.
     pub fn locate(&self, file: &str, text: &str) -> String {
-        let Self { at, reason, notes } = self;
-        let mut told = match at.and_then(|at| text.get(..at)) {
-            Some(before) => {
-                let line = before.matches('\n').count();
-                let source = text.lines().nth(line).unwrap_or_default();
-                format!("{file}:{number}: {reason}\n  {number} | {source}", number = line + 1)
-            }
+        let reason = &self.reason;
+        let mut told = match self.line(text) {
+            Some((number, line)) => format!("{file}:{number}: {reason}\n  {number} | {line}"),
             None => format!("{file}: {reason}"),
         };
-        for note in notes {
+        for note in &self.notes {
             told += &format!("\n  {note}");
         }
         told

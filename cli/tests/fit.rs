@@ -527,7 +527,7 @@ fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
 
 /// The triggers of the scene that a fit writes, by the crate itself.
 fn planned(fit: &Fit, zero: Zero) -> Plan {
-    let scene = fitted::scene(fit, "a trace\nwith two lines", zero).unwrap();
+    let scene = fitted::scene(fit, "a trace\nwith two lines", zero, None).unwrap();
     Plan::parse(&scene.text).unwrap()
 }
 
@@ -581,7 +581,7 @@ fn a_late_trace_moves_time_0_to_the_opening() {
     let mut trace = sampled(trapezoid, 1000, 0.005);
     trace.times.iter_mut().for_each(|t| *t += 1e4);
     let fit = fitted(&trace, &Options::default()).unwrap();
-    let scene = fitted::scene(&fit, "late", Zero::Trace).unwrap();
+    let scene = fitted::scene(&fit, "late", Zero::Trace, None).unwrap();
     assert_eq!(scene.zero, Zero::Open);
     assert!(scene.text.contains("open_start = 0\n"), "{}", scene.text);
 }
@@ -643,7 +643,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
             .collect();
         let times = (0..n).map(|i| i as f64 * if seed % 2 == 0 { 1.0 } else { 1e-9 }).collect();
         if let Ok(fit) = fitted(&Trace { times, values }, &Options::default()) {
-            let _ = fitted::scene(&fit, "chaos", Zero::Trace);
+            let _ = fitted::scene(&fit, "chaos", Zero::Trace, None);
             let _ = shutter_fit::text("chaos", &fit);
             let _ = shutter::picture::trace("chaos", &fit).unwrap();
         }
@@ -740,7 +740,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
     // Its oscilloscope was triggered by the sync.
-    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace).unwrap().text;
+    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     let fitted = Plan::parse(&scene).unwrap();
     // The same with the timer of the board and what the lamp needs, which a user fills in.
     let text = read("scenes/measured.toml");
@@ -754,7 +754,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let options = Options { sync: Some(0.0), ..Options::default() };
     let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
     let synced =
-        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace).unwrap().text).unwrap();
+        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace, None).unwrap().text).unwrap();
     let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
     assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
     assert_eq!(text, read("../boards/c/speeds/leaf.toml"));
@@ -870,7 +870,7 @@ fn several_traces_are_a_table() {
         (vec![&*slow, &fast, "--nominal", "10ms"], "--nominal: 1 speed for 2 traces"),
         (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
         (vec![&slow, &fast, "--picture", "no.svg"], "a picture is of one trace"),
-        (vec![&slow, &slow, "--out", folder], "two traces would both be written to "),
+        (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {
         let run = run(&args);

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::errors::Measured;
 use crate::outcome::{Fit, From};
-use crate::trace::{Reading, Warning};
+use crate::trace::{Clock, Reading, Warning};
 
 #[derive(Serialize)]
 struct Json<'a> {
@@ -15,7 +15,11 @@ struct Json<'a> {
     exposure_error_s: f64,
     efficiency: f64,
     efficiency_error: f64,
-    /// After the trace's time 0, as everything here.
+    nominal_s: Option<f64>,
+    /// From the edge of the camera's sync to the opening.
+    delay_s: Option<f64>,
+    delay_error_s: Option<f64>,
+    /// After the trace's time 0, as all times but the delay.
     opens_s: f64,
     open_s: f64,
     closes_s: f64,
@@ -24,7 +28,8 @@ struct Json<'a> {
     triggers_from: &'static str,
     model_triggers: Vec<Trigger>,
     columns: Option<Columns<'a>>,
-    unit: Option<String>,
+    unit: Option<&'static str>,
+    rate_hz: Option<f64>,
     samples: usize,
     pulses: usize,
     pulse: usize,
@@ -78,11 +83,16 @@ fn columns(reading: &Reading) -> Columns<'_> {
     }
 }
 
-/// The fit of the trace `name`, with all warnings about it, as JSON.
-pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
+/// The fit of the trace `name`, with all warnings about it, as an object of JSON.
+pub fn json<'a>(name: &'a str, fit: &'a Fit, warnings: &[Warning]) -> impl Serialize + use<'a> {
     let [_, open_s, closes_s, closed_s] = fit.best().signal.curve.times();
     let told = |warning: &Warning| Told { code: warning.code(), text: warning.to_string() };
-    let json = Json {
+    let (unit, rate_hz) = match fit.reading.as_ref().map(|reading| reading.clock) {
+        Some(Clock::Unit(unit)) => (Some(unit.name()), None),
+        Some(Clock::Rate(hertz)) => (None, Some(hertz)),
+        None => (None, None),
+    };
+    Json {
         trace: name,
         model: fit.chosen.title(),
         because: crate::report::because(fit),
@@ -90,6 +100,9 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
         exposure_error_s: fit.exposure.error,
         efficiency: fit.efficiency.value,
         efficiency_error: fit.efficiency.error,
+        nominal_s: fit.nominal,
+        delay_s: fit.delay.map(|delay| delay.value),
+        delay_error_s: fit.delay.map(|delay| delay.error),
         opens_s: fit.opens,
         open_s,
         closes_s,
@@ -101,7 +114,8 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
         },
         model_triggers: triggers(&fit.model_triggers),
         columns: fit.reading.as_ref().map(columns),
-        unit: fit.reading.as_ref().map(|reading| reading.times()),
+        unit,
+        rate_hz,
         samples: fit.samples.times.len(),
         pulses: fit.frames.count,
         pulse: fit.frames.fitted,
@@ -115,6 +129,5 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> String {
             rms: fit.best().rms,
         },
         warnings: warnings.iter().map(told).collect(),
-    };
-    serde_json::to_string_pretty(&json).expect("numbers and texts are JSON") + "\n"
+    }
 }
