@@ -6,7 +6,7 @@ use shutter_fit::unit::{Unit, count};
 
 use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
-use crate::scene::{Fault, Scene, min_gap, positive};
+use crate::scene::{Fault, Scene, min_gap, positive, whole};
 use crate::shape::Shape;
 
 /// When to trigger.
@@ -69,11 +69,8 @@ impl Plan {
     /// # Errors
     /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
-        let (n, timer_hz) = (scene.triggers.get_ref().get(), scene.timer_hz.get_ref().get());
-        if n == 0 || n > MOST_TRIGGERS {
-            let reason = format!("triggers: 1 to {MOST_TRIGGERS} can be planned");
-            return Err(Fault::at(&scene.triggers, reason));
-        }
+        let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
+        let timer_hz = whole("timer_hz", &scene.timer_hz, u32::MAX)?;
         let shape = scene.shape()?;
         let curve = shape.curve().map_err(|error| scene.fault(&shape, error))?;
         // The rate is checked here, before anything is counted in ticks.

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
-use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY};
+use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
 
 /// The scene as it is written; each value knows its place in the text.
 #[derive(Deserialize)]
@@ -17,7 +17,7 @@ struct Scene {
     unit: Option<Unit>,
     open_start: Spanned<Number>,
     trigger_times: Spanned<Vec<Spanned<Number>>>,
-    timer_hz: Spanned<Count>,
+    timer_hz: Spanned<Number>,
     min_gap: Spanned<Number>,
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
@@ -89,10 +89,7 @@ impl Times {
     fn new(scene: &Scene) -> Result<Self, Fault> {
         let unit = scene.unit.unwrap_or(Unit::Second);
         let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
-        let timer_hz = scene.timer_hz.get_ref().get();
-        if timer_hz == 0 {
-            return Err(Fault::at(&scene.timer_hz, "timer_hz: the tick rate is 0"));
-        }
+        let timer_hz = scene::whole("timer_hz", &scene.timer_hz, u32::MAX)?;
         let min_gap = scene::min_gap(unit, &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
         let triggers = triggers(scene, unit, open_start, whole_ticks(min_gap, timer_hz).max(1))?;
@@ -115,7 +112,7 @@ impl Times {
 
 /// The times in ticks, known to be in order and at least so many apart.
 fn triggers(scene: &Scene, unit: Unit, start: f64, gap: u64) -> Result<Vec<Given>, Fault> {
-    let hz = f64::from(scene.timer_hz.get_ref().get());
+    let hz = scene.timer_hz.get_ref().get();
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
         let reason = format!("{KEY}: 1 to {MOST_TRIGGERS} can be planned, not {}", times.len());

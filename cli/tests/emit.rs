@@ -1,6 +1,7 @@
 //! Each form that a plan is emitted in, of each scene that ships: it compiles or parses as it stands, and holds the crate's
 //! ticks and the numbers of the plan to the bit.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -64,9 +65,15 @@ fn line(trigger: &Trigger) -> String {
 
 /// Runs the compiler in a folder, without a warning.
 fn rustc(folder: &Path, args: &[&str]) {
-    let mut rustc = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()));
-    rustc.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(folder);
-    output(&mut rustc);
+    let rustc = std::env::var_os("RUSTC").unwrap_or("rustc".into());
+    run_in(folder, rustc, args);
+}
+
+/// The same with a compiler that lints.
+fn run_in(folder: &Path, compiler: impl AsRef<OsStr>, args: &[&str]) {
+    let mut compiler = Command::new(compiler);
+    compiler.args(["--edition", "2024", "--out-dir", "."]).args(args).current_dir(folder);
+    output(&mut compiler);
 }
 
 /// The crate by itself, which has no dependencies, built once; as an argument of the compiler.
@@ -144,16 +151,24 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
         fn main() {
             println!("{} {}", late::box_::DELAY_TICKS, late::shutter_1_500::TICKS.len());
             for speed in &late::SPEEDS {
-                let ticks = speed.shutter.trigger_ticks(speed.ticks.len() as u32, late::TIMER_HZ).unwrap();
+                let ticks = speed.shutter.trigger_ticks(u32::try_from(speed.ticks.len()).unwrap(), late::TIMER_HZ).unwrap();
                 assert!(ticks.eq(speed.ticks.iter().copied()));
                 println!("{} {}", speed.name, speed.delay_ticks);
             }
             for speed in &lit::SPEEDS {
-                let pulses = speed.shutter.pulse_ticks(speed.ticks.len() as u32, 0.3, lit::TIMER_HZ).unwrap();
+                let pulses = speed.shutter.pulse_ticks(u32::try_from(speed.ticks.len()).unwrap(), 0.3, lit::TIMER_HZ).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
             }
         }"#;
     write("main.rs", main.into());
+    for file in ["late.rs", "lit.rs", "one.rs"] {
+        let mut rustfmt = Command::new("rustfmt");
+        output(rustfmt.args(["--edition", "2024", "--check"]).arg(folder.join(file)));
+    }
+    let pedantic = ["-W", "clippy::pedantic", "-W", "clippy::all", "-D", "warnings"];
+    let driver =
+        [&pedantic[..], &["--extern", the_crate(), "--emit", "metadata", "main.rs"]].concat();
+    run_in(&folder, "clippy-driver", &driver);
     rustc(&folder, &["-D", "warnings", "--extern", the_crate(), "main.rs"]);
     let expected = "4247 4\n1-500 4247\nbox 4247\nslow speed 4247\n";
     assert_eq!(output(&mut Command::new(folder.join("main"))), expected);
@@ -498,7 +513,7 @@ fn assert_same(name: &str, plan: &Plan, rows: &[Row]) {
 fn csv_parses_and_holds_the_same_numbers() {
     for (name, plan) in plans() {
         let text = emit(Form::Csv, &name, &plan);
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let reader = csv::Reader::from_reader(text.as_bytes());
         let rows: Vec<Row> = reader.into_deserialize().map(Result::unwrap).collect();
         assert_same(&name, &plan, &rows);
         let gaps = rows.iter().map(|row| row.gap_ticks);

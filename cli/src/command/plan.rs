@@ -98,17 +98,20 @@ fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
 
 fn read(args: &Args, path: &Path) -> Result<(String, Planned), String> {
     let file = shown(path);
-    let text =
-        input::read(path).and_then(|bytes| String::from_utf8(bytes).map_err(|e| e.to_string()));
+    let text = input::read(path)
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
     Ok((stem(path), checked(args, &file, &text)?))
 }
 
 fn checked(args: &Args, file: &str, text: &str) -> Result<Planned, String> {
     let set = args.settings.of(text);
-    Planned::parse(&set).map_err(|fault| match fault.line(&set) == fault.line(text) {
-        true => fault.locate(file, text),
-        // Of what stands in no file, only the reason can be told.
-        false => format!("{file}, as the command line sets it: {}", fault.reason),
+    Planned::parse(&set).map_err(|mut fault| {
+        if set != text {
+            // What stands in no file has no line there.
+            fault.at = fault.at.filter(|_| fault.line(&set) == fault.line(text));
+            fault.notes.push("The command line sets some of this scene.".into());
+        }
+        fault.locate(file, text)
     })
 }

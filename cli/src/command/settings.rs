@@ -16,7 +16,7 @@ pub struct Settings {
     #[arg(long, value_name = "HERTZ", value_parser = whole_rate)]
     timer_hz: Option<u32>,
     /// The least time between two triggers, or of darkness between pulses: 100us
-    #[arg(long, value_name = "TIME", value_parser = time)]
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
     min_gap: Option<f64>,
     /// The part of each share of the exposure in which the lamp is on, above 0 and at most 1
     #[arg(long, value_name = "PART")]

@@ -17,7 +17,7 @@ const NAMES: [&str; 9] = [
 
 /// The rows of plans; what one of them does not have is empty.
 pub fn rows<'a>(plans: impl IntoIterator<Item = (&'a str, &'a Planned)>) -> String {
-    let mut out = csv::Writer::from_writer(Vec::new());
+    let mut out = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     out.write_record(NAMES).expect("memory takes all");
     for (scene, plan) in plans {
         for row in plan.rows() {

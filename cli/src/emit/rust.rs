@@ -4,12 +4,12 @@ use super::{MADE_BY, base, comment, has_pulses, name, pulses, rows, ticks};
 use crate::planned::Planned;
 use crate::shape::Shape;
 
-/// Said of each item: a firmware need not use them all.
-const ALLOW: &str = "#[allow(dead_code)]";
+/// Said of the whole file: a firmware need not use all items, and ticks are for no reader.
+const ALLOW: &str = "#![allow(dead_code, clippy::unreadable_literal)]\n";
 
 /// The file of a module that is called as the scene is.
 pub fn module(scene: &str, plan: &Planned) -> String {
-    comment("// ", scene, plan) + "\n" + &items(plan)
+    comment("// ", scene, plan) + "\n" + ALLOW + "\n" + &items(plan)
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
@@ -27,12 +27,11 @@ pub fn modules(called: &str, plans: &[(String, Planned)]) -> String {
     let mut text = format!(
         "// {MADE_BY}: {}, a shutter of {} speeds.
 
-{import}/// The timer's rate.
 {ALLOW}
+{import}/// The timer's rate.
 pub const TIMER_HZ: u32 = {};
 
 /// A speed of the shutter.
-{ALLOW}
 pub struct Speed {{
     /// The scene's name.
     pub name: &'static str,
@@ -49,7 +48,7 @@ pub struct Speed {{
         text += "    /// When to switch the lamp on, and when off, counted as `ticks` are.\n    pub pulses: &'static [(u32, u32)],\n";
     }
     text += &format!(
-        "}}\n\n/// The speeds.\n{ALLOW}\npub static SPEEDS: [Speed; {}] = [\n",
+        "}}\n\n/// The speeds.\n#[rustfmt::skip]\npub static SPEEDS: [Speed; {}] = [\n",
         plans.len()
     );
     for (scene, plan) in plans {
@@ -86,7 +85,7 @@ fn items(plan: &Planned) -> String {
             "use shutter_curve::{{ShutterCurve, valid}};
 
 /// The shutter, its times in seconds.
-{ALLOW}
+#[rustfmt::skip]
 pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
 
 ",
@@ -95,7 +94,6 @@ pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
     });
     let mut text = format!(
         "{}/// The timer's rate.
-{ALLOW}
 pub const TIMER_HZ: u32 = {};
 ",
         shutter.unwrap_or_default(),
@@ -103,12 +101,12 @@ pub const TIMER_HZ: u32 = {};
     );
     if let Some(delay) = plan.delay() {
         text += &format!(
-            "\n/// From the edge of the camera's sync to the start of opening.\n{ALLOW}\npub const DELAY_TICKS: u32 = {};\n",
+            "\n/// From the edge of the camera's sync to the start of opening.\npub const DELAY_TICKS: u32 = {};\n",
             delay.ticks
         );
     }
     text += &format!(
-        "\n/// When to trigger. {}\n{ALLOW}\npub const TICKS: [u32; {n}] = [\n{}];\n",
+        "\n/// When to trigger. {}\n#[rustfmt::skip]\npub const TICKS: [u32; {n}] = [\n{}];\n",
         base(plan, "[`DELAY_TICKS`]"),
         rows(ticks),
     );
@@ -116,7 +114,7 @@ pub const TIMER_HZ: u32 = {};
         text += &format!(
             "
 /// When to switch the lamp on, and when off, counted as [`TICKS`] are.
-{ALLOW}
+#[rustfmt::skip]
 pub const PULSES: [(u32, u32); {n}] = [
 {}];
 ",
