@@ -1,7 +1,7 @@
 //! A plan's facts, in the words of those who test shutters.
 
 use shutter_curve::ShutterCurve;
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::Delay;
 use crate::lamp::Lamp;
@@ -108,7 +108,7 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
     ];
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
-        lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
+        lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
     lines.push(("timer", format!("{} Hz", plan.timer_hz)));
     lines.push(("delay", delay(plan.delay, unit)));

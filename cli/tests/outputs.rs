@@ -120,6 +120,7 @@ fn an_output_that_is_an_input_is_refused_by_any_name() {
     folder.write("b.toml", &trace(2.0));
     folder.refuses("$shutter fit a.toml b.toml --out . --force", "it is the input");
     folder.refuses("$shutter plan scene.toml --emit rust >> scene.toml", "standard output");
+    folder.refuses("$shutter fit - --out trace.csv --force < trace.csv", "standard input");
 }
 
 #[test]
@@ -302,6 +303,26 @@ fn two_runs_at_once_leave_one_of_theirs() {
         assert!(whole.contains(&folder.text("new.svg")));
     }
     assert_eq!(folder.names().len(), 5, "{:?}", folder.names());
+}
+
+/// What a user saves while a fit is under way is not replaced.
+#[test]
+fn a_file_that_changes_meanwhile_is_kept() {
+    let folder = Folder::new("meanwhile");
+    assert_eq!(folder.run("fit trace.csv --out old.toml").0, Some(0));
+    for out in ["old.toml", "new.toml"] {
+        let line = format!(
+            "mkfifo {out}.in; $shutter fit - --out {out} < {out}.in & exec 3> {out}.in; sleep 0.5\n\
+             echo '# by hand' >> {out}; cat trace.csv >&3; exec 3>&-; wait $!"
+        );
+        let (code, _, err) = folder.shell(&line);
+        assert!(
+            code == Some(2) && err.contains("it has changed meanwhile"),
+            "{out}: {code:?} {err}"
+        );
+        assert!(folder.text(out).ends_with("# by hand\n"));
+    }
+    assert!(!folder.names().iter().any(|name| name.starts_with(".shutter")));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::curve::Exposure;
 use crate::outcome::Fit;
-use crate::unit::{decimals, short};
+use crate::unit::{decimals, short, stops};
 
 /// The full steps of the usual scale that are no powers of two, in parts of a second.
 const FRACTIONS: [f64; 13] =
@@ -34,7 +34,7 @@ pub fn speed(fit: &Fit) -> Option<String> {
         Some(nominal) => (nominal, "nominal"),
         None => (nearest(seconds), "the nearest full stop"),
     };
-    let stops = (seconds / nominal).log2();
+    let ev = (seconds / nominal).log2();
     let dial = if seconds < 0.3 {
         // No digit finer than the error.
         let parts = 1.0 / seconds;
@@ -44,8 +44,8 @@ pub fn speed(fit: &Fit) -> Option<String> {
     } else {
         named(seconds)
     };
-    let is_told = fit.nominal.is_some() || stops.abs() < 0.75;
-    is_told.then(|| format!("{dial} measured, {} {called}: {stops:+.2} EV", named(nominal)))
+    let is_told = fit.nominal.is_some() || ev.abs() < 0.75;
+    is_told.then(|| format!("{dial} measured, {} {called}: {} EV", named(nominal), stops(ev)))
 }
 
 /// T1 to T3, TE and TOT, as testers call them, to the digits that the length's error leaves.

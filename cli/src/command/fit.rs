@@ -131,7 +131,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
     for (i, path) in traces.iter().enumerate() {
         let file = scenes.get(i);
-        let old = file.map_or(Ok(None), |file| old(&outputs, file))?;
+        let old = file.map_or(Ok(None), |file| old(&mut outputs, file))?;
         let triggers = args.triggers.or(old.as_ref().and_then(Old::triggers));
         let refused = |reason: String| format!("{}: {reason}", shown(path));
         let (mut fit, mut warnings) = measure(args, path, triggers).map_err(refused)?;
@@ -182,7 +182,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
 }
 
 /// The scene that is there already, unless it is to be replaced.
-fn old(outputs: &Outputs, file: &Path) -> Result<Option<Old>, String> {
+fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
     match outputs.old(file)?.filter(|text| !text.is_empty()) {
         None => Ok(None),
         Some(text) => Old::parse(&text).map(Some).ok_or_else(|| {

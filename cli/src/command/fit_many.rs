@@ -1,6 +1,6 @@
 //! `shutter fit` of several traces: the speeds of a shutter, as a tester's list has them.
 
-use shutter_fit::unit::{plus_minus, short};
+use shutter_fit::unit::{plus_minus, short, stops};
 use shutter_fit::{From, Measured};
 
 use super::fit::Speed;
@@ -18,10 +18,10 @@ pub fn table(speeds: &[Speed]) -> String {
 fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {
     let (unit, nominal) = (fit.unit(), fit.nominal);
     let Measured { value, error } = fit.exposure;
-    let stops = |nominal: f64| {
-        let (ev, of_ev) = ((value / nominal).log2(), error / value / std::f64::consts::LN_2);
-        let sign = if ev < 0.0 { "-" } else { "+" };
-        format!("{sign}{}", plus_minus(ev.abs(), of_ev, "").trim_end())
+    let delta = |nominal: f64| {
+        let of_ev = error / value / std::f64::consts::LN_2;
+        let error = if of_ev < 0.005 { String::new() } else { format!(" ± {of_ev:.2}") };
+        stops((value / nominal).log2()) + &error
     };
     let spread = match fit.frames.count {
         ..=1 => "-".into(),
@@ -31,7 +31,7 @@ fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {
         name.chars().filter(|c| !c.is_control()).collect(),
         nominal.map_or("-".into(), |nominal| unit.show(nominal)),
         plus_minus(unit.of(value), unit.of(error), unit.name()),
-        nominal.map_or("-".into(), stops),
+        nominal.map_or("-".into(), delta),
         spread,
         fit.frames.count.to_string(),
         match fit.from {

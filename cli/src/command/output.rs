@@ -40,17 +40,13 @@ fn is_stream(path: &Path) -> bool {
 #[derive(Default)]
 pub struct Outputs {
     force: bool,
-    /// Whole, and not in their places yet; with the names by which they were asked for.
-    files: Vec<(NamedTempFile, Place, String)>,
+    /// What was where a file is to be, when that was looked at; nothing where it may be replaced whatever it is.
+    seen: Vec<(PathBuf, Option<Vec<u8>>)>,
+    /// Whole, and not in their places yet: these, and the names by which they were asked for.
+    files: Vec<(NamedTempFile, PathBuf, PathBuf)>,
     streams: Vec<(PathBuf, String)>,
     /// What standard output is to hold in place of a report.
     text: Option<String>,
-}
-
-/// Where a file is to be.
-struct Place {
-    path: PathBuf,
-    is_taken: bool,
 }
 
 impl Outputs {
@@ -78,18 +74,27 @@ impl Outputs {
                 return Err(format!("{name}: two outputs would be written to it"));
             }
         }
-        if let Some(path) = inputs.iter().chain(outputs).find(|path| is_stdout(path)) {
-            return Err(format!("{}: standard output goes to the same file", path.display()));
+        for (std, paths) in [("output", [inputs, outputs].concat()), ("input", outputs.to_vec())] {
+            let handle = || if std == "input" { Handle::stdin() } else { Handle::stdout() };
+            let is_used = std == "output" || inputs.iter().any(|input| is_std(input));
+            if let Some(path) = paths.iter().find(|path| is_used && is_handle(path, handle())) {
+                return Err(format!("{}: standard {std} is the same file", path.display()));
+            }
         }
         Ok(Self { force, ..Self::default() })
     }
 
     /// What an older file holds that is to be written to, unless it may be replaced whatever that is.
-    pub fn old(&self, path: &Path) -> Result<Option<Vec<u8>>, String> {
-        if self.force || is_stream(path) || !path.exists() {
+    pub fn old(&mut self, path: &Path) -> Result<Option<Vec<u8>>, String> {
+        if self.force || is_stream(path) {
             return Ok(None);
         }
-        fs::read(path).map(Some).map_err(|e| told(path, &e))
+        let old = match fs::read(path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => None,
+            old => Some(old.map_err(|e| told(path, &e))?),
+        };
+        self.seen.push((path.into(), old.clone()));
+        Ok(old)
     }
 
     /// Adds a file; an older one has to be of the same form.
@@ -103,7 +108,7 @@ impl Outputs {
         }
     }
 
-    /// Adds a file, whatever it holds.
+    /// Adds a file, whatever an older one holds.
     pub fn replace(&mut self, path: &Path, text: String) -> Result<(), String> {
         if is_std(path) {
             self.text = Some(text);
@@ -111,7 +116,7 @@ impl Outputs {
             self.streams.push((path.into(), text));
         } else {
             let (file, place) = beside(path, &text)?;
-            self.files.push((file, place, path.display().to_string()));
+            self.files.push((file, place, path.into()));
         }
         Ok(())
     }
@@ -123,13 +128,16 @@ impl Outputs {
                 OpenOptions::new().write(true).open(path).map_err(|e| told(path, &e))?;
             stream.write_all(text.as_bytes()).map_err(|e| told(path, &e))?;
         }
+        if let Some((path, _)) = self.seen.iter().find(|(path, old)| fs::read(path).ok() != *old) {
+            return Err(format!("{}: it has changed meanwhile", path.display()));
+        }
         print(out, self.text.as_deref().unwrap_or(report))?;
-        for (file, Place { path, is_taken }, name) in self.files {
-            // What has come there meanwhile is not ours to replace.
-            let placed = if is_taken { file.persist(&path) } else { file.persist_noclobber(&path) };
-            placed.map_err(|e| format!("{name}: {}", e.error))?;
+        for (file, place, path) in self.files {
+            let is_new = self.seen.iter().any(|(of, old)| *of == path && old.is_none());
+            let placed = if is_new { file.persist_noclobber(&place) } else { file.persist(&place) };
+            placed.map_err(|e| told(&path, &e.error))?;
             // It is there; where a folder can be synced, it stays there if the power goes.
-            let _ = path.parent().map(File::open).map(|folder| folder?.sync_all());
+            let _ = place.parent().map(File::open).map(|folder| folder?.sync_all());
         }
         Ok(())
     }
@@ -145,7 +153,7 @@ pub fn print(out: &mut dyn Write, text: &str) -> Result<(), String> {
 }
 
 /// The whole text in a file in the same folder, which is gone when it is dropped.
-fn beside(path: &Path, text: &str) -> Result<(NamedTempFile, Place), String> {
+fn beside(path: &Path, text: &str) -> Result<(NamedTempFile, PathBuf), String> {
     let (failed, name) = (|e: io::Error| told(path, &e), path.display());
     let place = place(path).map_err(|e| match e.kind() {
         ErrorKind::NotFound => format!("{name}: its folder is not there"),
@@ -156,19 +164,19 @@ fn beside(path: &Path, text: &str) -> Result<(NamedTempFile, Place), String> {
         return Err(format!("{name}: it is read-only"));
     }
     let mut builder = tempfile::Builder::new();
+    builder.prefix(".shutter-").suffix(".tmp");
     // As any new file is, not for its owner alone.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = builder
         .tempfile_in(place.parent().unwrap_or(&place))
         .map_err(|e| format!("{name}: {} in its folder", e.kind()))?;
-    let is_taken = old.is_some();
     if let Some(old) = old {
         file.as_file().set_permissions(old).map_err(failed)?;
     }
     file.as_file_mut().write_all(text.as_bytes()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
-    Ok((file, Place { path: place, is_taken }))
+    Ok((file, place))
 }
 
 fn told(path: &Path, error: &io::Error) -> String {
@@ -198,7 +206,6 @@ fn is_same(a: &Path, b: &Path) -> bool {
     a == b || same_file::is_same_file(a, b).unwrap_or(false)
 }
 
-fn is_stdout(path: &Path) -> bool {
-    !is_stream(path)
-        && Handle::stdout().is_ok_and(|out| Handle::from_path(path).is_ok_and(|it| it == out))
+fn is_handle(path: &Path, of: io::Result<Handle>) -> bool {
+    !is_stream(path) && of.is_ok_and(|of| Handle::from_path(path).is_ok_and(|it| it == of))
 }
