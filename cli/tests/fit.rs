@@ -906,7 +906,7 @@ fn a_nominal_speed_is_told_as_such() {
     let added: Vec<_> = named.iter().filter(|line| !plain.contains(line)).collect();
     let speed = "speed        1/200 s measured, 1/250 s nominal: +0.32 EV";
     assert_eq!(added, [speed, "nominal = 4"]);
-    let nearest = "speed        1/200 s measured, 1/250 s the nearest full stop: +0.32 EV";
+    let nearest = "speed        1/200 s measured, nearest full stop 1/250 s: +0.32 EV";
     assert!(plain.contains(&nearest.to_string()), "{plain:?}");
     for wrong in ["fast", "1/0", "-4ms", "4"] {
         let run = run(&[csv.as_str(), &format!("--nominal={wrong}")]);

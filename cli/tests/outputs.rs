@@ -393,7 +393,7 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     assert!(!text.contains("trace.csv") && !text.contains("# delay = ?"), "{text}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
     // What is asked for counts, in the unit of the scene.
-    folder.write("leaf.toml", &"unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n".to_string());
+    folder.write("leaf.toml", "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n");
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --triggers 6");
     assert_eq!(code, Some(0), "{err}");
     let text = folder.text("leaf.toml");

@@ -31,8 +31,11 @@ fn nearest(seconds: f64) -> f64 {
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
     let (nominal, called) = match fit.nominal {
-        Some(nominal) => (nominal, "nominal"),
-        None => (nearest(seconds), "the nearest full stop"),
+        Some(nominal) => (nominal, format!("{} nominal", named(nominal))),
+        None => {
+            let nearest = nearest(seconds);
+            (nearest, format!("nearest full stop {}", named(nearest)))
+        }
     };
     let ev = (seconds / nominal).log2();
     let dial = if seconds < 0.3 {
@@ -45,7 +48,7 @@ pub fn speed(fit: &Fit) -> Option<String> {
         named(seconds)
     };
     let is_told = fit.nominal.is_some() || ev.abs() < 0.75;
-    is_told.then(|| format!("{dial} measured, {} {called}: {} EV", named(nominal), stops(ev)))
+    is_told.then(|| format!("{dial} measured, {called}: {} EV", stops(ev)))
 }
 
 /// T1 to T3, TE and TOT, as testers call them, to the digits that the length's error leaves.
