@@ -206,13 +206,12 @@ fn merged(old: &Old, text: &str, file: Option<&PathBuf>) -> Result<(String, Vec<
 
 /// One object, or an array of those of several.
 fn json(speeds: &[Speed]) -> String {
-    let objects: Vec<_> =
-        speeds.iter().map(|it| shutter_fit::json(&it.name, &it.fit, &it.warnings)).collect();
-    let text = match objects.as_slice() {
-        [object] => serde_json::to_string_pretty(object),
-        objects => serde_json::to_string_pretty(objects),
+    let object = |it: &Speed| shutter_fit::json(&it.name, &it.fit, &it.warnings);
+    let json = match speeds {
+        [one] => object(one),
+        several => several.iter().map(object).collect(),
     };
-    text.expect("numbers and texts are JSON") + "\n"
+    format!("{json:#}\n")
 }
 
 /// The fit of a trace, and what is doubtful about it.
