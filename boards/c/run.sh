@@ -38,7 +38,7 @@ if command -v c++ >/dev/null; then
     echo '#include "shutter.h"' | c++ -std=c++11 -Wall -Wextra -pedantic -Werror -Iinclude -fsyntax-only -x c++ -
 fi
 # The ticks from the edge at which the header's pulses are due.
-plan "${speeds[0]}" --emit csv | awk -F, 'NR > 1 { print $6 }' >"$scratch/due"
+plan "${speeds[0]}" --emit csv | awk -F, 'NR > 1 { print $7 }' >"$scratch/due"
 case ${SHUTTER_FAULT:-} in
 "") ;;
 late) sed -i '5s/[0-9]*$/1/' "$scratch/expected" ;;

@@ -5,8 +5,12 @@
 mod design;
 mod fit;
 mod fit_many;
+mod input;
+mod kept;
 mod output;
 mod plan;
+mod quantity;
+mod settings;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -54,7 +58,6 @@ pub fn run(
     let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
         Command::Plan(args) => plan::run(&args, out),
         Command::Design(args) => design::run(&args, out),
-        Command::Fit(args) if args.is_many() => fit_many::run(&args, out, err),
         Command::Fit(args) => fit::run(&args, out, err),
     };
     match ended {

@@ -36,7 +36,7 @@ pub enum Form {
 /// use shutter::{emit, planned::Planned};
 /// let plan = Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
 /// let csv = emit::emit(emit::Form::Csv, "box", &plan).expect("a form for any plan");
-/// assert!(csv.starts_with("index,u,time_s,ticks,gap_ticks\n0,0.05,0.000005,125,\n"));
+/// assert!(csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,"));
 /// ```
 ///
 /// # Errors
@@ -45,7 +45,7 @@ pub fn emit(form: Form, name: &str, plan: &Planned) -> Result<String, String> {
     match form {
         Form::Rust => Ok(rust::module(name, plan)),
         Form::C => Ok(c::header(name, plan)),
-        Form::Csv => Ok(csv::rows(name, plan)),
+        Form::Csv => Ok(csv::rows([(name, plan)])),
         Form::Json => Ok(json::object(name, plan)),
         Form::Pico => pico::lines(plan),
     }
@@ -68,7 +68,7 @@ pub fn several(form: Form, name: &str, plans: &[(String, Planned)]) -> Result<St
     match form {
         Form::Rust => alike(plans).map(|()| rust::modules(name, plans)),
         Form::C => alike(plans).map(|()| c::headers(name, plans)),
-        Form::Csv => Ok(csv::all(plans)),
+        Form::Csv => Ok(csv::rows(plans.iter().map(|(name, plan)| (name.as_str(), plan)))),
         Form::Json => Ok(json::array(plans)),
         Form::Pico => Err("--emit pico takes one scene: the board holds one at a time".into()),
     }
@@ -146,5 +146,5 @@ fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
 }
 
 fn pulses(plan: &Planned) -> impl Iterator<Item = (u32, u32)> {
-    plan.rows().into_iter().filter_map(|row| row.pulse)
+    plan.rows().into_iter().filter_map(|row| row.on_ticks.zip(row.off_ticks))
 }

@@ -1,7 +1,7 @@
 //! A plan's facts, in the words of those who test shutters.
 
 use shutter_curve::ShutterCurve;
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::Delay;
 use crate::lamp::Lamp;
@@ -109,7 +109,7 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
     ];
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
-        lines.push(("nominal", format!("{}, ΔEV {delta:+.2}", unit.show(nominal))));
+        lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
     lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length()))));
     lines.push(("delay", delay(plan.delay, unit)));
@@ -124,8 +124,8 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     lines.push((
         "direct",
         match facts.direct_triggers {
-            0 => "no number of triggers is placed without a search".into(),
-            n => format!("frames of up to {} are placed without a search", count(n, "trigger")),
+            0 => "every frame needs a search".into(),
+            n => format!("frames of up to {} never need a search", count(n, "trigger")),
         },
     ));
     lines
@@ -141,10 +141,11 @@ pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> 
     ];
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
+    let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer_hz));
     lines.extend([
         ("timer", times.timer.told(from_edge(times.delay, times.length()))),
         ("delay", delay(times.delay, unit)),
-        ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap))),
+        ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
         ("set-up", FLASHES.into()),
         ("triggers", triggers.len().to_string()),
     ]);
@@ -153,22 +154,23 @@ pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> 
 
 /// What the gap is to be, and what it is.
 fn gap(plan: &Plan) -> String {
-    let mut gap = format!("at least {}", plan.unit().show(plan.min_gap));
+    let unit = plan.unit();
+    let mut gap = format!("at least {}", unit.show(plan.min_gap));
     if plan.lamp != Lamp::Triggered {
         gap += " of darkness between pulses";
         let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
         let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
         if let Some(ticks) = dark.min() {
-            gap += &format!("; the least is {}", count(ticks, "tick"));
+            gap += &format!("; the least is {}", unit.show(plan.seconds(ticks)));
         }
     } else {
-        gap += &closest(plan.gaps().min());
+        gap += &closest(plan.gaps().min().map(|ticks| plan.seconds(ticks)), unit);
     }
     gap
 }
 
-fn closest(gap: Option<u32>) -> String {
-    let told = |ticks| format!("; the closest two come {} apart", count(ticks, "tick"));
+fn closest(gap: Option<f64>, unit: Unit) -> String {
+    let told = |gap| format!("; the closest two come {} apart", unit.show(gap));
     gap.map_or(String::new(), told)
 }
 
@@ -200,11 +202,7 @@ fn delay(delay: Option<Delay>, unit: Unit) -> String {
     let Some(delay) = delay else {
         return "none known: ticks count from the start of opening, not from a sync".into();
     };
-    format!(
-        "{} from the sync's edge to the start of opening: {}",
-        unit.show(delay.seconds),
-        count(delay.ticks, "tick")
-    )
+    format!("{} from the sync's edge to the start of opening", unit.show(delay.seconds))
 }
 
 /// The set-up of flashes without a length.

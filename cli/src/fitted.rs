@@ -2,7 +2,7 @@
 
 use shutter_fit::report::{because, efficiency, exposure};
 use shutter_fit::trace::Refusal;
-use shutter_fit::unit::{Unit, decimals, trimmed};
+use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, STRAIGHT, delay};
 
 use crate::plan::Plan;
@@ -35,16 +35,16 @@ const DIGITS: i32 = 8;
 /// Between triggers there are at least so many ticks, if a timer of at most 1 GHz can do that.
 const TICKS: f64 = 100.0;
 
-/// The fit as a scene; `name` tells in a comment where it came from. Where the results are the trace's own, the scene has
-/// their trigger times and no curve, unless a model was asked for.
+/// The fit as a scene, in this unit or the one that suits it; `name` tells in a comment where it came from. Where the results
+/// are the trace's own, the scene has their trigger times and no curve, unless a model was asked for.
 ///
 /// # Errors
 /// Where no scene can be made of it that can be planned.
-pub fn scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> {
+pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Scene, Refusal> {
     if fit.from == From::Model || fit.reason == Reason::Asked {
-        return curve_scene(fit, name, zero);
+        return curve_scene(fit, name, zero, unit);
     }
-    let text = write_times(fit, name, zero);
+    let text = write_times(fit, name, zero, unit.unwrap_or(fit.unit()));
     match Planned::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
         Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
@@ -55,7 +55,13 @@ pub fn scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> {
 ///
 /// # Errors
 /// Where no scene can be made of it that can be planned.
-pub fn curve_scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> {
+pub fn curve_scene(
+    fit: &Fit,
+    name: &str,
+    zero: Zero,
+    unit: Option<Unit>,
+) -> Result<Scene, Refusal> {
+    let unit = unit.unwrap_or(fit.unit());
     let curve = fit.best().signal.curve;
     let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
     let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
@@ -66,7 +72,7 @@ pub fn curve_scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> 
     let mut refused = String::new();
     // Rounding may push an extreme curve beyond what the crate accepts: a little nearer to a straight line it holds.
     for nearer in std::iter::once(0.0).chain((0..10).map(|i| 1e-7 * 4f64.powi(i))) {
-        let text = write_curve(fit, name, &pulled(&curve, nearer));
+        let text = write_curve(fit, name, &pulled(&curve, nearer), unit);
         match Plan::parse(&text) {
             Ok(_) => return Ok(Scene { text, zero }),
             Err(fault) => refused = fault.reason,
@@ -75,8 +81,7 @@ pub fn curve_scene(fit: &Fit, name: &str, zero: Zero) -> Result<Scene, Refusal> 
     Err(Refusal::NoScene { reason: refused })
 }
 
-fn write_curve(fit: &Fit, name: &str, curve: &Curve) -> String {
-    let unit = Unit::fit(curve.length());
+fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
     let (title, because) = (fit.chosen.title(), because(fit));
     let mut text = format!("# Fitted to {}: {title}, {because}.\n", shown(name));
     if fit.from == From::Trace {
@@ -97,13 +102,12 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve) -> String {
     }
     text += &delay::line(fit, unit, places);
     text += &format!("triggers = {}\n", fit.triggers.len());
-    text + &timer(unit, fit.exposure.value / fit.peak / fit.triggers.len() as f64, curve)
+    text + &timer(fit, unit, fit.exposure.value / fit.peak / fit.triggers.len() as f64)
 }
 
 /// The trace's own triggers.
-fn write_times(fit: &Fit, name: &str, zero: Zero) -> String {
+fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
     let curve = &fit.best().signal.curve;
-    let unit = Unit::fit(curve.length());
     let places = decimals(unit.of(curve.length()), DIGITS);
     let zero = match zero {
         Zero::Trace => 0.0,
@@ -127,7 +131,7 @@ fn write_times(fit: &Fit, name: &str, zero: Zero) -> String {
     text += "]\n";
     text += &delay::line(fit, unit, places);
     let gap = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-    text + &timer(unit, gap.min(curve.length()), curve)
+    text + &timer(fit, unit, gap.min(curve.length()))
 }
 
 /// What was read, and what came of it.
@@ -152,12 +156,15 @@ fn shown(text: &str) -> String {
     text.replace(|c: char| c.is_control(), "?")
 }
 
-/// The lines that are not measured: a timer that tells triggers apart that come so close, and a gap.
-fn timer(unit: Unit, gap: f64, curve: &Curve) -> String {
-    let hz = timer_hz(gap, curve.length());
-    let unit = unit.name();
+/// The lines that are not measured: what the speed is called, a timer that tells triggers apart that come so close, and a gap.
+fn timer(fit: &Fit, unit: Unit, gap: f64) -> String {
+    let hz = timer_hz(gap, fit.best().signal.curve.length());
+    let nominal = fit.nominal.map(|it| format!("nominal = {}\n", short(unit.of(it), 7)));
     format!(
-        "timer_hz = {hz} # your timer's\nmin_gap = 0 # {unit}, what your lamp needs between two flashes\n"
+        "timer_hz = {hz} # your timer's\n\
+         min_gap = 0 # {}, what your lamp needs between two flashes\n{}",
+        unit.name(),
+        nominal.unwrap_or_default()
     )
 }
 

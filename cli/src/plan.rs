@@ -6,7 +6,7 @@ use shutter_fit::unit::{Unit, count};
 
 use crate::delay::Delay;
 use crate::lamp::{Flash, Lamp};
-use crate::scene::{Fault, Scene, min_gap, positive};
+use crate::scene::{Fault, Scene, min_gap, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
 

@@ -1,10 +1,11 @@
 //! What a scene becomes: a plan by a curve, or trigger times as they were measured. What both have is asked for here.
 
+use serde::Serialize;
 use shutter_fit::unit::Unit;
 
 use crate::delay::Delay;
 use crate::facts;
-use crate::plan::Plan;
+use crate::plan::{Plan, Trigger};
 use crate::scene::{Fault, trigger_times_at};
 use crate::timer::Timer;
 use crate::times::Times;
@@ -30,14 +31,19 @@ impl From<Times> for Planned {
     }
 }
 
-/// A trigger of either.
+/// A trigger of either, under the keys that it has in all forms.
+#[derive(Serialize)]
 pub(crate) struct Row {
+    pub index: usize,
     /// The fraction of the exposure collected by then, where a curve tells.
     pub u: Option<f32>,
-    /// In seconds.
-    pub time: f64,
+    pub time_s: f64,
     pub ticks: u32,
-    pub pulse: Option<(u32, u32)>,
+    /// From the one before.
+    pub gap_ticks: Option<u32>,
+    pub from_edge_ticks: Option<u32>,
+    pub on_ticks: Option<u32>,
+    pub off_ticks: Option<u32>,
 }
 
 impl Planned {
@@ -101,30 +107,31 @@ impl Planned {
         }
     }
 
-    /// So many ticks after the start of opening, counted from the edge of the camera's sync, if the scene has a delay.
-    pub fn from_edge(&self, ticks: u32) -> Option<u32> {
-        // Checked when the delay was read: the sum is at most 2³¹.
-        self.delay().map(|delay| delay.ticks + ticks)
-    }
-
     /// The triggers, in order.
     pub(crate) fn rows(&self) -> Vec<Row> {
+        let (delay, mut last) = (self.delay(), None);
+        let mut row = |index, u, time_s, ticks, pulse: Option<(u32, u32)>| Row {
+            index,
+            u,
+            time_s,
+            ticks,
+            gap_ticks: last.replace(ticks).map(|last| ticks - last),
+            // Checked when the delay was read: the sum is at most 2³¹.
+            from_edge_ticks: delay.map(|delay| delay.ticks + ticks),
+            on_ticks: pulse.map(|pulse| pulse.0),
+            off_ticks: pulse.map(|pulse| pulse.1),
+        };
         match self {
-            Self::Curve(plan) => plan
-                .triggers
-                .iter()
-                .map(|trigger| Row {
-                    u: Some(trigger.u),
-                    time: with_its_digits(trigger.time),
-                    ticks: trigger.ticks,
-                    pulse: trigger.pulse,
-                })
-                .collect(),
-            Self::Times(times) => times
-                .triggers
-                .iter()
-                .map(|given| Row { u: None, time: given.time, ticks: given.ticks, pulse: None })
-                .collect(),
+            Self::Curve(plan) => {
+                let of = |(i, it): (usize, &Trigger)| {
+                    row(i, Some(it.u), with_its_digits(it.time), it.ticks, it.pulse)
+                };
+                plan.triggers.iter().enumerate().map(of).collect()
+            }
+            Self::Times(times) => {
+                let of = |(i, it): (usize, &Given)| row(i, None, it.time, it.ticks, None);
+                times.triggers.iter().enumerate().map(of).collect()
+            }
         }
     }
 

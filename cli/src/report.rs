@@ -3,6 +3,7 @@
 use std::fmt::{self, Display, Write};
 use std::iter::once;
 
+use console::Term;
 use shutter_fit::rows::hidden_rows;
 use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
@@ -14,17 +15,26 @@ use crate::times::Times;
 
 /// With more triggers than this, a full line at each would hide the curve.
 const MOST_LINES: usize = 36;
-/// The drawing's size in dots, 2 by 4 a character: with its labels it fits in 80 columns.
-const DOTS: (u32, u32) = (143, 39);
+/// The columns of what is no terminal, and the most that a drawing takes.
+const COLUMNS: u16 = 80;
+/// The drawing's height in dots, 4 a character.
+const HEIGHT: u32 = 39;
 
-/// The plan of the scene `name`, for a terminal.
-pub fn text(name: &str, plan: &Planned) -> String {
+/// The columns of the terminal.
+pub fn width() -> u16 {
+    Term::stdout().size_checked().map_or(COLUMNS, |(_, columns)| columns.min(COLUMNS))
+}
+
+/// The plan of the scene `name`, for a terminal of so many columns.
+pub fn text(name: &str, plan: &Planned, columns: u16) -> String {
     let mut text = String::new();
-    write_text(&mut text, name, plan).expect("a string takes all");
+    // The labels beside a drawing take 8.
+    let cells = columns.max(32) - 8;
+    write_text(&mut text, name, plan, cells.into()).expect("a string takes all");
     text
 }
 
-fn write_text(out: &mut String, name: &str, planned: &Planned) -> fmt::Result {
+fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> fmt::Result {
     for (name, fact) in planned.facts(name) {
         writeln!(out, "{name:11}  {fact}")?;
     }
@@ -32,45 +42,45 @@ fn write_text(out: &mut String, name: &str, planned: &Planned) -> fmt::Result {
         writeln!(out, "{:11}  {drift}", "drift")?;
     }
     match planned {
-        Planned::Curve(plan) => write_curve(out, plan)?,
-        Planned::Times(times) => write_times(out, times)?,
+        Planned::Curve(plan) => write_curve(out, plan, cells)?,
+        Planned::Times(times) => write_times(out, times, cells)?,
     }
     writeln!(out)?;
     table(out, planned)
 }
 
-fn write_curve(out: &mut String, plan: &Plan) -> fmt::Result {
+fn write_curve(out: &mut String, plan: &Plan, cells: usize) -> fmt::Result {
     let (unit, curve) = (plan.unit(), &plan.curve);
     writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
-    out.push_str(&drawing(plan, unit, |t| curve.openness(t)));
+    out.push_str(&drawing(plan, unit, cells, |t| curve.openness(t)));
     writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
-    out.push_str(&drawing(plan, unit, |t| curve.cdf(t)));
+    out.push_str(&drawing(plan, unit, cells, |t| curve.cdf(t)));
     Ok(())
 }
 
 /// The triggers on a line of time.
-fn write_times(out: &mut String, times: &Times) -> fmt::Result {
-    const CELLS: usize = DOTS.0 as usize / 2;
+fn write_times(out: &mut String, times: &Times, cells: usize) -> fmt::Result {
     let unit = times.unit();
-    let mut line = ['─'; CELLS];
+    let mut line = vec!['─'; cells];
     for trigger in &times.triggers {
         let part = (trigger.time - times.open_start) / times.length();
-        line[(part * (CELLS - 1) as f64).round() as usize] = '┼';
+        line[(part * (cells - 1) as f64).round() as usize] = '┼';
     }
     let ends = [times.open_start, times.open_start + times.length()];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
     writeln!(out, "\ntriggers over time ({})", unit.name())?;
     writeln!(out, "{}", String::from_iter(line))?;
-    writeln!(out, "{first}{last:>width$}", width = CELLS.saturating_sub(first.len()))
+    writeln!(out, "{first}{last:>width$}", width = cells.saturating_sub(first.len()))
 }
 
 /// The function `f` of time with a line up to it at each trigger.
-fn drawing(plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> String {
-    let curve = &plan.curve;
+fn drawing(plan: &Plan, unit: Unit, cells: usize, f: impl Fn(f32) -> f32) -> String {
+    // Two dots a character.
+    let (dots, curve) = (2 * cells as u32 - 1, &plan.curve);
     let (start, end) = (curve.open_start(), curve.close_end());
     // Counted from the start: a late start would leave f32 too few digits for a short interval.
     let x = |t: f32| t - start;
-    let times = (0..=DOTS.0).map(|i| start + (end - start) * (i as f32 / DOTS.0 as f32));
+    let times = (0..=dots).map(|i| start + (end - start) * (i as f32 / dots as f32));
     // From just before to just after, so that a jump at an end is drawn.
     let times = once(start.next_down()).chain(times).chain(once(end.next_up()));
     let line: Vec<_> = times.map(|t| (x(t), f(t))).collect();
@@ -80,7 +90,7 @@ fn drawing(plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> String {
     let stems: Vec<_> = plan.triggers.iter().map(stem).collect();
     let stems: Vec<_> = stems.iter().map(|stem| Shape::Lines(stem)).collect();
 
-    let mut chart = Chart::new_with_y_range(DOTS.0, DOTS.1, 0.0, x(end), 0.0, 1.0);
+    let mut chart = Chart::new_with_y_range(dots, HEIGHT, 0.0, x(end), 0.0, 1.0);
     let label = move |x: f32| short(unit.of(start + x), 5);
     let mut chart = chart
         .x_label_format(LabelFormat::Custom(Box::new(label)))
@@ -99,7 +109,7 @@ fn table(out: &mut String, plan: &Planned) -> fmt::Result {
     // A digit more than tells one tick from the next, as far as f32 has them.
     let tick = unit.of(1.0 / f64::from(plan.timer().hz));
     let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
-    let has_pulses = rows.iter().any(|row| row.pulse.is_some());
+    let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
     let pulse = |on: &dyn Display, off: &dyn Display| match has_pulses {
         true => format!("  {on:>10}  {off:>10}"),
         false => String::new(),
@@ -133,15 +143,14 @@ fn table(out: &mut String, plan: &Planned) -> fmt::Result {
         }
         // Rounded as it is printed, so that a gap is the difference of what stands there.
         let rounding = 10f64.powi(places as i32);
-        let time = (unit.of(row.time) * rounding).round() / rounding;
+        let time = (unit.of(row.time_s) * rounding).round() / rounding;
         let gap = last.replace(time).map_or("-".into(), |last| format!("{:.places$}", time - last));
         if hidden.contains(&i) {
             continue;
         }
-        let Row { u, ticks, pulse: times, .. } = row;
-        let (on, off) = times.unwrap_or_default();
-        let pulse = pulse(&on, &off);
-        let edge = edge(&plan.from_edge(*ticks).unwrap_or_default());
+        let Row { u, ticks, .. } = row;
+        let pulse = pulse(&row.on_ticks.unwrap_or_default(), &row.off_ticks.unwrap_or_default());
+        let edge = edge(&row.from_edge_ticks.unwrap_or_default());
         let share = share(&format_args!("{:.5}", u.unwrap_or_default()));
         writeln!(out, "{i:5}{share}  {time:13.places$}  {ticks:10}{edge}{pulse}  {gap:>13}")?;
     }

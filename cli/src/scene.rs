@@ -44,19 +44,6 @@ impl Number {
     }
 }
 
-#[derive(Clone, Copy, Deserialize, Serialize)]
-#[serde(untagged, expecting = "a whole number from 0 to 4294967295 is required")]
-pub(crate) enum Count {
-    Any(u32),
-}
-
-impl Count {
-    pub(crate) fn get(self) -> u32 {
-        let Self::Any(n) = self;
-        n
-    }
-}
-
 /// A scene's numbers without a text, as a page in a browser has them. A number of pieces or ticks need not be whole yet.
 #[derive(Clone, Debug)]
 pub struct Values {
@@ -134,7 +121,7 @@ impl TryFrom<Values> for Scene {
     type Error = Fault;
 
     /// The scene of these numbers. The place in its faults is the number of a key; [`Fault::key_of_values`] tells which.
-    fn try_from(values: Values) -> Result<Self, Fault> {
+    fn from(values: Values) -> Self {
         fn at<T>(key: &str, value: T) -> Spanned<T> {
             let place = KEYS.iter().position(|known| *known == key).unwrap_or(KEYS.len());
             Spanned::new(place..place, value)
@@ -150,7 +137,7 @@ impl TryFrom<Values> for Scene {
         count("timer_hz", values.timer_hz)?;
         let [open_start, open_end, close_start, close_end] = values.times;
         let eight = values.shutteropening.map(|eight| eight.map(Number::Any).to_vec());
-        Ok(Self {
+        Self {
             unit: Some(values.unit),
             open_start: number("open_start", open_start),
             open_end: number("open_end", open_end),
@@ -166,7 +153,7 @@ impl TryFrom<Values> for Scene {
             duty: values.duty.map(|x| number("duty", x)),
             min_pulse: values.min_pulse.map(|x| number("min_pulse", x)),
             delay: values.delay.map(|x| number("delay", x)),
-        })
+        }
     }
 }
 
@@ -191,18 +178,20 @@ impl Fault {
         KEYS.get(self.at?).copied()
     }
 
+    /// The number of its line, from 1, and the line.
+    pub fn line<'a>(&self, text: &'a str) -> Option<(usize, &'a str)> {
+        let line = text.get(..self.at?)?.matches('\n').count();
+        Some((line + 1, text.lines().nth(line).unwrap_or_default()))
+    }
+
     /// `file:line: reason`, the line itself below it, and the notes.
     pub fn locate(&self, file: &str, text: &str) -> String {
-        let Self { at, reason, notes } = self;
-        let mut told = match at.and_then(|at| text.get(..at)) {
-            Some(before) => {
-                let line = before.matches('\n').count();
-                let source = text.lines().nth(line).unwrap_or_default();
-                format!("{file}:{number}: {reason}\n  {number} | {source}", number = line + 1)
-            }
+        let reason = &self.reason;
+        let mut told = match self.line(text) {
+            Some((number, line)) => format!("{file}:{number}: {reason}\n  {number} | {line}"),
             None => format!("{file}: {reason}"),
         };
-        for note in notes {
+        for note in &self.notes {
             told += &format!("\n  {note}");
         }
         told
@@ -234,10 +223,24 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
 /// What a text has by its keys.
 pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     toml::from_str(text).map_err(|error| {
-        let reason = error.message().to_string();
+        let mut reason = error.message().to_string();
         // What is missing is on no line; its span is the whole table.
         let missing = reason.starts_with("missing field");
         let at = error.span().filter(|_| !missing).map(|span| span.start);
+        let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
+        let is_there = |value: &Spanned<_>| at.is_some_and(|at| value.span().contains(&at));
+        if reason.starts_with("unknown field") && !reason.contains(TRIGGER_TIMES) {
+            reason += &format!(", or `{TRIGGER_TIMES}` in place of a curve");
+        } else if let Some((key, _)) = table.iter().find(|(_, value)| is_there(value)) {
+            let key = key.get_ref();
+            reason = match key.as_ref() {
+                "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
+                _ if reason.contains("a sequence") => {
+                    format!("{key}: numbers in brackets are required")
+                }
+                _ => format!("{key}: {reason}"),
+            };
+        }
         Fault { at, reason, notes: Vec::new() }
     })
 }
@@ -246,9 +249,9 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
 const ROUNDING: f64 = 1e-4;
 
 impl Scene {
-    /// How many triggers it asks for; not all can be planned.
+    /// How many triggers it asks for, as near as a count can be; not all can be planned.
     pub fn triggers(&self) -> u32 {
-        self.triggers.get_ref().get()
+        self.triggers.get_ref().get() as u32
     }
 
     /// The unit of its times.
@@ -346,6 +349,15 @@ pub(crate) fn min_gap(unit: Unit, time: &Spanned<Number>) -> Result<f64, Fault> 
         return Err(Fault::at(time, "min_gap: 0 or more is required"));
     }
     Ok(seconds)
+}
+
+/// A whole number from 1 to `most`.
+pub(crate) fn whole(key: &str, place: &Spanned<Number>, most: u32) -> Result<u32, Fault> {
+    let x = place.get_ref().get();
+    if x.fract() == 0.0 && (1.0..=most.into()).contains(&x) {
+        return Ok(x as u32);
+    }
+    Err(Fault::at(place, format!("{key}: a whole number from 1 to {most} is required")))
 }
 
 fn finite<T>(key: &str, place: &Spanned<T>, x: f64) -> Result<f64, Fault> {

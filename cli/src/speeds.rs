@@ -1,6 +1,6 @@
 //! Several plans as a table: the speeds of a shutter.
 
-use shutter_fit::unit::short;
+use shutter_fit::unit::{short, stops};
 
 use crate::facts::Facts;
 use crate::planned::Planned;
@@ -22,7 +22,7 @@ pub fn text(plans: &[(String, Planned)]) -> String {
             name,
             optional(planned.nominal()),
             optional(facts.map(|facts| facts.exposure)),
-            delta.map_or("-".into(), |delta| format!("{delta:+.2}")),
+            delta.map_or("-".into(), stops),
             efficiency.unwrap_or("-".into()),
             optional(planned.delay().map(|delay| delay.seconds)),
             match by_curve {

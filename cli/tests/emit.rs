@@ -1,6 +1,7 @@
 //! Each form that a plan is emitted in, of each scene that ships: it compiles or parses as it stands, and holds the crate's
 //! ticks and the numbers of the plan to the bit.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -158,16 +159,24 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
         fn main() {
             println!("{} {}", late::box_::DELAY_TICKS, late::shutter_1_500::TICKS.len());
             for speed in &late::SPEEDS {
-                let ticks = speed.shutter.trigger_ticks(speed.ticks.len() as u32, late::TIMER_HZ).unwrap();
+                let ticks = speed.shutter.trigger_ticks(u32::try_from(speed.ticks.len()).unwrap(), late::TIMER_HZ).unwrap();
                 assert!(ticks.eq(speed.ticks.iter().copied()));
                 println!("{} {}", speed.name, speed.delay_ticks);
             }
             for speed in &lit::SPEEDS {
-                let pulses = speed.shutter.pulse_ticks(speed.ticks.len() as u32, 0.3, lit::TIMER_HZ).unwrap();
+                let pulses = speed.shutter.pulse_ticks(u32::try_from(speed.ticks.len()).unwrap(), 0.3, lit::TIMER_HZ).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
             }
         }"#;
     write("main.rs", main.into());
+    for file in ["late.rs", "lit.rs", "one.rs"] {
+        let mut rustfmt = Command::new("rustfmt");
+        output(rustfmt.args(["--edition", "2024", "--check"]).arg(folder.join(file)));
+    }
+    let pedantic = ["-W", "clippy::pedantic", "-W", "clippy::all", "-D", "warnings"];
+    let driver =
+        [&pedantic[..], &["--extern", the_crate(), "--emit", "metadata", "main.rs"]].concat();
+    run_in(&folder, "clippy-driver", &driver);
     rustc(&folder, &["-D", "warnings", "--extern", the_crate(), "main.rs"]);
     let expected = "4247 4\n1-500 4247\nbox 4247\nslow speed 4247\n";
     assert_eq!(output(&mut Command::new(folder.join("main"))), expected);
@@ -343,7 +352,7 @@ fn speeds_are_rows_and_objects() {
     let plans = speeds("delay = 4.247\n");
     let csv = several(Form::Csv, "camera", &plans).unwrap();
     assert!(
-        csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks\n1-500,0,0.125,"),
+        csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks\n1-500,0,0.125,"),
         "{csv}"
     );
     assert_eq!(csv.lines().count(), 1 + 4 + 8 + 32);
@@ -500,25 +509,35 @@ fn times_without_a_curve_compile_as_c_beside_a_curve() {
 fn times_without_a_curve_are_rows_and_objects_and_no_lines_for_the_pico() {
     let (times, curve) = measured();
     let csv = shutter::emit::emit(Form::Csv, "bounce", &times).unwrap();
-    let rows = "index,time_s,ticks,gap_ticks,from_edge_ticks\n0,0.0020004,1000,,5247\n\
-                1,0.0025,1500,500,5747\n2,0.0031,2100,600,6347\n";
+    let rows = "scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks\n\
+                bounce,0,,0.0020004,1000,,5247,,\nbounce,1,,0.0025,1500,500,5747,,\n\
+                bounce,2,,0.0031,2100,600,6347,,\n";
     assert_eq!(csv, rows);
     let json = shutter::emit::emit(Form::Json, "bounce", &times).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
-    let first = serde_json::json!({ "index": 0, "time_s": 0.0020004, "ticks": 1000, "from_edge_ticks": 5247 });
-    assert_eq!(json["triggers"][0], first);
-    let keys: Vec<_> = json.as_object().unwrap().keys().collect();
-    assert_eq!(keys, ["delay_s", "delay_ticks", "scene", "timer_hz", "triggers"]);
+    let first = &json["triggers"][0];
+    assert_eq!((&first["time_s"], &first["from_edge_ticks"]), (&0.0020004.into(), &5247.into()));
+    // All forms have the same keys.
+    let beside = shutter::emit::emit(Form::Json, "good", &curve).unwrap();
+    let beside: serde_json::Value = serde_json::from_str(&beside).unwrap();
+    let keys =
+        |json: &serde_json::Value| json.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!(keys(&json), keys(&beside));
+    let names: Vec<_> = csv.lines().next().unwrap().split(',').skip(1).collect();
+    assert_eq!(keys(first), names);
+    assert_eq!(
+        (&json["exposure_s"], &first["u"]),
+        (&serde_json::Value::Null, &serde_json::Value::Null)
+    );
     let refused = shutter::emit::emit(Form::Pico, "bounce", &times).unwrap_err();
     assert_eq!(
         refused,
         "the board plans its frames by a curve, and the scene has trigger times without one: \
          boards/pico-embassy fires what `--emit rust` makes of them"
     );
-    // Beside a curve the column is there, and empty.
     let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
     let csv = shutter::emit::several(Form::Csv, "camera", &speeds).unwrap();
-    assert!(csv.contains("\nbounce,0,,0.0020004,1000,,5247\n"), "{csv}");
+    assert!(csv.contains("\nbounce,0,,0.0020004,1000,,5247,,\n"), "{csv}");
     assert!(csv.contains("\ngood,0,0.125,"), "{csv}");
 }
 
@@ -549,13 +568,7 @@ fn assert_same(name: &str, plan: &Plan, rows: &[Row]) {
 fn csv_parses_and_holds_the_same_numbers() {
     for (name, plan) in plans() {
         let text = emit(Form::Csv, &name, &plan);
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let header: Vec<_> = reader.headers().unwrap().iter().map(String::from).collect();
-        let pulses = plan.triggers[0].pulse.is_some();
-        let mut names = vec!["index", "u", "time_s", "ticks", "gap_ticks"];
-        names.extend(plan.delay.map(|_| "from_edge_ticks"));
-        names.extend(if pulses { vec!["on_ticks", "off_ticks"] } else { vec![] });
-        assert_eq!(header, names, "{name}");
+        let reader = csv::Reader::from_reader(text.as_bytes());
         let rows: Vec<Row> = reader.into_deserialize().map(Result::unwrap).collect();
         assert_same(&name, &plan, &rows);
         let gaps = rows.iter().map(|row| row.gap_ticks);

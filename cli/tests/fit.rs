@@ -51,93 +51,27 @@ fn is_the_trapezoid(fit: &Fit) {
     assert!((fit.triggers[7].value + fit.triggers[8].value - 0.011).abs() < 5e-6);
 }
 
+/// Columns and rates that the file does not tell; the exports of instruments are in fit/tests.
 #[test]
-fn every_format_is_read() {
+fn what_is_asked_for_is_read() {
     let trace = sampled(trapezoid, 1200, 0.005);
-    let comma = |text: String| text.replace('.', ",");
-    let plain = trace::Options::default();
-    let formats: [(&str, String, trace::Options, bool); 11] = [
-        (
-            "Rigol",
-            String::from("X,CH1,Start,Increment,\nSequence,Volt,0.000000e+00,1.000000e-05\n")
-                + &rows(&trace, |t, v| format!("{},{v:e},,", (t * 1e5).round())),
-            plain.clone(),
-            false,
-        ),
-        (
-            "Saleae",
-            String::from("Time [s],Channel 0\n") + &rows(&trace, |t, v| format!("{t:.9},{v:.6}")),
-            plain.clone(),
-            false,
-        ),
-        (
-            "ShutterScope",
-            String::from("time_s,voltage_v\r\n")
-                + &rows(&trace, |t, v| format!("{t:.8},{v:.5}")).replace('\n', "\r\n"),
-            plain.clone(),
-            false,
-        ),
-        (
-            "semicolons and decimal commas",
-            String::from("Zeit (ms);Spannung (V)\n")
-                + &comma(rows(&trace, |t, v| format!("{:.5};{v:.5}", t * 1e3))),
-            plain.clone(),
-            false,
-        ),
-        (
-            "tabs and µs",
-            String::from("t (µs)\tCH1\n") + &rows(&trace, |t, v| format!("{:.2}\t{v:.5}", t * 1e6)),
-            plain.clone(),
-            false,
-        ),
-        (
-            "a preamble, then two rows of names",
-            String::from("Model,XYZ-100\nRecord Length,1200\n\nTIME,CH1,CH2\nms,V,V\n")
-                + &rows(&trace, |t, v| format!("{:.5},{v:.5},0.3", t * 1e3)),
-            plain.clone(),
-            false,
-        ),
-        (
-            "blanks, no header",
-            rows(&trace, |t, v| format!("  {t:.6}   {v:.5}")),
-            plain.clone(),
-            true,
-        ),
-        (
-            "values alone",
-            rows(&trace, |_, v| format!("{v:.5}")),
-            trace::Options { rate: Some(1e5), ..plain.clone() },
-            false,
-        ),
-        (
-            "values alone with decimal commas",
-            String::from("Volt\n") + &comma(rows(&trace, |_, v| format!("{v:.5}"))),
-            trace::Options { rate: Some(1e5), ..plain.clone() },
-            false,
-        ),
-        (
-            "columns by name, the unit by hand",
-            String::from("# a comment\n\"n\",\"sensor\",\"clock\"\n")
-                + &rows(&trace, |t, v| format!("7,{v:.5},{:.2}", t * 1e6)),
-            trace::Options {
-                columns: vec![Column::parse("clock"), Column::parse("sensor")],
-                unit: Some(Unit::Microsecond),
-                ..plain.clone()
-            },
-            false,
-        ),
-        (
-            "columns by number",
-            rows(&trace, |t, v| format!("7,{v:.5},{t:.6}")),
-            trace::Options { columns: vec![Column::Number(3), Column::Number(2)], ..plain },
-            true,
-        ),
-    ];
-    for (name, text, options, assumes) in formats {
-        let (fit, warnings) = through(&text, &options);
-        let expected = if assumes { vec![Warning::UnitAssumed] } else { Vec::new() };
-        assert_eq!(warnings, expected, "{name}");
-        assert_eq!(fit.warnings, [], "{name}");
+    let values = rows(&trace, |_, v| format!("{v:.5}"));
+    let mixed = rows(&trace, |t, v| format!("7,{v:.5},{:.2}", t * 1e6));
+    let named = String::from("# a comment\n\"n\",\"sensor\",\"clock\"\n") + &mixed;
+    let rate = trace::Options { rate: Some(1e5), ..trace::Options::default() };
+    let columns = |columns: [&str; 2]| trace::Options {
+        columns: columns.map(Column::parse).into(),
+        unit: Some(Unit::Microsecond),
+        ..trace::Options::default()
+    };
+    for (text, options) in [
+        (values.clone(), &rate),
+        (String::from("Volt\n") + &values.replace('.', ","), &rate),
+        (named, &columns(["clock", "sensor"])),
+        (mixed, &columns(["3", "2"])),
+    ] {
+        let (fit, warnings) = through(&text, options);
+        assert_eq!((warnings, &fit.warnings), (Vec::new(), &Vec::new()));
         is_the_trapezoid(&fit);
     }
 }
@@ -527,7 +461,7 @@ fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
 
 /// The triggers of the scene that a fit writes, by the crate itself.
 fn planned(fit: &Fit, zero: Zero) -> Plan {
-    let scene = fitted::scene(fit, "a trace\nwith two lines", zero).unwrap();
+    let scene = fitted::scene(fit, "a trace\nwith two lines", zero, None).unwrap();
     Plan::parse(&scene.text).unwrap()
 }
 
@@ -581,7 +515,7 @@ fn a_late_trace_moves_time_0_to_the_opening() {
     let mut trace = sampled(trapezoid, 1000, 0.005);
     trace.times.iter_mut().for_each(|t| *t += 1e4);
     let fit = fitted(&trace, &Options::default()).unwrap();
-    let scene = fitted::scene(&fit, "late", Zero::Trace).unwrap();
+    let scene = fitted::scene(&fit, "late", Zero::Trace, None).unwrap();
     assert_eq!(scene.zero, Zero::Open);
     assert!(scene.text.contains("open_start = 0\n"), "{}", scene.text);
 }
@@ -646,7 +580,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
             .collect();
         let times = (0..n).map(|i| i as f64 * if seed % 2 == 0 { 1.0 } else { 1e-9 }).collect();
         if let Ok(fit) = fitted(&Trace { times, values }, &Options::default()) {
-            let _ = fitted::scene(&fit, "chaos", Zero::Trace);
+            let _ = fitted::scene(&fit, "chaos", Zero::Trace, None);
             let _ = shutter_fit::text("chaos", &fit);
             let _ = shutter::picture::trace("chaos", &fit).unwrap();
         }
@@ -743,7 +677,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
     // Its oscilloscope was triggered by the sync.
-    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace).unwrap().text;
+    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     let fitted = Plan::parse(&scene).unwrap();
     // The same with the timer of the board and what the lamp needs, which a user fills in.
     let text = read("scenes/measured.toml");
@@ -757,7 +691,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let options = Options { sync: Some(0.0), ..Options::default() };
     let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
     let synced =
-        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace).unwrap().text).unwrap();
+        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace, None).unwrap().text).unwrap();
     let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
     assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
     assert_eq!(text, read("../boards/c/speeds/leaf.toml"));
@@ -854,7 +788,7 @@ fn several_traces_are_a_table() {
     let row =
         |name: &str| both.out.lines().find(|line| line.starts_with(name)).unwrap().to_string();
     assert!(
-        row("slow.csv").contains(" 10 ms ") && row("slow.csv").contains("0.000"),
+        row("slow.csv").contains(" 10 ms ") && row("slow.csv").contains(" +0.00  "),
         "{}",
         both.out
     );
@@ -873,7 +807,7 @@ fn several_traces_are_a_table() {
         (vec![&*slow, &fast, "--nominal", "10ms"], "--nominal: 1 speed for 2 traces"),
         (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
         (vec![&slow, &fast, "--picture", "no.svg"], "a picture is of one trace"),
-        (vec![&slow, &slow, "--out", folder], "two traces would both be written to "),
+        (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {
         let run = run(&args);
@@ -938,5 +872,51 @@ fn a_program_reads_json() {
             .collect();
         assert!(codes.contains(&"unit_assumed"), "{codes:?}");
         assert_eq!(codes.contains(&"misfit"), from == "trace", "{codes:?}");
+        assert_eq!((&json["unit"], &json["delay_s"]), (&"s".into(), &serde_json::Value::Null));
+    }
+    // Several are an array of such objects, with the same keys; so is one with the name of its speed.
+    let [model, other] = ["model.csv", "trace.csv"].map(|name| dir.join(name));
+    let [model, other] = [&model, &other].map(|path| path.to_str().unwrap());
+    let json = |args: &[&str]| -> serde_json::Value {
+        let run = run(&[args, &["--report", "json"]].concat());
+        assert_eq!(run.code, 0, "{}", run.err);
+        serde_json::from_str(&run.out).unwrap()
+    };
+    let plain = json(&[model, "--sync", "0.4ms"]);
+    let both = json(&[model, other, "--sync", "0", "--nominal", "1/250,5ms"]);
+    let keys =
+        |json: &serde_json::Value| json.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    assert_eq!((both.as_array().unwrap().len(), keys(&both[1])), (2, keys(&plain)));
+    let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap();
+    assert_eq!((number(&both[0], "nominal_s"), number(&both[1], "nominal_s")), (0.004, 0.005));
+    let off = number(&plain, "opens_s") - number(&plain, "delay_s");
+    assert!((off - 4e-4).abs() < 1e-12 && number(&plain, "delay_error_s") > 0.0, "{off}");
+}
+
+/// A name of the speed adds what is called so, and changes no layout.
+#[test]
+fn a_nominal_speed_is_told_as_such() {
+    let dir = empty_dir("nominal");
+    let trace = sampled(trapezoid, 1200, 0.005);
+    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
+    let csv = written(&dir, "leaf.csv", &text);
+    let lines = |args: &[&str]| {
+        let run = run(&[&[csv.as_str()], args].concat());
+        assert_eq!((run.code, run.err.as_str()), (0, ""));
+        run.out.lines().map(String::from).collect::<Vec<_>>()
+    };
+    let (plain, named) = (lines(&[]), lines(&["--nominal", "1/250"]));
+    let added: Vec<_> = named.iter().filter(|line| !plain.contains(line)).collect();
+    let speed = "speed        1/200 s measured, 1/250 s nominal: +0.32 EV";
+    assert_eq!(added, [speed, "nominal = 4"]);
+    let nearest = "speed        1/200 s measured, nearest full stop 1/250 s: +0.32 EV";
+    assert!(plain.contains(&nearest.to_string()), "{plain:?}");
+    for wrong in ["fast", "1/0", "-4ms", "4"] {
+        let run = run(&[csv.as_str(), &format!("--nominal={wrong}")]);
+        assert!(
+            run.code == 2 && run.err.contains("write a speed as in 1/250, 4ms, 2s"),
+            "{}",
+            run.err
+        );
     }
 }

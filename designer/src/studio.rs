@@ -209,7 +209,7 @@ fn fitted(
     let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
     fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
-    let text = fitted::curve_scene(&fit, name, Zero::Open)?.text;
+    let text = fitted::curve_scene(&fit, name, Zero::Open, None)?.text;
     let no_scene = |fault: scene::Fault| Refusal::NoScene { reason: fault.reason };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let best = fit.best();

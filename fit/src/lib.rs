@@ -106,6 +106,7 @@ pub fn fit(
         test,
         peak,
         frames: counted,
+        nominal: None,
         reading: None,
         warnings: pulses.warnings.clone(),
         samples: pulses.trace.part(&frame.samples),

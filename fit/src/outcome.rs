@@ -190,6 +190,8 @@ pub struct Fit {
     pub peak: f64,
     /// The pulses.
     pub frames: Frames,
+    /// What the exposure is called, in seconds, where whoever knows that says so.
+    pub nominal: Option<f64>,
     /// How the trace was read, where whoever read it says so.
     pub reading: Option<Reading>,
     /// What is doubtful.

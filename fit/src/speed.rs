@@ -26,7 +26,8 @@ fn nearest(seconds: f64) -> f64 {
     scale.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(1.0)
 }
 
-/// The exposure beside the nearest speed; none where that is more than a step away, as of what is no camera's shutter.
+/// The exposure beside what it is called, or the nearest speed of the scale; none where that is more than a step away, as of what
+/// is no camera's shutter.
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
     let nominal = nearest(seconds);
@@ -42,8 +43,8 @@ pub fn speed(fit: &Fit) -> Option<String> {
     } else {
         named(seconds)
     };
-    (stops.abs() < 0.75)
-        .then(|| format!("{dial} measured, {} nominal: {stops:+.2} EV", named(nominal)))
+    let is_told = fit.nominal.is_some() || ev.abs() < 0.75;
+    is_told.then(|| format!("{dial} measured, {called}: {} EV", stops(ev)))
 }
 
 /// T1 to T3, TE and TOT, as testers call them, to the digits that the length's error leaves.

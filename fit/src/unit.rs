@@ -120,6 +120,11 @@ pub fn decimals(x: f64, digits: i32) -> usize {
     ((f64::from(digits) - leading) as usize).min(340)
 }
 
+/// So many stops, to the hundredth that a tester tells, and never as -0.
+pub fn stops(ev: f64) -> String {
+    format!("{:+.2}", (100.0 * ev).round() / 100.0 + 0.0)
+}
+
 /// No number with an error has more decimals, however small that is.
 pub const MOST_PLACES: usize = 12;
 

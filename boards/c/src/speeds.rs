@@ -1,5 +1,7 @@
 // Made by `shutter plan` 0.2.0: camera, a shutter of 2 speeds.
 
+#![allow(dead_code, clippy::unreadable_literal)]
+
 use shutter_curve::ShutterCurve;
 
 /// The timer's rate.
@@ -7,7 +9,6 @@ use shutter_curve::ShutterCurve;
 pub const TIMER_HZ: u32 = 25_000_000;
 
 /// A speed of the shutter.
-#[allow(dead_code)]
 pub struct Speed {
     /// The scene's name.
     pub name: &'static str,
@@ -48,11 +49,11 @@ pub mod leaf {
     // exposure     TV 6.2541 ms, fully open for as much light
     // efficiency   71.8 %
     // timer        25000000 Hz
-    // delay        4.247 ms from the sync's edge to the start of opening: 106175 ticks
-    // gap          at least 0.1 ms; the closest two come 9772 ticks apart
+    // delay        4.247 ms from the sync's edge to the start of opening
+    // gap          at least 0.1 ms; the closest two come 0.39088 ms apart
     // set-up       emulated: equal flashes while the camera's own shutter stays open
     // triggers     16; up to 62 keep the gap
-    // direct       frames of up to 630 triggers are placed without a search
+    // direct       frames of up to 630 triggers never need a search
 
     use shutter_curve::{ShutterCurve, valid};
 
@@ -102,11 +103,11 @@ pub mod fast {
     // efficiency   56.19 %
     // nominal      4 ms, ΔEV -0.55
     // timer        25000000 Hz
-    // delay        4.25 ms from the sync's edge to the start of opening: 106250 ticks
-    // gap          at least 0.1 ms; the closest two come 8515 ticks apart
+    // delay        4.25 ms from the sync's edge to the start of opening
+    // gap          at least 0.1 ms; the closest two come 0.3406 ms apart
     // set-up       emulated: equal flashes while the camera's own shutter stays open
     // triggers     8; up to 27 keep the gap
-    // direct       frames of up to 315 triggers are placed without a search
+    // direct       frames of up to 315 triggers never need a search
 
     use shutter_curve::{ShutterCurve, valid};
 

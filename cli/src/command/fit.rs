@@ -1,56 +1,63 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::fs::File;
-use std::io::{Read, Write};
-use std::path::PathBuf;
+use std::io::Write;
+use std::iter::once;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
-use shutter_fit::unit::Unit;
+use shutter_fit::unit::{Unit, count};
 use shutter_fit::{Fit, Kind, Options, Tolerance};
 
-use super::output::{print, svg_path, write_whole};
+use super::fit_many;
+use super::input::{self, file_name, shown, stem};
+use super::kept::Old;
+use super::output::{Outputs, svg_path};
+use super::quantity::{rate, speed, time, tolerance};
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
+use crate::planned::Planned;
 
 /// Without progress for so long, nobody waits for any.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// A longer file is no trace of a shutter, and would fill the memory.
-const LONGEST: u64 = 1 << 28;
 
 /// Fit the simplest shutter to a measured trace, and write it as a scene
 ///
 /// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
 /// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
 /// written.
-#[derive(clap::Args, Clone)]
+#[derive(clap::Args)]
 pub struct Args {
-    /// The trace
-    pub(super) trace: PathBuf,
+    /// The trace; `-` is standard input
+    trace: PathBuf,
     /// Other traces, of other speeds: a table of them all instead of the report
     #[arg(value_name = "TRACE")]
-    pub(super) others: Vec<PathBuf>,
+    others: Vec<PathBuf>,
     /// What each trace's speed is called, in their order: 1/250, 4ms
     #[arg(long, value_name = "TIME,...", value_delimiter = ',', value_parser = speed)]
-    pub(super) nominal: Vec<f64>,
-    /// Write the scene to this file, for `shutter plan`; of several traces, a folder of them
+    nominal: Vec<f64>,
+    /// Write the scene to this file, for `shutter plan`, and keep what a user wrote there; of several traces, a folder of them;
+    /// `-` is standard output, in place of the report
     #[arg(long, value_name = "SCENE.toml")]
-    pub(super) out: Option<PathBuf>,
+    out: Option<PathBuf>,
     /// Write the picture to this file: trace, curve, residual, triggers
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
-    pub(super) picture: Option<PathBuf>,
+    picture: Option<PathBuf>,
+    /// Replace what the outputs hold, whatever that is
+    #[arg(long)]
+    force: bool,
     /// The unit of the times, where the header does not tell
     #[arg(long)]
     unit: Option<Unit>,
     /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
     #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
     columns: Vec<String>,
-    /// The samples in a second, where the rows hold no time
-    #[arg(long, value_name = "HERTZ", value_parser = positive)]
+    /// The samples in a second, where the rows hold no time: 48000, 250kHz
+    #[arg(long, value_name = "HERTZ", value_parser = rate)]
     rate: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
@@ -76,12 +83,12 @@ pub struct Args {
     /// When the edge of the camera's sync comes, in the trace: 0, 1.5ms; the scene has the delay from there to the opening
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
     sync: Option<f64>,
-    /// The report's form; `json` is one object, whose names stay as they are
+    /// The report's form; `json` is an object, or an array of those of several traces, whose names stay as they are
     #[arg(long, default_value = "text")]
     report: Report,
     /// Where the scene's time 0 is
     #[arg(long, default_value = "trace")]
-    pub(super) zero: Zero,
+    zero: Zero,
 }
 
 /// The form of what goes to standard output.
@@ -112,117 +119,126 @@ fn trigger_count() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(MOST_TRIGGERS))
 }
 
-fn tolerance(text: &str) -> Result<Tolerance, String> {
-    let wrong = || "write 0.1% (of the exposure), or a time as in 20us, 0.02ms, 2e-5s".to_string();
-    let text = text.trim();
-    // The `e` of an exponent belongs to the number.
-    let start = text.find(|c: char| c == '%' || (c.is_alphabetic() && c != 'e'));
-    let (number, unit) = text.split_at(start.ok_or_else(wrong)?);
-    let number: f64 = number.trim().parse().map_err(|_| wrong())?;
-    if !(number >= 0.0 && number.is_finite()) {
-        return Err(wrong());
-    }
-    if unit == "%" {
-        return Ok(Tolerance::Share(0.01 * number));
-    }
-    let unit = Unit::from_str(unit, false).map_err(|_| wrong())?;
-    Ok(Tolerance::Seconds(unit.seconds(number)))
-}
-
-/// A time in seconds, written with its unit; 0 needs none.
-fn time(text: &str) -> Result<f64, String> {
-    let wrong = || "write a time as in 0, 1.5ms, -20us, 2e-5s".to_string();
-    let text = text.trim();
-    let is_unit = |c: char| c.is_alphabetic() && c != 'e';
-    let (number, unit) = text.split_at(text.find(is_unit).unwrap_or(text.len()));
-    let number: f64 = number.trim().parse().map_err(|_| wrong())?;
-    match Unit::from_str(unit, false) {
-        _ if unit.is_empty() && number == 0.0 => Ok(0.0),
-        Ok(unit) if number.is_finite() => Ok(unit.seconds(number)),
-        _ => Err(wrong()),
-    }
-}
-
-/// What a speed is called: a part of a second, or a time.
-fn speed(text: &str) -> Result<f64, String> {
-    let seconds = match text.trim().strip_prefix("1/") {
-        Some(number) => {
-            number.parse::<f64>().map(|number| 1.0 / number).map_err(|e| e.to_string())?
-        }
-        None => time(text)?,
-    };
-    if seconds > 0.0 && seconds.is_finite() {
-        return Ok(seconds);
-    }
-    Err("write a speed as in 1/250, 4ms".into())
-}
-
-impl Args {
-    /// Is a table asked for?
-    pub fn is_many(&self) -> bool {
-        !(self.others.is_empty() && self.nominal.is_empty())
-    }
+/// A trace with what came of it.
+pub(super) struct Speed {
+    pub name: String,
+    pub fit: Fit,
+    pub warnings: Vec<Warning>,
 }
 
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
-    let refused = |reason: String| format!("{}: {reason}", args.trace.display());
-    let Recording { trace, reading, mut warnings } = read(args).map_err(refused)?;
-    let mut fit = fitted(&trace, args).map_err(|refusal| refused(refusal.to_string()))?;
-    fit.reading = Some(reading);
-    warnings.extend(fit.warnings.iter().cloned());
+    let traces: Vec<&Path> = once(&args.trace).chain(&args.others).map(PathBuf::as_path).collect();
+    if args.picture.is_some() && traces.len() > 1 {
+        return Err("--picture: a picture is of one trace".into());
+    }
+    if !args.nominal.is_empty() && args.nominal.len() != traces.len() {
+        let speeds = count(args.nominal.len() as u64, "speed");
+        let traces = count(traces.len() as u64, "trace");
+        return Err(format!("--nominal: {speeds} for {traces}"));
+    }
+    let scenes: Vec<PathBuf> = match (&args.out, traces.as_slice()) {
+        (None, _) => Vec::new(),
+        (Some(file), [_]) => vec![file.clone()],
+        (Some(folder), traces) => {
+            traces.iter().map(|trace| folder.join(stem(trace) + ".toml")).collect()
+        }
+    };
+    let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
+    let mut outputs = Outputs::new(&traces, &to, args.force)?;
 
-    let name = args.trace.file_name().unwrap_or_default().to_string_lossy();
-    let scene =
-        fitted::scene(&fit, &name, args.zero).map_err(|refusal| refused(refusal.to_string()))?;
-    if scene.zero != args.zero && args.out.is_some() {
-        warnings.push(Warning::ZeroMoved);
+    let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
+    for (i, path) in traces.iter().enumerate() {
+        let file = scenes.get(i);
+        let old = file.map_or(Ok(None), |file| old(&mut outputs, file))?;
+        let triggers = args.triggers.or(old.as_ref().and_then(Old::triggers));
+        let refused = |reason: String| format!("{}: {reason}", shown(path));
+        let (mut fit, mut warnings) = measure(args, path, triggers).map_err(refused)?;
+        fit.nominal = args.nominal.get(i).copied();
+        let name = file_name(path);
+        let scene = fitted::scene(&fit, &name, args.zero, old.as_ref().map(Old::unit))
+            .map_err(|refusal| refused(refusal.to_string()))?;
+        if scene.zero != args.zero && file.is_some() {
+            warnings.push(Warning::ZeroMoved);
+        }
+        let whose = if traces.len() > 1 { shown(path) + ": " } else { String::new() };
+        for warning in &warnings {
+            told += &format!("warning: {whose}{warning}\n");
+        }
+        let (text, kept) = match old {
+            Some(old) => merged(&old, &scene.text, file)?,
+            None => (scene.text, Vec::new()),
+        };
+        if let (Some(file), false) = (file, kept.is_empty()) {
+            told += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        }
+        match file {
+            Some(file) => outputs.replace(file, text)?,
+            None => shown_scene = text,
+        }
+        speeds.push(Speed { name, fit, warnings });
     }
-
-    if let Some(file) = &args.picture {
-        let svg = picture::trace(&name, &fit).map_err(|e| format!("the picture: {e}"))?;
-        write_whole(file, &svg)?;
+    if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, speeds.as_slice()) {
+        outputs.add(file, picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?)?;
     }
-    if let Some(file) = &args.out {
-        write_whole(file, &scene.text)?;
-    }
-    for warning in &warnings {
-        // There is no one to tell if standard error cannot be written.
-        let _ = writeln!(err, "warning: {warning}");
-    }
-    if args.report == Report::Json {
-        return print(out, &shutter_fit::json(&name, &fit, &warnings));
-    }
-    let mut report = shutter_fit::text(&name, &fit);
-    if args.out.is_none() {
-        report += &format!("\nThe scene, which --out SCENE.toml writes:\n\n{}", scene.text);
-    }
-    print(out, &report)
+    let report = match (args.report, speeds.as_slice()) {
+        (Report::Json, speeds) => json(speeds),
+        (_, [Speed { name, fit, .. }]) => {
+            let text = shutter_fit::text(name, fit);
+            match scenes.is_empty() {
+                true => {
+                    format!("{text}\nThe scene, which --out SCENE.toml writes:\n\n{shown_scene}")
+                }
+                false => text,
+            }
+        }
+        (_, speeds) => fit_many::table(speeds),
+    };
+    outputs.finish(out, &report)?;
+    // There is no one to tell if standard error cannot be written.
+    let _ = err.write_all(told.as_bytes());
+    Ok(())
 }
 
-/// The fit of the trace, and what is doubtful about it.
-pub(super) fn measure(args: &Args) -> Result<(Fit, Vec<Warning>), String> {
-    let Recording { trace, mut warnings, .. } = read(args)?;
-    let fit = fitted(&trace, args).map_err(|refusal| refusal.to_string())?;
-    warnings.extend(fit.warnings.iter().cloned());
-    Ok((fit, warnings))
+/// The scene that is there already, unless it is to be replaced.
+fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
+    match outputs.old(file)?.filter(|text| !text.is_empty()) {
+        None => Ok(None),
+        Some(text) => Old::parse(&text).map(Some).ok_or_else(|| {
+            format!(
+                "{}: it holds something other than a scene; --force replaces it",
+                file.display()
+            )
+        }),
+    }
 }
 
-/// The trace, how it was read, and what is doubtful about its file.
-fn read(args: &Args) -> Result<Recording, String> {
-    let mut bytes = Vec::new();
-    // No more than that, whatever the file says of its size: a device may have no end.
-    let file = File::open(&args.trace).map_err(|e| e.to_string())?;
-    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
-    if bytes.len() as u64 > LONGEST {
-        return Err(format!("more than {} MB: cut the trace to the pulse", LONGEST >> 20));
-    }
+/// The new scene with what is kept of the old one, if it can be planned.
+fn merged(old: &Old, text: &str, file: Option<&PathBuf>) -> Result<(String, Vec<String>), String> {
+    let (text, kept) = old.kept_in(text);
+    Planned::parse(&text).map_err(|fault| {
+        let file = file.map(|file| file.display().to_string()).unwrap_or_default();
+        format!("{file}: with what it keeps, {}; --force replaces it all", fault.reason)
+    })?;
+    Ok((text, kept))
+}
+
+/// One object, or an array of those of several.
+fn json(speeds: &[Speed]) -> String {
+    let object = |it: &Speed| shutter_fit::json(&it.name, &it.fit, &it.warnings);
+    let json = match speeds {
+        [one] => object(one),
+        several => several.iter().map(object).collect(),
+    };
+    format!("{json:#}\n")
+}
+
+/// The fit of a trace, and what is doubtful about it.
+fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<Warning>), String> {
     let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
     let options = trace::Options { unit: args.unit, columns, rate: args.rate };
-    trace::open(&bytes, &options).map_err(|refusal| refusal.to_string())
-}
-
-/// The fit, with a bar for whoever waits for it.
-fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
+    let told = |refusal: Refusal| refusal.to_string();
+    let Recording { trace, reading, mut warnings } =
+        trace::open(&input::read(path)?, &options).map_err(told)?;
     let options = Options {
         model: args.model,
         tolerance: args.tolerance,
@@ -233,6 +249,14 @@ fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
         mains: args.mains,
         sync: args.sync,
     };
+    let mut fit = fitted(&trace, &options).map_err(told)?;
+    fit.reading = Some(reading);
+    warnings.extend(fit.warnings.iter().cloned());
+    Ok((fit, warnings))
+}
+
+/// The fit, with a bar for whoever waits for it.
+fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {
         bar.set_style(style);
@@ -243,7 +267,7 @@ fn fitted(trace: &Trace, args: &Args) -> Result<Fit, Refusal> {
         }
         bar.set_position((1000.0 * done) as u64);
     };
-    let fit = shutter_fit::fit(trace, &options, &mut progress);
+    let fit = shutter_fit::fit(trace, options, &mut progress);
     bar.finish_and_clear();
     fit
 }

@@ -1,11 +1,12 @@
 //! `shutter plan`: scene files in, checked lists of trigger times out, with a picture of one.
 
 use std::error::Error;
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::output::{print, svg_path, write_whole};
+use super::input::{self, shown, stem};
+use super::output::{Outputs, svg_path};
+use super::settings::Settings;
 use crate::emit::Form;
 use crate::planned::Planned;
 use crate::{emit, picture, report, speeds};
@@ -18,8 +19,10 @@ const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
 /// Several scenes are the speeds of a shutter: a table of them, or one text with an array of all.
 #[derive(clap::Args, Default)]
 pub struct Args {
-    /// The scenes, as in cli/scenes; a soft shutter if left out
+    /// The scenes, as in cli/scenes; a soft shutter if left out; `-` is standard input
     scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
     /// Write the picture to this file
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     out: Option<PathBuf>,
@@ -29,69 +32,86 @@ pub struct Args {
     /// Print this form alone
     #[arg(long, value_name = "FORM")]
     emit: Option<Form>,
+    /// Write the form to this file, and not to standard output
+    #[arg(long, value_name = "FILE", requires = "emit")]
+    to: Option<PathBuf>,
+    /// Replace what the outputs hold, whatever that is
+    #[arg(long)]
+    force: bool,
     /// What it is called; the scene's file name, or `shutter` for several, if left out
     #[arg(long)]
     name: Option<String>,
 }
 
+type Draw = fn(&str, &Planned) -> Result<String, Box<dyn Error>>;
+
 pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
-    match args.scenes.as_slice() {
-        [] => one(args, DEFAULT.0.into(), checked(DEFAULT.0, DEFAULT.1)?, out),
-        [path] => one(args, stem(path), read(path)?, out),
-        paths => several(args, paths, out),
+    let Args { scenes, out: picture, set_ups, emit: form, to, .. } = args;
+    if scenes.len() > 1 && (picture.is_some() || set_ups.is_some()) {
+        return Err("a picture is of one scene".into());
+    }
+    let inputs: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
+    let files: Vec<&Path> =
+        [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path).collect();
+    let mut outputs = Outputs::new(&inputs, &files, args.force)?;
+    let plans = match scenes.as_slice() {
+        [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
+        paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
+    };
+    let text = match (plans.as_slice(), form) {
+        ([(name, plan)], _) => {
+            let name = args.name.as_ref().unwrap_or(name);
+            let pictures: [(_, Draw); 2] = [(picture, picture::svg), (set_ups, draw_set_ups)];
+            for (file, draw) in pictures {
+                if let Some(file) = file {
+                    let svg = draw(name, plan).map_err(|e| format!("the picture: {e}"))?;
+                    outputs.add(file, svg)?;
+                }
+            }
+            match form {
+                Some(form) => emit::emit(*form, name, plan).map_err(|reason| {
+                    format!("{}: {reason}", scenes.first().map_or(name.clone(), |it| shown(it)))
+                })?,
+                None => report::text(name, plan, report::width()),
+            }
+        }
+        (plans, Some(form)) => {
+            emit::several(*form, args.name.as_deref().unwrap_or("shutter"), plans)?
+        }
+        (plans, None) => speeds::text(plans),
+    };
+    match to {
+        Some(file) => {
+            outputs.add(file, text)?;
+            outputs.finish(out, "")
+        }
+        None => outputs.finish(out, &text),
     }
 }
 
-type Draw = fn(&str, &Planned) -> Result<String, Box<dyn Error>>;
-
-fn one(args: &Args, name: String, plan: Planned, out: &mut dyn Write) -> Result<(), String> {
-    let name = args.name.clone().unwrap_or(name);
-    let text = match args.emit {
-        Some(form) => emit::emit(form, &name, &plan)?,
-        None => report::text(&name, &plan),
-    };
-    let draw = |path: &Option<PathBuf>, draw: Draw| match path {
-        Some(path) => {
-            write_whole(path, &draw(&name, &plan).map_err(|e| format!("the picture: {e}"))?)
-        }
-        None => Ok(()),
-    };
-    draw(&args.out, picture::svg)?;
-    draw(&args.set_ups, set_ups)?;
-    print(out, &text)
-}
-
 /// The picture of both set-ups, whose doses come from a curve.
-fn set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
+fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
     let curve =
         plan.plan().ok_or("the set-ups are told apart by a curve, and the scene has none")?;
     picture::set_ups(name, curve)
 }
 
-fn several(args: &Args, paths: &[PathBuf], out: &mut dyn Write) -> Result<(), String> {
-    if args.out.is_some() || args.set_ups.is_some() {
-        return Err("a picture is of one scene".into());
-    }
-    let plans = paths.iter().map(|path| Ok((stem(path), read(path)?)));
-    let plans = plans.collect::<Result<Vec<_>, String>>()?;
-    let name = args.name.as_deref().unwrap_or("shutter");
-    let text = match args.emit {
-        Some(form) => emit::several(form, name, &plans)?,
-        None => speeds::text(&plans),
-    };
-    print(out, &text)
+fn read(args: &Args, path: &Path) -> Result<(String, Planned), String> {
+    let file = shown(path);
+    let text = input::read(path)
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
+    let text = text.map_err(|reason| format!("{file}: {reason}"))?;
+    Ok((stem(path), checked(args, &file, &text)?))
 }
 
-fn stem(path: &Path) -> String {
-    path.file_stem().unwrap_or_default().to_string_lossy().into()
-}
-
-fn read(path: &Path) -> Result<Planned, String> {
-    let file = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|e| format!("{file}: {e}"))?;
-    checked(&file, &text)
-}
-
-fn checked(file: &str, text: &str) -> Result<Planned, String> {
-    Planned::parse(text).map_err(|fault| fault.locate(file, text))
+fn checked(args: &Args, file: &str, text: &str) -> Result<Planned, String> {
+    let set = args.settings.of(text);
+    Planned::parse(&set).map_err(|mut fault| {
+        if set != text {
+            // What stands in no file has no line there.
+            fault.at = fault.at.filter(|_| fault.line(&set) == fault.line(text));
+            fault.notes.push("The command line sets some of this scene.".into());
+        }
+        fault.locate(file, text)
+    })
 }

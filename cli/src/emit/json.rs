@@ -1,9 +1,8 @@
-//! Plans as objects of JSON. Units stand in the names.
+//! Plans as objects of JSON. Units stand in the names; what a plan does not have is null.
 
 use serde::Serialize;
 
 use crate::facts::Facts;
-use crate::plan::Plan;
 use crate::planned::{Planned, Row};
 
 /// A plan's object.
@@ -24,78 +23,38 @@ fn text(json: &impl Serialize) -> String {
 struct Document<'a> {
     scene: &'a str,
     timer_hz: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    nominal_s: Option<f64>,
     delay_s: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     delay_ticks: Option<u32>,
-    #[serde(flatten)]
-    curve: Option<Curve>,
-    triggers: Vec<Item>,
-}
-
-/// What a curve tells.
-#[derive(Serialize)]
-struct Curve {
-    opening_s: f32,
-    open_s: f32,
-    closing_s: f32,
-    half_open_s: f32,
-    exposure_s: f32,
-    efficiency: f32,
-    direct_triggers: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    opening_s: Option<f32>,
+    open_s: Option<f32>,
+    closing_s: Option<f32>,
+    half_open_s: Option<f32>,
+    exposure_s: Option<f32>,
+    efficiency: Option<f32>,
+    direct_triggers: Option<u32>,
     delta_ev: Option<f32>,
-}
-
-#[derive(Serialize)]
-struct Item {
-    index: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    u: Option<f32>,
-    time_s: f64,
-    ticks: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    from_edge_ticks: Option<u32>,
-    #[serde(flatten)]
-    pulse: Option<Edges>,
-}
-
-#[derive(Serialize)]
-struct Edges {
-    on_ticks: u32,
-    off_ticks: u32,
+    triggers: Vec<Row>,
 }
 
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &Planned) -> Self {
-        let item = |(index, row): (usize, Row)| {
-            let Row { u, time, ticks, pulse } = row;
-            let pulse = pulse.map(|(on_ticks, off_ticks)| Edges { on_ticks, off_ticks });
-            Item { index, u, time_s: time, ticks, from_edge_ticks: plan.from_edge(ticks), pulse }
-        };
+        let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
+        let fact = |of: fn(&Facts) -> f64| facts.as_ref().map(|facts| of(facts) as f32);
         Self {
             scene,
             timer_hz: plan.timer().hz,
             delay_s: plan.delay().map(|delay| delay.seconds),
             delay_ticks: plan.delay().map(|delay| delay.ticks),
-            curve: plan.plan().map(Curve::new),
-            triggers: plan.rows().into_iter().enumerate().map(item).collect(),
-        }
-    }
-}
-
-impl Curve {
-    fn new(plan: &Plan) -> Self {
-        let facts = Facts::new(plan);
-        Self {
-            opening_s: facts.opening as f32,
-            open_s: facts.open as f32,
-            closing_s: facts.closing as f32,
-            half_open_s: facts.half_open as f32,
-            exposure_s: plan.curve.exposure(),
-            efficiency: plan.curve.efficiency(),
-            direct_triggers: facts.direct_triggers,
-            delta_ev: facts.delta_ev.map(|delta| delta as f32),
+            opening_s: fact(|it| it.opening),
+            open_s: fact(|it| it.open),
+            closing_s: fact(|it| it.closing),
+            half_open_s: fact(|it| it.half_open),
+            exposure_s: curve.map(|curve| curve.exposure()),
+            efficiency: curve.map(|curve| curve.efficiency()),
+            direct_triggers: facts.as_ref().map(|it| it.direct_triggers),
+            delta_ev: facts.as_ref().and_then(|it| it.delta_ev).map(|delta| delta as f32),
+            triggers: plan.rows(),
         }
     }
 }

@@ -17,7 +17,7 @@ pub fn steps() -> Vec<Value> {
     let (trace, _) = trace::read(text, &trace::Options::default()).unwrap();
     let options = Options { sync: Some(0.0), ..Options::default() };
     let fit = fit(&trace, &options, &mut |_| ()).unwrap();
-    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace).unwrap().text;
+    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     let plan = Plan::parse(&scene).unwrap();
     let lines = emit(Form::Pico, "leaf", &plan.clone().into()).unwrap();
     // Whatever the answers are: all of them are `ok`, and the last one counts.

@@ -1,0 +1,132 @@
+//! What a user wrote in a scene, which outlives a new fit: the keys that no fit measures, the unit, and all comments.
+
+use std::mem::take;
+
+use shutter_fit::unit::{Unit, count};
+use toml_edit::{Decor, DocumentMut, Item, Key};
+
+use super::quantity;
+
+/// The keys that every fit writes anew, or leaves out.
+const MEASURED: [&str; 7] = [
+    "open_start",
+    "open_end",
+    "close_start",
+    "close_end",
+    "shutteropening",
+    "triggers",
+    "trigger_times",
+];
+/// How a fit's comments begin: the first one, those that follow it, and those above a key.
+const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
+const NEXT: [&str; 5] =
+    ["# This curve does not", "# `--model ", "# Read: ", "# Exposure ", "# Warning: "];
+const ABOVE: [&str; 2] = ["# The ramps' inner control points ", NO_DELAY];
+const NO_DELAY: &str = "# delay = ? # ";
+/// Above a delay, which may outlive a fit that measures none.
+const ABOVE_DELAY: &str = "# From the edge of the camera's sync ";
+
+/// A scene that is there.
+pub struct Old(DocumentMut);
+
+impl Old {
+    /// The scene that a text is, whether it can be planned or not.
+    pub fn parse(text: &[u8]) -> Option<Self> {
+        let scene: DocumentMut = std::str::from_utf8(text).ok()?.parse().ok()?;
+        scene.contains_key("open_start").then_some(Self(scene))
+    }
+
+    /// How many triggers it has.
+    pub fn triggers(&self) -> Option<u32> {
+        let times = self.0.get("trigger_times").and_then(Item::as_array).map(|it| it.len() as i64);
+        let count = self.0.get("triggers").and_then(Item::as_integer).or(times);
+        count.and_then(|count| count.try_into().ok())
+    }
+
+    /// The unit of its times.
+    pub fn unit(&self) -> Unit {
+        let name = self.0.get("unit").and_then(Item::as_str);
+        name.and_then(quantity::unit).unwrap_or(Unit::Second)
+    }
+
+    /// The new scene, which is in the same unit, with all that is the user's, and what that is.
+    pub fn kept_in(&self, text: &str) -> (String, Vec<String>) {
+        let mut new: DocumentMut = text.parse().expect("a fit writes TOML");
+        let has_delay = new.contains_key("delay");
+        let keeps_delay = !has_delay && self.0.contains_key("delay");
+        let (mut scene, mut kept) = (DocumentMut::new(), Vec::new());
+        // What comes before the next key.
+        let mut above = String::new();
+        for (name, old) in self.0.iter() {
+            let Some(key) = self.0.key(name) else { continue };
+            above += &of_user(prefix(key.leaf_decor()), keeps_delay);
+            let fresh = new.remove_entry(name);
+            // Above the unit is the head.
+            if let Some((key, _)) = fresh.as_ref().filter(|_| name != "unit") {
+                let lines = prefix(key.leaf_decor()).split_inclusive('\n');
+                above.extend(lines.filter(|line| !(keeps_delay && line.starts_with(NO_DELAY))));
+            }
+            let behind = old.as_value().map_or("", |value| suffix(value.decor()));
+            let is_measured = MEASURED.contains(&name) || name == "delay" && has_delay;
+            let item = match fresh {
+                Some((_, mut fresh)) if is_measured => {
+                    if let Some(value) = fresh.as_value_mut() {
+                        value.decor_mut().set_suffix(behind);
+                    }
+                    fresh
+                }
+                None if is_measured => {
+                    above +=
+                        &behind.trim().lines().map(|line| format!("{line}\n")).collect::<String>();
+                    continue;
+                }
+                fresh => {
+                    if fresh.map(|(_, fresh)| value(&fresh)) != Some(value(old)) {
+                        kept.push(format!("{name} = {}", value(old)));
+                    }
+                    old.clone()
+                }
+            };
+            let mut key = key.clone();
+            key.leaf_decor_mut().set_prefix(take(&mut above));
+            scene.insert_formatted(&key, item);
+        }
+        for (name, item) in new.iter().filter(|(name, _)| *name != "unit") {
+            scene.insert_formatted(new.key(name).unwrap_or(&Key::new(name)), item.clone());
+        }
+        let last = self.0.trailing().as_str().unwrap_or_default();
+        scene.set_trailing(above + &of_user(last, keeps_delay));
+        let head = text.split_inclusive('\n').take_while(|line| line.starts_with('#'));
+        let scene = head.collect::<String>() + &scene.to_string();
+        let comments = scene.lines().filter_map(|line| line.split_once('#'));
+        match comments.filter(|(_, comment)| !text.contains(comment)).count() as u64 {
+            0 => (),
+            n => kept.push(count(n, "comment")),
+        }
+        (scene, kept)
+    }
+}
+
+/// The lines above a key that no fit has written.
+fn of_user(lines: &str, keeps_delay: bool) -> String {
+    let begins = |line: &str, starts: &[&str]| starts.iter().any(|start| line.starts_with(start));
+    let mut is_head = false;
+    let is_own = |line: &&str| {
+        is_head = begins(line, &FIRST) || is_head && begins(line, &NEXT);
+        !(is_head || begins(line, &ABOVE) || !keeps_delay && line.starts_with(ABOVE_DELAY))
+    };
+    lines.split_inclusive('\n').filter(is_own).collect()
+}
+
+/// A value as it is written, without a comment.
+fn value(item: &Item) -> String {
+    item.to_string().split('#').next().unwrap_or_default().trim().replace('_', "")
+}
+
+fn prefix(decor: &Decor) -> &str {
+    decor.prefix().and_then(|text| text.as_str()).unwrap_or_default()
+}
+
+fn suffix(decor: &Decor) -> &str {
+    decor.suffix().and_then(|text| text.as_str()).unwrap_or_default()
+}
