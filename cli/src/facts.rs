@@ -141,7 +141,7 @@ pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> 
     ];
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
-    let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer_hz));
+    let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer.hz));
     lines.extend([
         ("timer", times.timer.told(from_edge(times.delay, times.length()))),
         ("delay", delay(times.delay, unit)),

@@ -70,11 +70,7 @@ impl Plan {
     /// # Errors
     /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
-        let n = scene.triggers.get_ref().get();
-        if n == 0 || n > MOST_TRIGGERS {
-            let reason = format!("triggers: 1 to {MOST_TRIGGERS} can be planned");
-            return Err(Fault::at(&scene.triggers, reason));
-        }
+        let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
         let timer = Timer::new(&scene.timer_hz, scene.timer_bits.as_ref())?;
         let timer_hz = timer.hz;
         let shape = scene.shape()?;

@@ -8,7 +8,7 @@ use crate::facts;
 use crate::plan::{Plan, Trigger};
 use crate::scene::{Fault, trigger_times_at};
 use crate::timer::Timer;
-use crate::times::Times;
+use crate::times::{Given, Times};
 
 /// A scene that can be played.
 #[derive(Clone)]

@@ -20,9 +20,9 @@ pub struct Scene {
     close_start: Spanned<Number>,
     close_end: Spanned<Number>,
     shutteropening: Option<Spanned<Vec<Number>>>,
-    pub(crate) triggers: Spanned<Count>,
+    pub(crate) triggers: Spanned<Number>,
     pub(crate) timer_hz: Spanned<Number>,
-    pub(crate) timer_bits: Option<Spanned<Count>>,
+    pub(crate) timer_bits: Option<Spanned<Number>>,
     pub(crate) min_gap: Spanned<Number>,
     pub(crate) nominal: Option<Spanned<Number>>,
     pub(crate) pulse: Option<Spanned<Number>>,
@@ -117,9 +117,7 @@ impl Values {
     }
 }
 
-impl TryFrom<Values> for Scene {
-    type Error = Fault;
-
+impl From<Values> for Scene {
     /// The scene of these numbers. The place in its faults is the number of a key; [`Fault::key_of_values`] tells which.
     fn from(values: Values) -> Self {
         fn at<T>(key: &str, value: T) -> Spanned<T> {
@@ -127,14 +125,6 @@ impl TryFrom<Values> for Scene {
             Spanned::new(place..place, value)
         }
         let number = |key, x| at(key, Number::Any(x));
-        let count = |key, x: f64| {
-            if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x) {
-                return Ok(at(key, Count::Any(x as u32)));
-            }
-            let reason = format!("{key}: a whole number from 0 to 4294967295 is required");
-            Err(Fault::at(&at(key, ()), reason))
-        };
-        count("timer_hz", values.timer_hz)?;
         let [open_start, open_end, close_start, close_end] = values.times;
         let eight = values.shutteropening.map(|eight| eight.map(Number::Any).to_vec());
         Self {
@@ -144,7 +134,7 @@ impl TryFrom<Values> for Scene {
             close_start: number("close_start", close_start),
             close_end: number("close_end", close_end),
             shutteropening: eight.map(|eight| at("shutteropening", eight)),
-            triggers: count("triggers", values.triggers)?,
+            triggers: number("triggers", values.triggers),
             timer_hz: number("timer_hz", values.timer_hz),
             timer_bits: None,
             min_gap: number("min_gap", values.min_gap),

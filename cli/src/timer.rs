@@ -3,7 +3,7 @@
 use shutter_fit::unit::short;
 use toml::Spanned;
 
-use crate::scene::{Count, Fault, Number};
+use crate::scene::{Fault, Number};
 
 /// A timer that counts up and wraps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ impl Timer {
     ///
     /// # Errors
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
-    pub(crate) fn new(hz: &Spanned<Number>, bits: Option<&Spanned<Count>>) -> Result<Self, Fault> {
+    pub(crate) fn new(hz: &Spanned<Number>, bits: Option<&Spanned<Number>>) -> Result<Self, Fault> {
         let exact_hz = hz.get_ref().get();
         if !(0.0..=f64::from(u32::MAX)).contains(&exact_hz) {
             return Err(Fault::at(hz, "timer_hz: a rate from 1 to 4294967295 is required"));
@@ -32,7 +32,7 @@ impl Timer {
         let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits };
         match bits.map(|bits| (bits, bits.get_ref().get())) {
             None => Ok(timer(32)),
-            Some((_, bits @ (16 | 32))) => Ok(timer(bits)),
+            Some((_, bits)) if bits == 16.0 || bits == 32.0 => Ok(timer(bits as u32)),
             Some((place, _)) => Err(Fault::at(place, "timer_bits: 16 or 32 is required")),
         }
     }
@@ -46,7 +46,7 @@ impl Timer {
     ///
     /// # Errors
     /// A prescaler with which it has.
-    pub(crate) fn holds(&self, ticks: f64, bits: Option<&Spanned<Count>>) -> Result<(), Fault> {
+    pub(crate) fn holds(&self, ticks: f64, bits: Option<&Spanned<Number>>) -> Result<(), Fault> {
         let (most, Some(place)) = (self.most(), bits) else { return Ok(()) };
         if ticks <= most {
             return Ok(());

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
-use crate::scene::{self, Count, Fault, Number, TRIGGER_TIMES as KEY, Values};
+use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY, Values};
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
@@ -19,7 +19,7 @@ struct Scene {
     open_start: Spanned<Number>,
     trigger_times: Spanned<Vec<Spanned<Number>>>,
     timer_hz: Spanned<Number>,
-    timer_bits: Option<Spanned<Count>>,
+    timer_bits: Option<Spanned<Number>>,
     min_gap: Spanned<Number>,
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
@@ -93,7 +93,7 @@ impl Times {
     /// # Errors
     /// Whatever is wrong with the scene.
     pub fn of_values(values: Values, times: &[f64]) -> Result<Self, Fault> {
-        let scene = scene::Scene::try_from(values)?;
+        let scene = scene::Scene::from(values);
         let place = scene.triggers.span();
         let at = |time| Spanned::new(place.clone(), Number::Any(time));
         Self::new(&Scene {

@@ -217,7 +217,7 @@ fn fitted(
     let own = match fit.from {
         From::Model => None,
         From::Trace => {
-            let text = fitted::scene(&fit, name, Zero::Open)?.text;
+            let text = fitted::scene(&fit, name, Zero::Open, None)?.text;
             let Times { triggers, timer, .. } = Times::parse(&text).map_err(no_scene)?;
             let times = triggers.iter().map(|trigger| trigger.time).collect();
             Some(Own { times, timer_hz: timer.hz, until_curve: signal.curve.start - fit.opens })

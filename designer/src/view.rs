@@ -102,7 +102,7 @@ pub fn view(question: &[u8]) -> (String, Vec<f64>) {
 /// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. Only what is `deep` is planned.
 pub fn allowed(question: &[u8], deep: bool) -> u32 {
     let scene = Question::read(question)
-        .and_then(|question| Ok(Scene::try_from(question.values)?))
+        .map(|question| Scene::from(question.values))
         .ok()
         .filter(|scene| scene.shape().is_ok_and(|shape| shape.curve().is_ok()));
     scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
@@ -115,7 +115,7 @@ impl View {
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
     fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
         let Question { values, measured } = question;
-        let scene = Scene::try_from(values.clone())?;
+        let scene = Scene::from(values.clone());
         let planned = Plan::new(&scene);
         let shape = scene.shape()?;
         let curve = match shape.curve() {

@@ -13,8 +13,6 @@
 // triggers     16; up to 62 keep the gap
 // direct       frames of up to 630 triggers never need a search
 
-#![allow(dead_code, clippy::unreadable_literal)]
-
 use shutter_curve::{ShutterCurve, valid};
 
 /// The shutter, its times in seconds.

@@ -2,7 +2,7 @@
 
 use crate::curve::Exposure;
 use crate::outcome::Fit;
-use crate::unit::{decimals, fixed, short};
+use crate::unit::{decimals, short, stops};
 
 /// The full steps of the usual scale that are no powers of two, in parts of a second.
 const FRACTIONS: [f64; 13] =
@@ -30,10 +30,14 @@ fn nearest(seconds: f64) -> f64 {
 /// is no camera's shutter.
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
-    let nominal = nearest(seconds);
-    let stops = (seconds / nominal).log2();
-    // To the digits that are said; a zero has no sign.
-    let stops = if stops.abs() < 0.005 { 0.0 } else { stops };
+    let (nominal, called) = match fit.nominal {
+        Some(nominal) => (nominal, format!("{} nominal", named(nominal))),
+        None => {
+            let nearest = nearest(seconds);
+            (nearest, format!("nearest full stop {}", named(nearest)))
+        }
+    };
+    let ev = (seconds / nominal).log2();
     let dial = if seconds < 0.3 {
         // No digit finer than the error.
         let parts = 1.0 / seconds;
@@ -53,7 +57,7 @@ pub fn times(fit: &Fit) -> String {
     let curve = fit.best().signal.curve;
     let feet = Exposure::new(&curve).feet(0.5);
     let places = places(fit);
-    let show = |seconds: f64| fixed(unit.of(seconds), places);
+    let show = |seconds: f64| format!("{:.places$}", unit.of(seconds));
     let [opening, open, closing] = [curve.opening, curve.plateau, curve.closing].map(show);
     let half = show(curve.length() - feet[0] - feet[1]);
     let total = show(curve.length());

@@ -1,7 +1,5 @@
 // Made by `shutter plan` 0.2.0: camera, a shutter of 2 speeds.
 
-#![allow(dead_code, clippy::unreadable_literal)]
-
 use shutter_curve::ShutterCurve;
 
 /// The timer's rate.
@@ -9,6 +7,7 @@ use shutter_curve::ShutterCurve;
 pub const TIMER_HZ: u32 = 25_000_000;
 
 /// A speed of the shutter.
+#[allow(dead_code)]
 pub struct Speed {
     /// The scene's name.
     pub name: &'static str,

@@ -7,11 +7,11 @@
 // exposure     TV 6.2541 ms, fully open for as much light
 // efficiency   71.8 %
 // timer        100000000 Hz
-// delay        4.247 ms from the sync's edge to the start of opening: 424702 ticks
-// gap          at least 0.1 ms; the closest two come 39088 ticks apart
+// delay        4.247 ms from the sync's edge to the start of opening
+// gap          at least 0.1 ms; the closest two come 0.39088 ms apart
 // set-up       emulated: equal flashes while the camera's own shutter stays open
 // triggers     16; up to 62 keep the gap
-// direct       frames of up to 630 triggers are placed without a search
+// direct       frames of up to 630 triggers never need a search
 
 use shutter_curve::{ShutterCurve, valid};
 

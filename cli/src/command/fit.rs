@@ -74,9 +74,9 @@ pub struct Args {
     /// Take the simplest model whose triggers are as near to the free model's: 0.1% (of the exposure), 20us
     #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
     tolerance: Option<Tolerance>,
-    /// How many triggers
-    #[arg(long, value_name = "N", default_value_t = Options::TRIGGERS, value_parser = trigger_count())]
-    triggers: u32,
+    /// How many triggers; as many as the scene has that is there, or 16, if left out
+    #[arg(long, value_name = "N", value_parser = trigger_count())]
+    triggers: Option<u32>,
     /// The mains' frequency in hertz: a hum in the trace has it
     #[arg(long, value_name = "50|60", value_parser = mains)]
     mains: Option<f64>,
@@ -100,13 +100,6 @@ enum Report {
     Json,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
-        _ => Err("a number above 0 is required".into()),
-    }
-}
-
 fn mains(text: &str) -> Result<f64, String> {
     match text {
         "50" => Ok(50.0),
@@ -115,7 +108,7 @@ fn mains(text: &str) -> Result<f64, String> {
     }
 }
 
-fn trigger_count() -> RangedI64ValueParser<u32> {
+pub(super) fn trigger_count() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(MOST_TRIGGERS))
 }
 
@@ -245,7 +238,7 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
         full: args.full,
         frame: args.frame,
         light: args.light,
-        triggers: args.triggers,
+        triggers: triggers.unwrap_or(Options::TRIGGERS),
         mains: args.mains,
         sync: args.sync,
     };

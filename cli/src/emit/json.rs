@@ -44,6 +44,7 @@ impl<'a> Document<'a> {
         Self {
             scene,
             timer_hz: plan.timer().hz,
+            nominal_s: plan.nominal(),
             delay_s: plan.delay().map(|delay| delay.seconds),
             delay_ticks: plan.delay().map(|delay| delay.ticks),
             opening_s: fact(|it| it.opening),

@@ -11,7 +11,7 @@ const TABLE: &str = "#[allow(dead_code, clippy::unreadable_literal)]\n#[rustfmt:
 
 /// The file of a module that is called as the scene is.
 pub fn module(scene: &str, plan: &Planned) -> String {
-    comment("// ", scene, plan) + "\n" + ALLOW + "\n" + &items(plan)
+    comment("// ", scene, plan) + "\n" + &items(plan)
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
@@ -30,11 +30,12 @@ pub fn modules(called: &str, plans: &[(String, Planned)]) -> String {
     let mut text = format!(
         "// {MADE_BY}: {}, a shutter of {} speeds.
 
-{ALLOW}
 {import}/// The timer's rate.
+{ALLOW}
 pub const TIMER_HZ: u32 = {};
 
 /// A speed of the shutter.
+{ALLOW}
 pub struct Speed {{
     /// The scene's name.
     pub name: &'static str,
