@@ -339,10 +339,11 @@ test('the table of ticks has the columns of the CSV, and fits at 1024', async ()
   await page.fill('#delay', '1.5 ms');
   const names = await page.$$eval('#ticks th', (all) => all.map((it) => it.textContent));
   const [head, ...lines] = (await copied('csv')).trim().split('\n').map((line) => line.split(','));
-  assert.deepEqual(head, ['index', 'u', 'time_s', 'ticks', 'gap_ticks', 'from_edge_ticks', 'on_ticks', 'off_ticks']);
-  assert.equal(names.length, head.length);
+  assert.deepEqual(head, ['scene', 'index', 'u', 'time_s', 'ticks', 'gap_ticks', 'from_edge_ticks', 'on_ticks', 'off_ticks']);
+  // The scene's name stands above the table.
+  assert.equal(names.length, head.length - 1);
   const cells = await page.$$eval('#ticks tbody tr', (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
-  for (const k of [3, 5, 6, 7]) assert.deepEqual(cells.map((row) => row[k]), lines.map((line) => line[k]));
+  for (const k of [3, 5, 6, 7]) assert.deepEqual(cells.map((row) => row[k]), lines.map((line) => line[k + 1]));
   assert.ok(await page.$eval('#ticks', (it) => it.scrollWidth <= it.closest('.scroll').clientWidth));
 });
 
