@@ -421,7 +421,7 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
 /// As docs/firmware.md computes it.
 #[test]
 fn the_report_tells_when_a_drift_matters() {
-    let report = |keys| shutter::report::text("leaf", &on_timer(keys).unwrap());
+    let report = |keys| shutter::report::text("leaf", &on_timer(keys).unwrap(), 80);
     let line = |n| {
         format!("\ndrift        a tick a second moves the delay by 1 % of a share in {n} frames\n")
     };
@@ -430,7 +430,7 @@ fn the_report_tells_when_a_drift_matters() {
     assert!(report("timer_hz = 1000000").contains(&line("302")));
     let none = include_str!("../scenes/soft.toml");
     let none = shutter::planned::Planned::parse(none).unwrap();
-    assert!(!shutter::report::text("soft", &none).contains("\ndrift"));
+    assert!(!shutter::report::text("soft", &none, 80).contains("\ndrift"));
 }
 
 #[test]
