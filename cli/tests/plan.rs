@@ -325,7 +325,6 @@ fn what_is_not_toml_is_an_error() {
 fn a_wrong_type_is_an_error() {
     const NUMBER: &str = "a number is required";
     const COUNT: &str = "a whole number from 1 to 10000 is required";
-    const HERTZ: &str = "a whole number from 1 to 4294967295 is required";
     let dir = empty_dir("types");
     for (key, value, reason) in [
         ("open_end", "\"soon\"", NUMBER),
