@@ -393,6 +393,11 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     assert!(text.starts_with("# Fitted to slow.csv") && text.contains("# the end\n"), "{text}");
     assert!(!text.contains("trace.csv") && !text.contains("# delay = ?"), "{text}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
+    let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/100 --sync 1ms");
+    assert!(code == Some(0) && !err.contains("nominal") && !err.contains("delay"), "{err}");
+    let text = folder.text("leaf.toml");
+    assert!(text.contains("\nnominal = 10\n") && text.contains("\ndelay = 3.0"), "{text}");
+    assert_eq!(text.matches("# From the edge of the camera's sync").count(), 1, "{text}");
     // What is asked for counts, in the unit of the scene.
     folder.write("leaf.toml", "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n");
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --triggers 6");

@@ -52,8 +52,7 @@ impl Old {
     /// The new scene, which is in the same unit, with all that is the user's, and what that is.
     pub fn kept_in(&self, text: &str) -> (String, Vec<String>) {
         let mut new: DocumentMut = text.parse().expect("a fit writes TOML");
-        let has_delay = new.contains_key("delay");
-        let keeps_delay = !has_delay && self.0.contains_key("delay");
+        let keeps_delay = !new.contains_key("delay") && self.0.contains_key("delay");
         let (mut scene, mut kept) = (DocumentMut::new(), Vec::new());
         // What comes before the next key.
         let mut above = String::new();
@@ -67,7 +66,8 @@ impl Old {
                 above.extend(lines.filter(|line| !(keeps_delay && line.starts_with(NO_DELAY))));
             }
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
-            let is_measured = MEASURED.contains(&name) || name == "delay" && has_delay;
+            let is_asked = ["delay", "nominal"].contains(&name) && fresh.is_some();
+            let is_measured = MEASURED.contains(&name) || is_asked;
             let item = match fresh {
                 Some((_, mut fresh)) if is_measured => {
                     if let Some(value) = fresh.as_value_mut() {
@@ -76,8 +76,9 @@ impl Old {
                     fresh
                 }
                 None if is_measured => {
-                    above +=
-                        &behind.trim().lines().map(|line| format!("{line}\n")).collect::<String>();
+                    if behind.contains('#') {
+                        above += &format!("{}\n", behind.trim());
+                    }
                     continue;
                 }
                 fresh => {
