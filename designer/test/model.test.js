@@ -203,7 +203,7 @@ test('a newer choice ends what is computed, which says so meanwhile and never co
   assert.match(await page.text('#busy'), /Reading long\.csv/);
   // The forms are written meanwhile.
   const start = performance.now();
-  assert.match(await copied('csv'), /^index/);
+  assert.match(await copied('csv'), /^scene,index/);
   assert.ok(performance.now() - start < 3000);
   await preset('leaf');
   assert.ok(!(await page.isSeen('#busy')));
