@@ -73,7 +73,7 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
     ['close_end', '1e400', /close_end: a finite number is required/],
     ['close_start', '-4', /times out of order/],
     ['triggers', '1.5', /triggers: a whole number/],
-    ['triggers', '0', /triggers: 1 to 10000 can be planned/],
+    ['triggers', '0', /triggers: a whole number from 1 to 10000 is required/],
     ['triggers', '99999999999', /triggers: a whole number/],
     ['timer_hz', '', /timer_hz: a number is required/],
     ['min_gap', '-1', /min_gap: 0 or more is required/],
@@ -677,7 +677,7 @@ test('a dropped scene is opened, and a broken one refused with its line', async 
   assert.equal((await ticks()).length, 20);
   await drop(['mine.toml', 'open_start = 0\nopen_end = "soon"\n']);
   await page.waitForSelector('#problem.wrong');
-  assert.match(await page.text('#problem'), /mine:2: a number is required/);
+  assert.match(await page.text('#problem'), /mine:2: open_end: a number is required/);
   assert.equal(await page.value('#name'), 'mine');
   assert.equal((await ticks()).length, 20);
 });
