@@ -1,6 +1,6 @@
 //! From a camera's shutter to the ticks at which a firmware triggers.
 //!
-//! A scene (text in TOML) becomes a [`plan::Plan`]. A measured [`trace`] becomes a [`fit::Fit`], and that a scene.
+//! A scene (text in TOML) becomes a [`plan::Plan`]. A measured trace becomes a [`shutter_fit::Fit`], and that a scene.
 //!
 //! Everything here but the `command` is plain functions without input, output or a terminal, and builds for
 //! `wasm32-unknown-unknown` without the default features.
