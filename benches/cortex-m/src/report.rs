@@ -20,20 +20,15 @@ use Function::{
 
 const METHOD: &str = "## How it is measured
 
-A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), everything inlined but the
-call itself.
+A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), with all but the call itself inlined.
 
-*Instructions* are counted in QEMU and exact. *Cycles* are modelled (`benches/cortex-m/src/model.rs`): a table of the Cortex-M4's
-Technical Reference Manual, with what boards show of branches and of the fetch, charges the executed instructions, without flash
-wait states. Take the figures to be within 10 % at zero wait states, probably 1 to 4 % low. Two wait states without a cache cost
-up to 1.4 times as much. `cargo run --release -- --silicon` prints model against board for some public code; for code of floats no
-measurement at zero wait states was found. [tried.md](tried.md) tells how the model was chosen.
+*Instructions* are counted in QEMU and exact: of a Cortex-M33 and a riscv32imafc with an FPU, of a Cortex-M0+ and a riscv32imc in soft
+float. *Cycles* are modelled (`benches/cortex-m/src/model.rs`) after the Cortex-M4's Technical Reference Manual and what boards show of
+branches and the fetch. Take them to be within 10 % at zero wait states, probably 1 to 4 % low; two wait states without a cache cost
+up to 1.4 times as much. [tried.md](tried.md) says how the model was chosen and held against boards.
 
-*Worst* is the most cycles found over the hard curves of the tests and those found by search, and over hard inputs, some 870 a
-curve: the ends of sections, powers of two, random ones, and those of 20 000 and their neighbours that take most evaluations.
-
-The other columns are mean instructions: on a Cortex-M33 and a riscv32imafc, which compute in `f32` as well, and in soft float
-on a Cortex-M0+ and a riscv32imc.";
+*Worst* is over the hard curves of the tests and those found by search, each with some 870 hard inputs: ends of sections, powers of
+two, and those of 20 000 that take most evaluations.";
 
 /// The calls as the reader knows them; the last are the baselines.
 const CALLS: [(&str, Function); 11] = [
@@ -98,8 +93,8 @@ fn aligned(table: &str) -> String {
 /// Writes the whole report.
 pub fn write() -> Result {
     let plan = [
-        series(&[InverseCdf, TickStep, Schedule], &OCTAVES, On::All),
-        series(&[Static, Cdf, Openness, Newton, Table], &[DEFAULT], On::All),
+        series(&[InverseCdf], &OCTAVES, On::All),
+        series(&[Static, Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::All),
         series(&SQUARE_ROOTS, &[DEFAULT], On::All),
         series(&[Construct], &OCTAVES, On::All),
         series(&[Root], &[DEFAULT], On::All),
@@ -108,8 +103,8 @@ pub fn write() -> Result {
     let plan = [
         series(&[InverseCdf, Static], &[DEFAULT], On::Typical),
         series(&[InverseCdf], &[0, 4, 16], On::Rows),
-        series(&[TickStep, Schedule, Construct], &OCTAVES, On::Rows),
-        series(&[Cdf, Openness, Newton, Table], &[DEFAULT], On::Rows),
+        series(&[Construct], &OCTAVES, On::Rows),
+        series(&[Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::Rows),
         series(&SQUARE_ROOTS, &[DEFAULT], On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
@@ -220,12 +215,11 @@ fn overview(cores: &[&Measured]) -> [String; 3] {
 fn introduction(cores: &[&Measured]) -> String {
     let [calls, everywhere, curves] = overview(cores);
     format!(
-        "The calls with `OCTAVES = 8`, then the usual ways, and a search for each answer, in modelled cycles of a Cortex-M4F, as means
-over uniform `u` or times. *soft* has a third of its mass in ramps, *all ramp* all of it, *trapezoid* a third in straight ramps,
-*typical* is the mean over {TYPICAL} curves. The square roots serve straight ramps alone: one, from the nearer end, for a `u` on a ramp.
-*Worst* is the worst call found, on any curve; *direct* the worst, on any curve, that needs no search, as all of a frame of
-`direct_triggers()` are. Calls go through an opaque reference, but in the second row: there each curve is a `static`, as firmware
-has it, whose values the compiler puts into the code. Its worst are over the typical curves. A schedule is of {TRIGGERS} triggers, checked.
+        "The calls with `OCTAVES = 8`, then other methods, in modelled cycles of a Cortex-M4F: means over uniform `u` or times. *soft* collects a
+third of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps; *typical* is the mean over {TYPICAL} curves. Square
+roots serve straight ramps alone. *Worst* is the worst call found on any curve, *direct* the worst that needs no search. Calls go
+through an opaque reference; in the second row each curve is a `static`, as in firmware, and the worst is over typical curves.
+A schedule is of {TRIGGERS} triggers, checked.
 
 {calls}
 
@@ -307,9 +301,8 @@ fn calls(cores: &[&Measured]) -> String {
     format!(
         "## Every call
 
-`openness` and the usual ways have no use for the octaves. *Hard* is the worst over the hard curves and inputs, with its curve.
-Of triggers it is over the steps of a frame of {TRIGGERS}, the first of a frame whose first share ends near a hard input, and the frame
-as a whole, on intervals of one to two million ticks. A frame that is refused for its gap costs no more than one that is not.
+*Hard* is the worst over the hard curves and inputs, with its curve. Of triggers it is over a frame of {TRIGGERS}, step by step and as a
+whole, and over first triggers near a hard input, on intervals of one to two million ticks. A refused frame costs no more.
 
 {table}"
     )

@@ -7,7 +7,6 @@ use crate::support::cases::{CASES, judge, shutter};
 use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
 use crate::support::rendering::{PULSES, Pulses};
-use crate::sweep_u::INVERSE;
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -47,14 +46,12 @@ Written by `cargo bench -p benches -- --write-docs`; nothing here is typed by ha
 an ordinary machine, medians of interleaved repeats, in short runs, over 65 536 random `u`, so that no branch on `u` is ever
 predicted; on another machine trust the ratios.
 
-Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones
-as scenes hold them), {} fractions each: half of them uniform, a quarter towards either end on a scale of
-octaves, since that is where tables and absolute tolerances fail.
+Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones), {}
+fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
 
 - *forward*: |t - exact| in ulp(t);
 - *of the interval*: the same as a share of `close_end - open_start`, its mean over the uniform half;
-- *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, once the rounding of the exact time
-  to `t` is forgiven. It holds everywhere, however flat the curve;
+- *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, but for half an ulp of rounding;
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
@@ -229,68 +226,76 @@ in ulp(t) is large where the density is next to nothing: there a small ulp(u) is
 fn search(measured: &Measured) -> String {
     let (bred, aimed): (Vec<_>, Vec<_>) =
         measured.search.iter().partition(|row| row["is_bred"] == "true");
-    let tried = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
-    let bred = bred.into_iter().map(|row| shown(row, "what worst at"));
-    let bred = table("aim | worst found | control points of the opening; of the closing", 1, bred);
-    let columns = "what backward evaluations steps_back cdf_steps_back tick_steps_back cdf density ticks breaches";
-    let aimed = aimed.into_iter().map(|row| shown(row, columns));
-    let header = "family | backward, ulp(u) | evaluations | steps back: inverse | cdf | ticks | error of the cdf, ulp \
-                  | of openness and pdf | of ticks | promises broken";
-    let aimed = table(header, 1, aimed);
+    let [tried, each] = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
+    let bred = table("aim | worst found", 1, bred.iter().map(|row| shown(row, "what worst")));
+    let steps = ["steps_back", "cdf_steps_back", "tick_steps_back"];
+    let steps: f64 = steps.into_iter().map(|column| sum(&aimed, column)).sum();
+    let [backward, evaluations, cdf, density, ticks] =
+        ["backward", "evaluations", "cdf", "density", "ticks"].map(|column| most(&aimed, column));
     format!(
         "### Found by search
 
-`cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the
-worst of them by moving control points. {} valid curves were tried, each on about 650 `u`; the errors
-in ulp(t), the evaluations and the round trip are those of every seventh of these.
+`cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the worst of them by
+moving control points. {tried} valid curves were tried, each on about 650 `u`; the errors in ulp(t), the evaluations and the round
+trip are those of every seventh of these. `search.csv` has the curves.
 
 {bred}
 
-Then it judges all that is promised on curves and inputs that meet difficulties exactly, {} of each family
-(`tests/support/aimed.rs`), with `OCTAVES` = 0 and 8.
+Then it judges all that is promised on {families} families of curves that meet difficulties exactly (`tests/support/aimed.rs`), {each}
+of each, with `OCTAVES` = 0 and 8. Promises broken: {broken}. Steps back: {steps}. At worst {backward} ulp(u), {evaluations} evaluations,
+{cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
+        families = aimed.len(),
+        broken = sum(&aimed, "breaches"),
+    )
+}
 
-{aimed}",
-        tried[0], tried[1]
+fn sum(rows: &[&Row], column: &str) -> f64 {
+    rows.iter().flat_map(|row| row[column].parse::<f64>()).sum()
+}
+
+/// The greatest figure of a column, and a dash where there is none.
+fn most(rows: &[&Row], column: &str) -> String {
+    let figures = rows.iter().flat_map(|row| row[column].parse::<f64>());
+    figures.reduce(f64::max).map_or_else(
+        || "-".into(),
+        |most| if most.fract() == 0.0 { most.to_string() } else { number(most) },
     )
 }
 
 fn every_f32(measured: &Measured) -> String {
-    let figures =
-        |column| measured.every_f32.iter().flat_map(move |row| row[column].parse::<f64>());
-    let (answers, minutes) =
-        (figures("count").sum::<f64>(), figures("seconds").sum::<f64>() / 60.0);
-    let (of_inverse, of_values): (Vec<_>, Vec<_>) =
-        measured.every_f32.iter().partition(|row| row["function"] == INVERSE);
-    let columns =
-        "curve kind octaves count out_of_range steps_back forward error judged evaluations";
-    let of_inverse = of_inverse.into_iter().map(|row| shown(row, columns));
-    let header = "curve | kind | octaves | answers | out of range | steps back | forward, ulp(t) | backward, ulp(u) \
-                  | judged | evaluations: worst of every 16th f32";
-    let of_inverse = table(header, 2, of_inverse);
-    let columns = "curve kind count out_of_range steps_back error judged without_floor";
-    let of_values = of_values
-        .into_iter()
-        .map(|row| [vec![format!("`{}`", row["function"])], shown(row, columns)].concat());
-    let header = "function | curve | kind | answers | out of range | steps back | error, ulp | judged | without the floor";
-    let of_values = table(header, 3, of_values);
+    let all: Vec<_> = measured.every_f32.iter().collect();
+    let [answers, seconds] = ["count", "seconds"].map(|column| sum(&all, column));
+    let minutes = seconds / 60.0;
+    let mut kinds: Vec<_> = all.iter().map(|row| [&row["function"], &row["octaves"]]).collect();
+    kinds.sort();
+    kinds.dedup();
+    let rows = kinds.into_iter().map(|[function, octaves]| {
+        let of = |row: &&&Row| [&row["function"], &row["octaves"]] == [function, octaves];
+        let rows: Vec<_> = all.iter().filter(of).copied().collect();
+        let sums =
+            ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
+                "" => "-".into(),
+                _ => sum(&rows, column).to_string(),
+            });
+        let worst = ["error", "judged", "evaluations"].map(|column| most(&rows, column));
+        let head = [format!("`{function}`"), octaves.clone(), rows.len().to_string()];
+        head.into_iter().chain(sums).chain(worst).collect()
+    });
+    let header = "function | octaves | curves | answers | out of range | steps back | error, ulp | judged | evaluations";
+    let table = table(header, 1, rows);
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves,
-and then with other counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and
-`openness` at all times from a curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve
-runs across it, at every sixteenth stretch). The answers are held against a second formulation, a solver in doubles that
-follows u or t, and samples and the worst of each 4 million against the double-double oracle (*judged*). These {answers} answers
-took {minutes:.0} minutes on two busy cores, in a run of its own.
+`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and with other
+counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and `openness` at all times from a
+curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve runs across it, at every sixteenth stretch). A
+second formulation in doubles judges all; the double-double oracle judges samples and the worst of each 4 million (*judged*). These
+{answers} answers took {minutes:.0} minutes on two busy cores, in a run of its own. `every-f32.csv` has each curve.
 
-{of_inverse}
+{table}
 
-The forward error leaves out answers where the density is so low that doubles cannot tell the time to an ulp.
-
-`cdf` and `openness`: the error in ulp at some time within an ulp of the one asked for, an ulp of the cdf being at least that of
-2<sup>-24</sup>, and the same without that floor.
-
-{of_values}"
+The error of the inverse is its backward error, that of `cdf` and `openness` in ulp at some time within an ulp of the one asked for,
+an ulp of the cdf being at least that of 2<sup>-24</sup>. Evaluations are the most of every 16th `f32`."
     )
 }
 
@@ -303,10 +308,8 @@ fn rendering(measured: &Measured) -> String {
         "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel, since they split the exposure evenly: half a share at either edge.
-Equally spaced pulses must be dimmed by the openness, which a lamp that fires equal pulses cannot do, and random ones
-are far noisier. `tests/statistics.rs` holds this for every scene of the main example, together with chi-square and
-Kolmogorov-Smirnov tests of the samples.
+within 1/n of the exact integral at every pixel. Equally spaced pulses must be dimmed by the openness, which a lamp of equal
+pulses cannot do, and random ones are far noisier. `tests/statistics.rs` holds this.
 
 ![A moving bar in pulses](rendering.svg)
 
