@@ -3,7 +3,7 @@
 #
 #   boards/pico/run.sh             exits with 0 only if every pulse comes on the cycle that `trigger_ticks` says
 #   boards/pico/run.sh --second    the same, and the state machine in a second emulator (Python, with its module venv)
-#   boards/pico/run.sh --jitter    the same as without, and the table of docs/firmware.md: state machine against alarm
+#   boards/pico/run.sh --jitter    the same as without, and the table of README.md: state machine against alarm
 #
 # TRIGGER_FAULT=lost (or twice, early, late, close, torn, full, save) plants a fault in the firmware, to see that it is seen; one
 # build, apart from what is flashed, has them all. Exits with 1 then, and with 2 if there is no such fault.

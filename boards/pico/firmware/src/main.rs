@@ -1,4 +1,4 @@
-//! A strobe controller: see docs/firmware.md. It never ends.
+//! A strobe controller: see boards/pico/README.md. It never ends.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
 //! The contrast to the state machine: pulses from the interrupt of the chip's alarm, which counts microseconds. For the
-//! table in docs/firmware.md; a lamp deserves better.
+//! table in boards/pico/README.md; a lamp deserves better.
 //!
 //! While GP4 is high the processor is busy: it plans, and hands the plan over in a critical section.
 #![no_std]
