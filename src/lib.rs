@@ -43,7 +43,7 @@
 //!
 //! ```text
 //! cargo run -- fit trace.csv --sync 0 --out leaf.toml
-//! cargo run -- plan leaf.toml --emit rust > leaf.rs
+//! cargo run -- plan leaf.toml --emit rust --to leaf.rs
 //! ```
 //!
 //! `leaf.rs` holds the fitted curve as a `static`, the ticks of a frame, and the delay from the camera's sync:
@@ -58,8 +58,8 @@
 //! # assert!(SHUTTER.direct_triggers() >= 16);
 //! ```
 //!
-//! In the firmware, say `mod leaf;` and fire when the timer reads `edge + leaf::DELAY_TICKS + leaf::TICKS[i]`, with
-//! wrapping sums; `edge` is its count at the sync.
+//! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count
+//! at the sync.
 //!
 //! # Accuracy
 //!
