@@ -58,7 +58,7 @@ esac
 # The small one beside it, linked as it is flashed: in the same folder, for most of what it is built of is there.
 if [ -z "${TRIGGER_FAULT:-}" ]; then
     (cd ../pico-embassy && CARGO_TARGET_DIR=$folder cargo build --quiet --locked --release)
-    node emulator/leaf.mjs "$folder/$target/release/pico-embassy" "$folder/expected.json"
+    node emulator/leaf.mjs "$folder/$target/release/leaf-pico" "$folder/expected.json"
 fi
 if [ "${1:-}" = --second ]; then
     second=$folder/pioemu
