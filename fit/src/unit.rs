@@ -95,8 +95,10 @@ pub fn rounded(x: f64, digits: i32) -> f64 {
 /// `x` to so many decimals; a zero has no sign.
 pub fn fixed(x: f64, places: usize) -> String {
     let fixed = format!("{x:.places$}");
-    let is_zero = !fixed.contains(|c: char| c.is_ascii_digit() && c != '0');
-    fixed[usize::from(is_zero && fixed.starts_with('-'))..].into()
+    match fixed.strip_prefix('-') {
+        Some(zero) if zero.bytes().all(|byte| matches!(byte, b'0' | b'.')) => zero.into(),
+        _ => fixed,
+    }
 }
 
 /// The same without the zeros that say nothing.
