@@ -26,7 +26,7 @@ impl fmt::Display for Part {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum CurveError {
-    /// A control point of the ramp is NaN or infinite, which is also what becomes of a number above 3.4e38 in `f32`.
+    /// A control point of the ramp is NaN or infinite. A number above 3.4e38 becomes infinite in `f32`.
     NotFinite(Part),
     /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`.
     TimesOutOfOrder,
@@ -37,8 +37,8 @@ pub enum CurveError {
     IntervalOutOfRange,
     /// Time turns back along the ramp: `t'(p) < 0` somewhere in [0, 1].
     TimeTurnsBack(Part),
-    /// Time turns back because of the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening),
-    /// whose times are fractions of the whole interval, not of their ramp, nor times themselves.
+    /// Time turns back because of the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening).
+    /// Their times are fractions of the whole interval; they may have been given as fractions of the ramp, or as times.
     InnerTimesTurnBack(Part),
     /// The openness falls below 0 somewhere on the ramp.
     NegativeOpenness(Part),
@@ -135,8 +135,8 @@ pub enum ScheduleError {
         /// How many it can hold.
         capacity: u32,
     },
-    /// Two triggers would come closer than the minimum gap. How many would keep it,
-    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds.
+    /// Two triggers would come closer than the minimum gap.
+    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds how many would keep it.
     GapTooSmall {
         /// The first trigger that comes too early, by its index.
         trigger: u32,

@@ -17,12 +17,12 @@ use crate::ramp::bezier::CubicBezier;
 /// Hz. Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0
 /// or end at 1 (a jump).
 ///
-/// `OCTAVES` is the number of octaves of `u` on either side: the fractions from a ramp's last down to half of that,
-/// then down to a quarter, and so on. Each has a polynomial that answers it, unless the curve is too difficult there. A
-/// curve takes 488 bytes, and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of a typical curve is
-/// found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than 64 do not compile,
-/// and beyond 16 a constant may exceed the compiler's limit on evaluation. [`with_octaves`](Self::with_octaves) takes
-/// another number than 8.
+/// `OCTAVES` is the number of octaves of `u` on either side. The first octave goes from a ramp's last fraction down to
+/// half of it, the next from there to a quarter, and so on. A polynomial answers each, unless the curve is too
+/// difficult there. A curve takes 488 bytes, and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of
+/// a typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than
+/// 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
+/// [`with_octaves`](Self::with_octaves) takes another number than 8.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) plan: Plan<OCTAVES>,
@@ -74,10 +74,10 @@ impl ShutterCurve {
         )
     }
 
-    /// The shutter in the form of RenderMan's `shutteropening`: the `times`, in any unit, at which it starts and ends
-    /// to open and starts and ends to close, and its inner control points `[t1, y1, t2, y2, t5, y5, t6, y6]`, whose
-    /// times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, for the closing
-    /// ramp as well.
+    /// The shutter in the form of RenderMan's `shutteropening`. The `times`, in any unit, are when it starts to open,
+    /// is fully open, starts to close and is closed. Its inner control points are `[t1, y1, t2, y2, t5, y5, t6, y6]`:
+    /// their times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, on the
+    /// closing ramp as well.
     ///
     /// ```
     /// use shutter_curve::{CurveError, Part, ShutterCurve};
@@ -110,9 +110,9 @@ impl ShutterCurve {
     /// One Bezier `(t(p), f(p))` as a density: as a shutter that opens along it and closes at once where it ends.
     ///
     /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
-    /// not depend on it (but for the 2⁻²² by which `f` may pass 1 where control points are rounded). But `f` may not
-    /// exceed 1, so a greater one is [`scaled`](CubicBezier::scaled) first, best by a power of two, which rounds
-    /// nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
+    /// not depend on it. But `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best
+    /// by a power of two, which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
+    /// the scaled density. (An `f` above 1 by up to 2⁻²² is taken for the rounding of control points, and for 1.)
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -151,8 +151,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
     /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
-    /// 2⁻¹²⁶. For the rounding of control points the openness and the slope of time may
-    /// pass their bounds by 2⁻²²; but time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
+    /// 2⁻¹²⁶. Since control points are rounded, the openness and the slope of time may pass their bounds by 2⁻²². But
+    /// time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -250,8 +250,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
     ///
-    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at
-    /// the ends exactly, and never steps back as `u` grows.
+    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], and is exactly
+    /// these for 0 and 1. It never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
     /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀`
@@ -274,7 +274,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.plan.inverse_cdf(u)
     }
 
-    /// The effective exposure time `A = ∫ f dt`, in the curve's unit: as long as a box of the same exposure.
+    /// The effective exposure time `A = ∫ f dt`, in the curve's unit: for so long a fully open shutter would let the
+    /// same light through.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -301,8 +302,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`: from 0, where it is too little for an `f32`, to 1 + 2⁻²²,
-    /// by the rounding that control points are forgiven.
+    /// The shutter efficiency `A / (close_end - open_start)`. It is 0 where it is too small for an `f32`, and may reach
+    /// 1 + 2⁻²², since control points may be rounded by so much.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

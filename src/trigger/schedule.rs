@@ -13,8 +13,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
     /// `inverse_cdf((i + 1/2) / n)`. They never step back.
     ///
-    /// Up to 2²³ triggers each fraction is the nearest `f32`, above that it is within two and a half ulp; from about
-    /// 2²⁴ on the last time may be the end itself.
+    /// Each fraction is the nearest `f32` for up to 2²³ triggers, and within two and a half ulp for more. From about
+    /// 2²⁴ triggers on the last time may be the end itself.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -30,7 +30,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
     }
 
-    /// No frame of up to so many triggers needs a search: the plateau's line or a polynomial places each of them. So
+    /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. So
     /// each costs at most the worst direct answer, which the README gives in cycles. This holds for
     /// [`trigger_times`](Self::trigger_times) and [`trigger_ticks`](Self::trigger_ticks).
     ///
@@ -87,10 +87,10 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: half an ulp for
-    /// the `f32`, half for the polynomial. (An ulp of the fraction or of its rest to 1, whichever is less.) On typical
-    /// curves it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an ulp may
-    /// be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
+    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: the `f32` takes
+    /// half an ulp, the inverse half. (The ulp is that of the fraction or of its rest to 1, whichever is less.) On
+    /// typical curves it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an
+    /// ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
@@ -120,8 +120,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A gap that is not kept: then the slice holds a part of the schedule. And those of
-    /// [`trigger_ticks`](Self::trigger_ticks): then it holds what it held.
+    /// A gap that is not kept; the slice then holds a part of the schedule. Those of
+    /// [`trigger_ticks`](Self::trigger_ticks); the slice is then unchanged.
     pub const fn schedule_into(
         &self,
         ticks: &mut [u32],
@@ -146,8 +146,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(())
     }
 
-    /// [`schedule_into`](Self::schedule_into) an array of its own: in a constant, the ticks of a frame that never
-    /// changes, checked by the compiler.
+    /// [`schedule_into`](Self::schedule_into) an array, which it returns. In a constant these are the ticks of a frame
+    /// that never changes, checked by the compiler.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -171,7 +171,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// [`schedule_into`](Self::schedule_into) a vector of its own, of `n` triggers; with the feature `heapless-v0_9`.
+    /// [`schedule_into`](Self::schedule_into) a vector, which it returns, of `n` triggers; with the feature
+    /// `heapless-v0_9`.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -199,12 +200,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(schedule)
     }
 
-    /// How many of `wanted` triggers keep a gap of `min_gap_ticks`: all of them, or so many that keep it while one more
-    /// does not; at least 1, unless none are wanted. At once for a gap of 0.
+    /// How many of `wanted` triggers keep a gap of `min_gap_ticks`: all of them, or a number that keeps it while one
+    /// more does not. At least 1, unless none are wanted.
     ///
-    /// It tries frames, each up to where the gap is too small: the exposure over the gap first, which is next to the
-    /// answer for a shutter that opens fully, and from there by doubled steps and bisection. So it costs a few frames
-    /// at best, and `2 log2(wanted)` at worst.
+    /// It tries frames, each up to the first gap that is too small: the whole one, then one with as many triggers as
+    /// the exposure has gaps, which is next to the answer for a shutter that opens fully, then others by doubled steps
+    /// and bisection. That takes a few frames at best, and `2 log2(wanted)` at worst. A gap of 0 takes none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -257,7 +258,7 @@ pub struct TriggerTimes<'a, const OCTAVES: usize = 8> {
 
 /// The ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`]: any in constant time, from either end.
 ///
-/// An interrupt handler can keep one of a curve in a `static`, and take a tick whenever one has been served:
+/// Of a `static` curve it can be kept in a `static`, too, where an interrupt handler takes one tick after the other:
 ///
 /// ```
 /// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
