@@ -9,8 +9,8 @@ use crate::search::{Anchor, ROUNDING, Taylor, Tolerance, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
 /// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
-/// least 2⁻²⁴ of it apart. Only on a ramp across time 0 may it exceed `|t|`; there [`on_grid`] leaves times about 2⁻²⁶
-/// of it apart.
+/// least 2⁻²⁴ of it apart. Only on a ramp across time 0 may it exceed `|t|`; there [`Ramp::on_grid`] leaves times
+/// about 2⁻²⁶ of it apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
@@ -25,6 +25,14 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl Ramp {
+    /// The time `t`. On a ramp across time 0, where `f32` are denser than a search is exact, it is rounded to a
+    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+    #[inline(always)]
+    pub(crate) const fn on_grid(&self, t: f32) -> f32 {
+        let [start, end] = [self.time(Start), self.time(End)];
+        if start < 0.0 && end > 0.0 { gridded(start, end, t) } else { t }
+    }
+
     /// The point at `t`, which lies on the ramp and [`on_grid`](Self::on_grid).
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
@@ -156,18 +164,9 @@ impl RampPoint<'_> {
     }
 }
 
-impl Ramp {
-    /// The time `t`. On a ramp across time 0, where `f32` are denser than a search is exact, it is rounded to a
-    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
-    #[inline(always)]
-    pub(crate) const fn on_grid(&self, t: f32) -> f32 {
-        let [start, end] = [self.time(Start), self.time(End)];
-        if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t }
-    }
-}
-
+/// [`Ramp::on_grid`] between two ends, one on either side of time 0.
 #[inline(never)]
-const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
+const fn gridded(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
     if t.abs() >= half || t == start || t == end {
         return t;
