@@ -5,7 +5,7 @@ use crate::fraction::Side;
 use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES};
-use crate::octave::certificate::{FORWARD_ERROR, OFF, Shares, ULP_ERROR};
+use crate::octave::certificate::{FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, Shares, ULP_ERROR};
 use crate::octave::path::{Path, View, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below, top};
@@ -90,7 +90,7 @@ impl View<'_> {
         let bounds = self.certificate(&candidate, span, stretch, places);
         let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
-        let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
+        let trace = Dd::from(f64::from(JOIN_OFF + FRACTION_OFF * span.to));
         // The span itself rounds its end.
         let end = range(self.exposure, self.side, self.ramp)[1].min(f64::from(span.to));
         for i in 0..=samples {
