@@ -99,10 +99,10 @@ impl Ramp {
             let sought = target.difference(series.at(slowest));
             if sought.abs() < target.hi {
                 let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest);
-                let (back, sought) = (sought.to_bits() & BACK, sought.abs());
-                let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
+                let (sign, sought) = (sought.to_bits() & BACK, sought.abs());
+                let (place, c) = (Pair::new(slowest), [c1, flipped(c2, sign), c3]);
                 // A time's cubic loses less than a mass: no more rounding than from an end (proofs/solve.py).
-                anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
+                anchor = Anchor { place, sign, c, sought, rounding: ROUNDING };
             }
         }
         let error = TIME_ERROR * target.hi;
