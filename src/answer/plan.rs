@@ -28,7 +28,6 @@ use crate::number::units::{
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
-use crate::ramp::shape::Shape;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const OCTAVES: usize> {
@@ -58,8 +57,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     ) -> Result<Self, CurveError> {
         // A fraction of 0 has no octave: by its bits it is 99 octaves or more below every top.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
-        let exposure = tried!(Exposure::new(opening, closing));
-        let shapes = [Shape::new(opening), Shape::new(closing)];
+        let (exposure, shapes) = tried!(Exposure::new(opening, closing));
         let unit = time_unit(exposure.end(Start), exposure.end(End));
         let [open, close] = [exposure.join(Start), exposure.join(End)];
         let mut plan = Self {
