@@ -436,7 +436,7 @@ proven(f"is_joined wherever a way may leave the ramp by its inner end: else it w
 
 code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", """
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
-    while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
+    while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings -= 1; }
     let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); f0 as f64 + 3.0 * p as f64 * differences as f64 }""")
 code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.

@@ -27,7 +27,7 @@ code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let en
     if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }""")
 code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
     while k > 0 { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
-    most = if bound <= most { most } else { bound }; k = k - 1; }
+    most = if bound <= most { most } else { bound }; k -= 1; }
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
     if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")

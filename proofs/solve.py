@@ -191,8 +191,8 @@ code("pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option
     let inverse = inverse * (2.0 - local.d1 * inverse); let newton = missing * inverse;
     let step = newton * (1.0 - local.d2 * newton * inverse); let place = Pair::sum(x, step);
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-    let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-    if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None } }""")
+    let rest = left(&single, &local, 0.0, missing, step, ROUNDING);
+    if is_inside & (rest <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None } }""")
 # Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most
 # TERMS times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
 TERMS = int(documented(r"the terms of a time are at most (\d+) times the time"))

@@ -9,8 +9,8 @@ use crate::number::moment::rounded;
 use crate::number::pair::Pair;
 use crate::ramp::bezier::CubicBezier;
 
-/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
-/// closing cubic Bezier, taken as a probability density.
+/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
+/// Bezier, taken as a probability density.
 ///
 /// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
 /// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in
@@ -150,9 +150,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
-    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
-    /// 2⁻¹²⁶. For the rounding of control points the openness and the slope of time may
-    /// pass their bounds by 2⁻²²; but time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
+    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below 2⁻¹²⁶.
+    /// For the rounding of control points the openness and the slope of time may pass their bounds by 2⁻²²; but time
+    /// may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -250,8 +250,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
     ///
-    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at
-    /// the ends exactly, and never steps back as `u` grows.
+    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], at the ends
+    /// exactly, and never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
     /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀`

@@ -37,7 +37,7 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     scale: f32,
     /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
     last_before_far: [u32; 2],
-    /// By side: the number of `f32` up to that one, included, that are on the line; 0 without one.
+    /// By side: how many `f32` are on the line, that one and those next below it; 0 without a line.
     on_line_count: [u32; 2],
     /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
     /// or, where the join of the ramps counts as 1/2 but lies below it, the time of 1/2 alone, with a slope of 0.

@@ -157,7 +157,7 @@ impl View<'_> {
             && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
         {
             p *= 2.0;
-            doublings = doublings - 1;
+            doublings -= 1;
         }
         // |f'| <= 3 differences
         let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();

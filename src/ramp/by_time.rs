@@ -80,8 +80,8 @@ impl Ramp {
         let place = Pair::sum(x, step);
         // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
         let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-        let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-        if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None }
+        let rest = left(&single, &local, 0.0, missing, step, ROUNDING);
+        if is_inside & (rest <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None }
     }
 
     /// The place at which `target` has passed, by a search.
@@ -117,7 +117,7 @@ impl Ramp {
         let f = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
-        // The greatest f is about 2⁶⁰, so second numbers and products with the least place are normal where they count.
+        // The greatest f is about 2⁶⁰: so second numbers, and products with small places, are normal where they count.
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
         let second = d[1].minus_loose(d[0]);
         let c = [d[0].thrice(), second.thrice()];
@@ -148,9 +148,9 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a
-    /// side ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side.
-    /// Measuring takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
+    /// A bound of the sum of two errors: that of [`mass`](Self::mass) here, at most 2⁻³⁹ of the terms from the start;
+    /// and that of the mass at which a search from a side ends that aims at nearly this one, at most 2⁻³⁹ of the terms
+    /// from the side.
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
