@@ -3,11 +3,11 @@
 from solver import *
 
 code("let t = match self.at(t) {", "At::Ramp(ramp) => self.ramp(ramp).on_grid(t), _ => t, }; match self.at(t) {")
-code("const fn on_grid(start: f32, end: f32, t: f32) -> f32 {", """
+code("const fn gridded(start: f32, end: f32, t: f32) -> f32 {", """
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
     if t.abs() >= half || t == start || t == end { return t; } let t = (t + 1.5 * half) - 1.5 * half;
     if t < start { start } else if t > end { end } else { t } }""")
-code("if start < 0.0 && end > 0.0 {", "on_grid(start, end, t) } else { t }")
+code("if start < 0.0 && end > 0.0 {", "gridded(start, end, t) } else { t }")
 code("const fn place_from_start(&self) -> Pair {", """let Pair { hi, lo } = self.place; if self.side.is(Start) { return self.place; }
     let rest = Pair::sum(LAST_PLACE, -hi); Pair::sum(rest.hi, rest.lo - lo) }""")
 code("pub(crate) const fn mass(&self) -> Pair {", """

@@ -327,13 +327,13 @@ require(not in_chord(chord_off(0) <= most / 2) and not in_chord(chord_off(0) <= 
 chord_most = next(n for n in range(int(weight_off) + 1) if in_chord(chord_off(0) <= n))
 proven(f"what rounds a weight is at most {float(openness_off):.1f} roundings of 2^-24 of the openness's coefficients without signs, and {chord_most} of the greater reciprocal: within WEIGHT_OFF, {float(weight_off):g}")
 
-# --- What a fraction may be off by: `OFF`.
-off0, off1 = (1 / Fraction(2 ** int(x)) for x in source(r"const OFF: \[f32; 2\] = \[1\.0 / \(1u64 << (\d+)\) as f32, 1\.0 / \(1u64 << (\d+)\) as f32\];"))
+# --- What a fraction may be off by: `JOIN_OFF` and `FRACTION_OFF` of itself.
+join_off, fraction_off = (1 / Fraction(2 ** int(source(rf"const {name}_OFF: f32 = 1\.0 / \(1u64 << (\d+)\) as f32;"))) for name in ("JOIN", "FRACTION"))
 roundings, time_roundings = (int(said) for said in documented(r"(\d+) roundings of a double in a fraction and (\d+) in a time"))
 terms = int(documented(r"without their signs are at most (\d+) times the mass"))
 on_path = terms * roundings * LAST_PLACE
-require(on_path <= off1 and on_path > off1 / 4, "OFF[1]")
-proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most OFF[1] = 2^{log2(off1):g}")
+require(on_path <= fraction_off and on_path > fraction_off / 4, "FRACTION_OFF")
+proven(f"{roundings} roundings of an f64 in terms {terms} times as great are 2^{log2(on_path):.2f}, at most FRACTION_OFF = 2^{log2(fraction_off):g}")
 
 time_off = 1 / Fraction(2 ** int(source(r"const TIME_OFF: f32 = 1\.0 / \(1u64 << (\d+)\) as f32;")))
 terms, roundings = int(documented(r"the terms of a time are at most (\d+) times the time")), time_roundings
@@ -344,7 +344,7 @@ proven(f"{roundings} roundings of an f64, as many as were counted, in terms {ter
 least = Fraction(1, 2 ** (int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);")) + 1))
 ulp_error = Fraction(source(r"const ULP_ERROR: f32 = ([\d.]+);"))
 for begin in (least * 2**i for i in range(30)):
-    require(ulp_error * begin / 2**23 > Fraction(3, 2) * (off0 + off1 * 2 * begin), "ULP_ERROR less off")
+    require(ulp_error * begin / 2**23 > Fraction(3, 2) * (join_off + fraction_off * 2 * begin), "ULP_ERROR less off")
 proven("ULP_ERROR ulp of where a span begins are more than 1.5 times what a fraction may be off by, for each octave")
 
 # Joins. Each is told by the lesser part: by the near share and the plateau, as pairs, which are within 2^-49 of themselves
@@ -358,21 +358,21 @@ code("let near = self.ramp(side).share.to_f64() / WHOLE as f64;", """let plateau
 PAIR = Fraction(1, 2**49)
 
 
-def joins_hold(off0, off1, least_part=True):
-    """Is a join within OFF? A part has its pair's rounding, and three of a double; so has the sum."""
+def joins_hold(join_off, fraction_off, least_part=True):
+    """Is a join within both? A part has its pair's rounding, and three of a double; so has the sum."""
     part = PAIR + 6 * LAST_PLACE
     if not least_part:
         # By 1 less a share of nearly all, wherever the join is.
-        return part <= off0
+        return part <= join_off
     half = Fraction(1, 2)
-    return part <= off1 and part * half + LAST_PLACE / 2 <= off0 + off1 * half
+    return part <= fraction_off and part * half + LAST_PLACE / 2 <= join_off + fraction_off * half
 
 
-require(joins_hold(off0, off1) and not joins_hold(off0, PAIR) and not joins_hold(off0, off1, least_part=False), "joins")
-require(LAST_PLACE / 2 <= off0 and LAST_PLACE > off0, "OFF[0]")
-proven(f"what rounds joins, given the ramps' masses, is within OFF wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = OFF[0]")
+require(joins_hold(join_off, fraction_off) and not joins_hold(join_off, PAIR) and not joins_hold(join_off, fraction_off, least_part=False), "joins")
+require(LAST_PLACE / 2 <= join_off and LAST_PLACE > join_off, "JOIN_OFF")
+proven(f"what rounds joins, given the ramps' masses, is within JOIN_OFF and FRACTION_OFF of itself wherever they are, as each is told by the lesser part; by 1 less a share of nearly all it would not be. 1 less a share is rounded by at most 2^{log2(LAST_PLACE / 2):g} = JOIN_OFF")
 
-# --- `Limits::share`: how far a stretch goes in which so much time passes.
+# --- `Limits::shares`: how far a stretch goes in which so much time passes.
 code("let [_, t1, t2, t3] = self.time;", """let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
     let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
     let slowest = slowest - most / (1 << 20) as f32; let mut way = error / most;
@@ -430,13 +430,13 @@ holds(z3.Implies(z3.And(first, z3.Not(place <= 0)), fraction <= u), z3.Implies(z
 # Where it is not, a way has to collect what the stretch has more than the part: in ulp, EPSILON of the power of two, of which the ends,
 # the middle and its sum with the half lose a half each by rounding, the half next to nothing, and `off` as much as is below.
 power = least * 2
-more = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;")) - Fraction(3, 2) - 4 * U - (off0 / power + 2 * off1) * 2**23
+more = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;")) - Fraction(3, 2) - 4 * U - (join_off / power + 2 * fraction_off) * 2**23
 require(more > 4 * ulp_error, f"{float(more)} ulp")
 proven(f"is_joined wherever a way may leave the ramp by its inner end: else it would collect {float(more):.2f} ulp until the stretch ends, and {float(ulp_error)} are allowed")
 
 code("let ([f0, f1, f2, f3], [d0, d1, d2]) = (other.f, other.differences());", """
     let (mut p, mut doublings) = (1.0 / (1 << 30) as f32, 30);
-    while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings = doublings - 1; }
+    while doublings > 0 && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time { p *= 2.0; doublings -= 1; }
     let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs(); f0 as f64 + 3.0 * p as f64 * differences as f64 }""")
 code("let most = FORWARD_ERROR * (exposure.end(End) - exposure.end(Start));", "(self.greatest_beyond(most) * per_exposure) as f32 } else { 0.0 },")
 # What a cubic gains until q, time or openness, as a sum of the differences of its control values, each times a weight.

@@ -5,12 +5,12 @@ from solver import *
 
 
 code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """
-    position.wrapping_sub(self.center as i32) << (self.center & SHIFT) }""")
+    position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK) }""")
 code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usize; if index >= OCTAVES { return None; }
     let octave = &self.octaves[side as usize][index];
     let word = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
     Some((octave, word.wrapping_add(word & !(word >> 31)))) }""")
-code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64 }""")
+code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64 }""")
 code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
     let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
     let to = if range[1] < high as f64 { range[1] } else { high as f64 };
@@ -27,7 +27,7 @@ code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let en
     if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }""")
 code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
     while k > 0 { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
-    most = if bound <= most { most } else { bound }; k = k - 1; }
+    most = if bound <= most { most } else { bound }; k -= 1; }
     steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
     if !(most > 0.0 && most < f32::MAX) { return None; }
     let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
@@ -52,7 +52,7 @@ code("const fn last_before(join: f64) -> u32 {", """let (join, before_end) = (fl
     if join < before_end { join } else { before_end } }""")
 code("let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);", "")
 
-SHIFT = int(source(r"const SHIFT: u32 = (\d+);"))
+SHIFT_MASK = int(source(r"const SHIFT_MASK: u32 = (\d+);"))
 STEP = 1 << int(source(r"const TOP_STEP: u32 = 1 << (\d+);"))
 LEAST_EXPONENT = 127 - int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
 LEAST = LEAST_EXPONENT << 23
@@ -67,7 +67,7 @@ def look_up(top, bits):
 def offset(significand, center):
     """The position that `Plan::look_up` makes of it, and `Octave::offset` of that."""
     position = significand + (significand & ~(significand >> 31))
-    return (position - center) << (center & SHIFT)
+    return (position - center) << (center & SHIFT_MASK)
 
 
 # The significand is the place in the octave. `top` is below 2, `bits` those of a fraction above 0 and at most `top`.
@@ -94,7 +94,7 @@ valid(
 significand, center = BitVec("significand", 32), BitVec("center", 64)
 wide = SignExt(32, significand)
 exact = (1 << 32) + If(significand < 0, wide, 2 * wide)
-shift = center & SHIFT
+shift = center & SHIFT_MASK
 word = 1 << 31
 
 
@@ -123,7 +123,7 @@ EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;"))
 WORD = 2**32
 EPSILON = WORD // 2**23
 MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
-LOW_BITS = SHIFT
+LOW_BITS = SHIFT_MASK
 # A served fraction is within half of EPSILON of the f32 between which the part is.
 SERVED = EPSILON // 2
 

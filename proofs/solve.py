@@ -16,7 +16,7 @@ code("let c = core::hint::black_box(c);", """let size = s.abs(); let y = local.x
     let squares = cubes * y + 2.0 * c[1].abs(); let slopes = squares * y + c[0].abs();
     let first = (missing - s * (local.d1 + local.d2 * s)).abs();
     first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s)) }""")
-code("const fn distance(&self, p: f32) -> f32 {", "flipped((p - self.place.hi) - self.place.lo, self.back) }")
+code("const fn distance(&self, p: f32) -> f32 {", "flipped((p - self.place.hi) - self.place.lo, self.sign) }")
 code("let c5 = c5 + 6.0 * c6 * from_end;", "")
 code("const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {", """let x = Pair::new(x);
     let thrice = c.thrice().times(x); let slope = thrice.plus(b.scaled(2.0)).times(x).plus(a);
@@ -24,11 +24,11 @@ code("const fn around([a, b, c]: [Pair; 3], x: f32) -> [f32; 3] {", """let x = P
 code("let thrice = 3.0 * c3;", """if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
     let slowest = -c2 / thrice; let sought = target.difference(series.at(slowest)); if sought.abs() < target.hi {
     let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest); 
-    let (back, sought) = (sought.to_bits() & BACK, sought.abs());
-    let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
-    anchor = Anchor { place, back, c, sought, rounding: ROUNDING }; } }""")
+    let (sign, sought) = (sought.to_bits() & BACK, sought.abs());
+    let (place, c) = (Pair::new(slowest), [c1, flipped(c2, sign), c3]);
+    anchor = Anchor { place, sign, c, sought, rounding: ROUNDING }; } }""")
 code("let error = TIME_ERROR * target.hi;", "solve(series, target, &anchor, &Tolerance { wanted: error, accepted: error }).place }")
-code("let (mut local, mut evaluations) = anchor.approach(error.wanted);", """let mut p = place.hi + flipped(local.x, back);
+code("let (mut local, mut evaluations) = anchor.approach(error.wanted);", """let mut p = place.hi + flipped(local.x, sign);
     let mut distance = anchor.distance(p); let mut moved = distance - local.x; let mut needs_slopes = moved.abs() > MOVED * local.x;""")
 code("if needs_slopes {", """(local, moved) = (Taylor::new(&c, distance), 0.0); evaluations += 1; }
     let missing = target.difference(series.at(p));""")
@@ -40,12 +40,12 @@ MOVED = 1 / Fraction(2 ** int(source(r"const MOVED: f32 = 1\.0 / \(1 << (\d+)\) 
 CUBES = Fraction(source(r"moved\.abs\(\) \* squares \+ (\d\.\d) \* cubes"))
 SQUARES = int(source(r"slopes \+ (\d)\.0 \* moved\.abs\(\)"))
 # By how many ROUNDINGs each kind of anchor counts.
-code("pub(crate) const fn end(c: [f32; N], sought: f32) -> Self {", "Self { place: Pair::ZERO, back: 0, c, sought, rounding: ROUNDING } }")
+code("pub(crate) const fn end(c: [f32; N], sought: f32) -> Self {", "Self { place: Pair::ZERO, sign: 0, c, sought, rounding: ROUNDING } }")
 code("let mut anchor =", "Anchor::end(c, target.hi);")
 code("if target.hi <= sought.abs() {", "return Anchor::end(self.mass_in_single(side), target.hi); }")
 code("if nearest == 2 {", """let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
-    return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER }; }""")
-code("Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }", "")
+    return Anchor { place, sign: BACK, c, sought: -sought, rounding: FROM_OTHER }; }""")
+code("Anchor { place, sign, c, sought: sought.abs(), rounding: FROM_FLAT }", "")
 OTHER_END = Fraction(source(r"const FROM_OTHER: f32 = ([\d.]+) \* ROUNDING;"))
 INSIDE = Fraction(source(r"const FROM_FLAT: f32 = ([\d.]+) \* ROUNDING;"))
 
@@ -179,7 +179,7 @@ require(part < Fraction(1, 200), "a part of the error")
 require(time.holds(slow + 3 * 4 * PAIRS * U, Fraction(1)), "a part of D")
 proven(f"where the slope cancels there, that costs at most {float(part):.4f} of the error that is asked for, or {float(12 * PAIRS * U):.5f} roundings")
 
-# A quick place, quick.rs: the same two Taylor coefficients, at an exact distance from an end. Whatever the guess, the step and the
+# A quick place: the same two Taylor coefficients, at an exact distance from an end. Whatever the guess, the step and the
 # reciprocals are, an accepted step leaves 0.75 of the error. A quarter is left for measuring.
 code("pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {", """
     let Series { c, last } = self.time_since(side);
@@ -191,8 +191,8 @@ code("pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option
     let inverse = inverse * (2.0 - local.d1 * inverse); let newton = missing * inverse;
     let step = newton * (1.0 - local.d2 * newton * inverse); let place = Pair::sum(x, step);
     let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-    let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-    if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None } }""")
+    let rest = left(&single, &local, 0.0, missing, step, ROUNDING);
+    if is_inside & (rest <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None } }""")
 # Time never runs back: t' is a sum of squares (p - s)^2 and p (1 - p), times numbers that are not negative. So its terms are at most
 # TERMS times the time: for a square that is 13 s^2 - 15 s + 13/3 >= 0, for p (1 - p) it is 5.
 TERMS = int(documented(r"the terms of a time are at most (\d+) times the time"))

@@ -86,7 +86,7 @@ valid(
 )
 valid("in_units: even there by one unit at most", Implies(section, forwards <= backwards + 1))
 
-# --- Ticks. The scale, by the exponents of a length, from 2^37 units, and a rate. An interval has at most 2^MOST_TICKS ticks.
+# --- Ticks. The scale, by the exponents of a length, from 2^37 units, and a rate. An interval has at most 2^TICK_BITS ticks.
 code("let up = length.leading_zeros().wrapping_sub(1) & 31;", """let up = if up > 1 { up } else { 0 };
     let zeros = ticks_per_unit.leading_zeros() & 31; let down = (up + zeros) as i32 - unit - 33;
     let down = if down < 63 { down as u32 } else { 63 }; Self { start, up, rate: ticks_per_unit << zeros, down }""")
@@ -96,9 +96,9 @@ code("let delay = time.wrapping_sub(self.start);", """let delay = if delay > 0 {
     (((product >> (self.down & 63)) + 1) >> 1) as u32 }""")
 code("let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);", """
     let ticks = high * rate + (low * rate).div_ceil(1 << 32); 96 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }""")
-code("if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {", "return Err(too_high(length, ticks_per_unit, unit)); }")
+code("if exponent_of_ticks(length, ticks_per_unit, unit) > TICK_BITS {", "return Err(too_high(length, ticks_per_unit, unit)); }")
 code("let most = if end - start > most { end - start } else { most };", "(most.to_bits() >> 52) as i32 - 1023 - 61 }")
-MOST_TICKS = int(source(r"const MOST_TICKS: i32 = (\d+);"))
+TICK_BITS = int(source(r"const TICK_BITS: i32 = (\d+);"))
 SHORTEST, LONGEST = 61 - 24, 62
 ticks = BitVec("ticks", 128)
 upper = LShR(ticks + (2**32 - 1), 32)
@@ -114,7 +114,7 @@ for exponent in range(SHORTEST, LONGEST + 1):
     up = 62 - exponent if exponent < 61 else 0
     require(up < 32 and 61 <= exponent + up <= 62, "a length is moved up to 62 or 63 bits")
     for of_rate in range(32):
-        most_unit = MOST_TICKS - exponent - of_rate
+        most_unit = TICK_BITS - exponent - of_rate
         downs.add(up + 31 - of_rate - most_unit - 33)
 least = min(downs)
 require(0 < least <= 63, "down")
@@ -135,7 +135,7 @@ proven(f"TickScale: the tick is floor(delay rate + 1/2) exactly, for every delay
 # start that is no whole number is cut, and then there are 2^61 units or nearly so many. A time that is searched for is rounded down by
 # less than a unit, and measured by `at_pair`; its base is cut as a start is.
 errors = [Fraction(int(said), 2**48) for said in documented(r"and within (\d+), (\d+) and (\d+) · 2⁻⁴⁸ of the three terms for degree 3")]
-most_ticks = 2**MOST_TICKS
+most_ticks = 2**TICK_BITS
 cut_off = Fraction(most_ticks, 2**61 - 2**24)
 
 

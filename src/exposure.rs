@@ -37,12 +37,13 @@ enum Section {
 }
 
 impl Exposure {
-    /// Checks both ramps, and integrates them. Out of line: all constructors share it.
+    /// Checks both ramps, and integrates them. Returns their shapes, too, since octaves are built from those. Out of
+    /// line: all constructors share it.
     #[inline(never)]
     pub(crate) const fn new(
         opening: &CubicBezier,
         closing: &CubicBezier,
-    ) -> Result<Self, CurveError> {
+    ) -> Result<(Self, [Shape; 2]), CurveError> {
         tried!(check_finite(opening, Part::Opening));
         tried!(check_finite(closing, Part::Closing));
         let [start, _, _, open] = opening.times();
@@ -73,7 +74,7 @@ impl Exposure {
         let ramps =
             [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
         let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
-        Ok(Self { ramps, plateau, area })
+        Ok((Self { ramps, plateau, area }, shapes))
     }
 
     #[inline(always)]

@@ -9,8 +9,8 @@ use crate::number::moment::rounded;
 use crate::number::pair::Pair;
 use crate::ramp::bezier::CubicBezier;
 
-/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a
-/// closing cubic Bezier, taken as a probability density.
+/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
+/// Bezier, taken as a probability density.
 ///
 /// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
 /// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in

@@ -28,7 +28,6 @@ use crate::number::units::{
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
-use crate::ramp::shape::Shape;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Plan<const OCTAVES: usize> {
@@ -38,7 +37,7 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     scale: f32,
     /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
     last_before_far: [u32; 2],
-    /// By side: the number of `f32` up to that one, included, that are on the line; 0 without one.
+    /// By side: how many `f32` are on the line, that one and those next below it; 0 without a line.
     on_line_count: [u32; 2],
     /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
     /// or, where the join of the ramps counts as 1/2 but lies below it, the time of 1/2 alone, with a slope of 0.
@@ -58,8 +57,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     ) -> Result<Self, CurveError> {
         // A fraction of 0 has no octave: by its bits it is 99 octaves or more below every top.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
-        let exposure = tried!(Exposure::new(opening, closing));
-        let shapes = [Shape::new(opening), Shape::new(closing)];
+        let (exposure, shapes) = tried!(Exposure::new(opening, closing));
         let unit = time_unit(exposure.end(Start), exposure.end(End));
         let [open, close] = [exposure.join(Start), exposure.join(End)];
         let mut plan = Self {

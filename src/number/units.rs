@@ -31,7 +31,7 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
 /// The bits of 2⁻²⁸, the least top of an octave; a fraction of 0 is below all octaves. One more octave would never get
-/// a polynomial: [`OFF`](crate::octave::certificate::OFF) alone would use up its error.
+/// a polynomial: [`JOIN_OFF`](crate::octave::certificate::JOIN_OFF) alone would use up its error.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// The bits of tops are multiples of this, eight to a power of two, so that each top fits a `u8`.
 pub(crate) const TOP_STEP: u32 = 1 << 20;
@@ -91,8 +91,8 @@ pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     if x < 0.0 { -units } else { units }
 }
 
-/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN. (Of an `f32` it would be slower: a frame begins
-/// with two such conversions.)
+/// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN. ([`fixed`] is faster, for the two ends by which a
+/// frame begins.)
 // proofs/words.py: fixed_f64
 #[inline(never)]
 pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {

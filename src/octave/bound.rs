@@ -65,11 +65,11 @@ const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 /// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a
 /// *weight*, a cubic of `s`.
 pub(crate) struct Errors {
-    /// By 1.
+    /// Weight: 1.
     pub(crate) time: f32,
-    /// By the openness.
+    /// Weight: the openness.
     pub(crate) exposure: f32,
-    /// By a bound of 1 / size.
+    /// Weight: a bound of 1 / size.
     pub(crate) relative: f32,
 }
 

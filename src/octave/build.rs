@@ -41,10 +41,12 @@ pub(crate) const fn build(
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
         let (top, count) = View { exposure, shapes, side, ramp, unit }.octaves(rest);
-        // A stored top is below 8 = 2³, and so less than 31 · 8 = 248 steps above 2⁻²⁸: it fits a byte. For let the far
-        // ramp have n octaves, the first with a top f < 1, the last with l = 2 f / 2ⁿ. Then l is above the near ramp's
-        // join and above LEAST_TOP / 2. The near ramp's top is below twice its join or below 2 LEAST_TOP, so below 4 l;
-        // stored, times 2ⁿ, it is below 8 f. (Without octaves it is less.)
+        // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 steps above LEAST_TOP = 2⁻²⁸.
+        // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
+        // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above the near ramp's join and
+        //   above LEAST_TOP / 2.
+        // - The near ramp's first top is below twice the greater of its join and LEAST_TOP. So it is below 4 times the
+        //   far ramp's last top, and times 2ⁿ below 8 times the far ramp's first one.
         tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
         first += count;
         i += 1;
@@ -58,9 +60,9 @@ impl View<'_> {
     const fn octaves(&self, octaves: &mut [Octave]) -> (u32, usize) {
         let range = range(self.exposure, self.side, self.ramp);
         if range[0] >= range[1] {
-            // No octaves. A far ramp without any is never looked up. For a near one without any, the fractions up to
-            // FINE are, its own and the plateau's (see `range`). Its top is at or above all of these, so their index is
-            // behind the far ramp's octaves; there all is NONE, and a search answers.
+            // No octaves, so a search has to answer. A far ramp without any is never looked up. A near one is, by
+            // fractions up to FINE, its own and the plateau's (see `range`). Its top is at or above all of these: so
+            // their index is behind the far ramp's octaves, where all are NONE.
             let far = self.exposure.joins(self.side)[1];
             return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
         }

@@ -51,7 +51,7 @@ impl View<'_> {
             bound = c[k].abs() as f32 + bound * reach;
             // A NaN stays.
             most = if bound <= most { most } else { bound };
-            k = k - 1;
+            k -= 1;
         }
         steep = steep * reach + bound;
         // All of Horner's sums are at most `most`, with what rounding adds.
@@ -70,7 +70,7 @@ impl View<'_> {
         let mut k = DEGREE;
         while k > 0 {
             octave.c[DEGREE - k] = rounded(c[k], exponent);
-            k = k - 1;
+            k -= 1;
         }
         let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
         // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.

@@ -14,10 +14,13 @@ pub(crate) const FORWARD_ERROR: f32 = 1.5 / (1u32 << 27) as f32;
 /// least an ulp of the lesser one apart.
 pub(crate) const ULP_ERROR: f32 = 0.49;
 
-/// How far off a fraction may be: by `OFF[0]`, as joins are rounded in a look-up; and by `OFF[1]` of itself on a path,
-/// as a sum of terms up to 1083 times as great, with 60 roundings of an `f64`.
+/// How far off a fraction may be in a look-up, since joins are rounded.
 // proofs/certificate.py
-pub(crate) const OFF: [f32; 2] = [1.0 / (1u64 << 54) as f32, 1.0 / (1u64 << 36) as f32];
+pub(crate) const JOIN_OFF: f32 = 1.0 / (1u64 << 54) as f32;
+/// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 1083 times as great, with 60
+/// roundings of an `f64`.
+// proofs/certificate.py
+pub(crate) const FRACTION_OFF: f32 = 1.0 / (1u64 << 36) as f32;
 /// The greatest offset, in widths; a word ends at 1/2.
 // proofs/octaves.py
 const MOST_OFFSET: f32 = 0.4999;
@@ -67,10 +70,8 @@ impl View<'_> {
         let Candidate { ref octave, middle, step, steep, truncated } = *candidate;
         let exposure = self.exposure;
         let ends = [value(&along.time, -1.0), value(&along.time, 1.0)];
-        let (off, ulp) = (
-            OFF[0] + OFF[1] * span.to,
-            power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23),
-        );
+        let off = JOIN_OFF + FRACTION_OFF * span.to;
+        let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
         let single_step = step as f32;
         // The share `backward` of an error of one step at openness 1, in `f64`, since an area may be 2⁻¹²⁶. As no span
         // begins below LEAST_TOP / 2, `ULP_ERROR * ulp` is above `off` (proofs/certificate.py).
@@ -156,7 +157,7 @@ impl View<'_> {
             && p * (3.0 * d0 + p * (3.0 * (d1 - d0) + p * (d0 - 2.0 * d1 + d2))) < time
         {
             p *= 2.0;
-            doublings = doublings - 1;
+            doublings -= 1;
         }
         // |f'| <= 3 differences
         let differences = (f1 - f0).abs() + (f3 - f2).abs() + (f2 - f1).abs();

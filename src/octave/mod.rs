@@ -47,7 +47,7 @@ pub(crate) struct Octave {
 pub(crate) const DEGREE: usize = 8;
 
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
-pub(crate) const SHIFT: u32 = 31;
+pub(crate) const SHIFT_MASK: u32 = 31;
 
 /// The bits of a top that is `steps` [`TOP_STEP`]s above [`LEAST_TOP`].
 #[inline(always)]
@@ -72,7 +72,7 @@ impl Octave {
     /// [`span`]).
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
-        position.wrapping_sub(self.center as i32) << (self.center & SHIFT)
+        position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK)
     }
 
     /// The time, in the plan's unit, at an offset.

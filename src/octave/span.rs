@@ -1,7 +1,7 @@
 //! A span: the part of an octave that its polynomial serves, and how its positions become offsets.
 
 use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
-use crate::octave::SHIFT;
+use crate::octave::SHIFT_MASK;
 use crate::octave::path::{Path, scale};
 
 /// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a
@@ -50,7 +50,7 @@ impl Span {
 
     /// The position of the middle plus 2³², the shift in its lowest bits. Its lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
-        fixed(self.middle, exponent(self.power) - 32) & !(SHIFT as i64) | self.shift as i64
+        fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
 
     /// The stretch with positions for its fractions.

@@ -9,8 +9,8 @@ use crate::search::{Anchor, ROUNDING, Taylor, Tolerance, left, solve};
 
 /// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
 /// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
-/// least 2⁻²⁴ of it apart. Only on a ramp across time 0 may it exceed `|t|`; there [`on_grid`] leaves times about 2⁻²⁶
-/// of it apart.
+/// least 2⁻²⁴ of it apart. Only on a ramp across time 0 may it exceed `|t|`; there [`Ramp::on_grid`] leaves times
+/// about 2⁻²⁶ of it apart.
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
 /// 1/8 to 1/4 of a ramp's mean `t'`, since a ramp is one to two [`LENGTH`]s long. If the least `t'` is below this, a
@@ -25,6 +25,14 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl Ramp {
+    /// The time `t`. On a ramp across time 0, where `f32` are denser than a search is exact, it is rounded to a
+    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+    #[inline(always)]
+    pub(crate) const fn on_grid(&self, t: f32) -> f32 {
+        let [start, end] = [self.time(Start), self.time(End)];
+        if start < 0.0 && end > 0.0 { gridded(start, end, t) } else { t }
+    }
+
     /// The point at `t`, which lies on the ramp and [`on_grid`](Self::on_grid).
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
@@ -72,8 +80,8 @@ impl Ramp {
         let place = Pair::sum(x, step);
         // Not another root of the cubic, beyond the ramp. A negative one has greater bits, too.
         let is_inside = place.hi.to_bits() <= LAST_PLACE.to_bits();
-        let left = left(&single, &local, 0.0, missing, step, ROUNDING);
-        if is_inside & (left <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None }
+        let rest = left(&single, &local, 0.0, missing, step, ROUNDING);
+        if is_inside & (rest <= 0.75 * (TIME_ERROR * target.hi)) { Some(place) } else { None }
     }
 
     /// The place at which `target` has passed, by a search.
@@ -91,10 +99,10 @@ impl Ramp {
             let sought = target.difference(series.at(slowest));
             if sought.abs() < target.hi {
                 let [c1, c2, c3] = around([series.c[0], series.c[1], series.last], slowest);
-                let (back, sought) = (sought.to_bits() & BACK, sought.abs());
-                let (place, c) = (Pair::new(slowest), [c1, flipped(c2, back), c3]);
+                let (sign, sought) = (sought.to_bits() & BACK, sought.abs());
+                let (place, c) = (Pair::new(slowest), [c1, flipped(c2, sign), c3]);
                 // A time's cubic loses less than a mass: no more rounding than from an end (proofs/solve.py).
-                anchor = Anchor { place, back, c, sought, rounding: ROUNDING };
+                anchor = Anchor { place, sign, c, sought, rounding: ROUNDING };
             }
         }
         let error = TIME_ERROR * target.hi;
@@ -109,7 +117,7 @@ impl Ramp {
         let f = if side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
         let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
         let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
-        // The greatest f is about 2⁶⁰, so second numbers and products with the least place are normal where they count.
+        // The greatest f is about 2⁶⁰: so second numbers, and products with small places, are normal where they count.
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
         let second = d[1].minus_loose(d[0]);
         let c = [d[0].thrice(), second.thrice()];
@@ -140,9 +148,9 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the errors of two numbers: of [`mass`](Self::mass) here, and of the mass at which a search from a
-    /// side ends that aims at nearly this one. It is 2⁻³⁹ of the terms from the start and of those from the side.
-    /// Measuring takes half of that ([`Series::at_pair`]), and the search's last step has the other half.
+    /// A bound of the sum of two errors: that of [`mass`](Self::mass) here, at most 2⁻³⁹ of the terms from the start;
+    /// and that of the mass at which a search from a side ends that aims at nearly this one, at most 2⁻³⁹ of the terms
+    /// from the side.
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
@@ -156,18 +164,9 @@ impl RampPoint<'_> {
     }
 }
 
-impl Ramp {
-    /// The time `t`. On a ramp across time 0, where `f32` are denser than a search is exact, it is rounded to a
-    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
-    #[inline(always)]
-    pub(crate) const fn on_grid(&self, t: f32) -> f32 {
-        let [start, end] = [self.time(Start), self.time(End)];
-        if start < 0.0 && end > 0.0 { on_grid(start, end, t) } else { t }
-    }
-}
-
+/// [`Ramp::on_grid`] between two ends, one on either side of time 0.
 #[inline(never)]
-const fn on_grid(start: f32, end: f32, t: f32) -> f32 {
+const fn gridded(start: f32, end: f32, t: f32) -> f32 {
     let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
     if t.abs() >= half || t == start || t == end {
         return t;

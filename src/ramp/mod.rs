@@ -44,7 +44,7 @@ const FROM_FLAT: f32 = 3.0 * ROUNDING;
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct End {
+struct RampEnd {
     /// The time of the end.
     at: f32,
     /// The time between here and a place, without its last coefficient.
@@ -53,7 +53,7 @@ struct End {
     mass: [Pair; 5],
 }
 
-impl End {
+impl RampEnd {
     /// Without its series.
     const fn new(at: f32) -> Self {
         Self { at, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] }
@@ -75,9 +75,9 @@ impl Flat {
     /// No flat place: no mass is near to it.
     const NONE: Self = Self { place: 0.0, mass: Pair { hi: f32::INFINITY, lo: 0.0 }, c: [0.0; 4] };
 
-    /// The end from which all counts.
+    /// The side of the end from which all counts.
     #[inline(always)]
-    const fn end(&self) -> Side {
+    const fn side(&self) -> Side {
         Side::end_if(self.place.is_sign_negative())
     }
 }
@@ -86,7 +86,7 @@ impl Flat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ramp {
     /// The earlier end and the later one.
-    ends: [End; 2],
+    ends: [RampEnd; 2],
     /// The last coefficient of both ends' time.
     last_of_time: Pair,
     /// The last coefficient of the earlier end's mass; the later one's is minus that.
@@ -107,7 +107,7 @@ impl Ramp {
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
         let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
         let mut ramp = Self {
-            ends: [End::new(start), End::new(end)],
+            ends: [RampEnd::new(start), RampEnd::new(end)],
             last_of_time: Pair::ZERO,
             last_of_mass: Pair::ZERO,
             openness: shape.f,
@@ -148,7 +148,7 @@ impl Ramp {
 
     /// The end that faces a side.
     #[inline(always)]
-    const fn end(&self, side: Side) -> &End {
+    const fn end(&self, side: Side) -> &RampEnd {
         &self.ends[side as usize]
     }
 
@@ -220,7 +220,7 @@ impl Ramp {
         let mut i = 0;
         while i < 2 {
             let flat = &self.flats[i];
-            let from_flat = if flat.end().is(side) {
+            let from_flat = if flat.side().is(side) {
                 target.difference(flat.mass)
             } else {
                 from_other.difference(flat.mass.negated())
@@ -236,23 +236,23 @@ impl Ramp {
         }
         if nearest == 2 {
             let (place, c) = (Pair::new(LAST_PLACE), self.mass_in_single(side.other()));
-            return Anchor { place, back: BACK, c, sought: -sought, rounding: FROM_OTHER };
+            return Anchor { place, sign: BACK, c, sought: -sought, rounding: FROM_OTHER };
         }
         let flat = &self.flats[nearest & 1];
-        let [.., c5, c6] = self.mass_in_single(flat.end());
+        let [.., c5, c6] = self.mass_in_single(flat.side());
         let [c1, c2, c3, c4] = flat.c;
         let from_end = flat.place.abs();
         // Around `from_end` the fifth coefficient is c5 + 6 c6 from_end, and the sixth c6.
         let c5 = c5 + 6.0 * c6 * from_end;
-        // Do the powers count back, from the other end?
-        let (base, counts_back) = if flat.end().is(side) { (0.0, 0) } else { (LAST_PLACE, BACK) };
-        let place = Pair::sum(base, flipped(from_end, counts_back));
-        let back = sought.to_bits() & BACK;
+        // The signs of the powers, which may count back from the other end, and of the way.
+        let (base, powers_sign) = if flat.side().is(side) { (0.0, 0) } else { (LAST_PLACE, BACK) };
+        let place = Pair::sum(base, flipped(from_end, powers_sign));
+        let sign = sought.to_bits() & BACK;
         // Mirrored if the powers count away from the target: with x for -x, and the mass negated, 3x + 2x² + x³ becomes
         // 3x - 2x² + x³.
-        let mirror = counts_back ^ back;
+        let mirror = powers_sign ^ sign;
         let c = [c1, flipped(c2, mirror), c3, flipped(c4, mirror), c5, flipped(c6, mirror)];
-        Anchor { place, back, c, sought: sought.abs(), rounding: FROM_FLAT }
+        Anchor { place, sign, c, sought: sought.abs(), rounding: FROM_FLAT }
     }
 }
 

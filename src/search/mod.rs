@@ -53,8 +53,8 @@ const ULP: f32 = f32::EPSILON;
 /// Where a search starts: a place on the ramp, and the series around it in the direction of the target.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
-    /// The sign bit if the target lies back from here, 0 if ahead.
-    pub(crate) back: u32,
+    /// Of the way to the target: the sign bit if that lies back from here, 0 if ahead.
+    pub(crate) sign: u32,
     /// The series from here, by powers of the distance towards the target.
     pub(crate) c: [f32; N],
     /// What it has to reach, at least 0.
@@ -67,13 +67,13 @@ impl<const N: usize> Anchor<N> {
     /// The end of the ramp from which the pairs count.
     #[inline(always)]
     pub(crate) const fn end(c: [f32; N], sought: f32) -> Self {
-        Self { place: Pair::ZERO, back: 0, c, sought, rounding: ROUNDING }
+        Self { place: Pair::ZERO, sign: 0, c, sought, rounding: ROUNDING }
     }
 
     /// From the anchor to the place `p`.
     #[inline(always)]
     const fn distance(&self, p: f32) -> f32 {
-        flipped((p - self.place.hi) - self.place.lo, self.back)
+        flipped((p - self.place.hi) - self.place.lo, self.sign)
     }
 
     /// Steps from the guess until less than [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are
@@ -83,7 +83,7 @@ impl<const N: usize> Anchor<N> {
         // In bits: comparing integers does not wait for the FPU, and a NaN is too much.
         let hardly_any = (PAIRS_BELOW * self.sought + wanted).to_bits() as i32;
         // To the end of the ramp.
-        let reach = if self.back == 0 { LAST_PLACE - self.place.hi } else { self.place.hi };
+        let reach = if self.sign == 0 { LAST_PLACE - self.place.hi } else { self.place.hi };
         let most_reach = reach.to_bits() as i32;
         let guess = guess(&self.c, self.sought);
         // Not all of the reach: at the ramp's end the density may be 0.
@@ -238,14 +238,14 @@ pub(crate) const fn solve<const N: usize>(
     anchor: &Anchor<N>,
     error: &Tolerance,
 ) -> Found {
-    let Anchor { place, back, c, sought, rounding } = *anchor;
+    let Anchor { place, sign, c, sought, rounding } = *anchor;
     // Exit: the anchor itself.
     if sought <= 0.5 * error.wanted {
         return Found { place, evaluations: 0 };
     }
     let (mut local, mut evaluations) = anchor.approach(error.wanted);
     // Only an `f32` can be measured: `p`, at `x + moved` from the anchor. If that is far from `x`, the slopes differ.
-    let mut p = place.hi + flipped(local.x, back);
+    let mut p = place.hi + flipped(local.x, sign);
     let mut distance = anchor.distance(p);
     let mut moved = distance - local.x;
     let mut needs_slopes = moved.abs() > MOVED * local.x;
@@ -258,9 +258,9 @@ pub(crate) const fn solve<const N: usize>(
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut bracket.low } else { &mut bracket.high }) = p.to_bits() as i32;
-        let missing = flipped(missing, back);
+        let missing = flipped(missing, sign);
         let step = local.short_step(missing);
-        let way = flipped(step, back);
+        let way = flipped(step, sign);
         let end = p + way;
         let is_inside = bracket.holds(end);
         let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };

@@ -4,9 +4,9 @@ use crate::answer::plan::Plan;
 use crate::error::ScheduleError;
 use crate::fraction::{Fraction, Side};
 
-/// An interval has at most 2^`MOST_TICKS` ticks: half of what a timer of 32 bits counts, so that it tells before from
+/// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that it tells before from
 /// after.
-const MOST_TICKS: i32 = 31;
+const TICK_BITS: i32 = 31;
 /// The most triggers in a frame: so `2i + 1` and `2n` are whole numbers of 24 bits, exact as `f32`.
 pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 
@@ -32,7 +32,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         }
         let (start, unit) = (plan.end_in_units(Side::Start), plan.unit());
         let length = (plan.end_in_units(Side::End) - start) as u64;
-        if exponent_of_ticks(length, ticks_per_unit, unit) > MOST_TICKS {
+        if exponent_of_ticks(length, ticks_per_unit, unit) > TICK_BITS {
             return Err(too_high(length, ticks_per_unit, unit));
         }
         Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
@@ -93,7 +93,7 @@ const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError 
     let (mut most, mut fail) = (0, ticks_per_unit);
     while fail - most > 1 {
         let middle = most + (fail - most) / 2;
-        let fits = exponent_of_ticks(length, middle, unit) <= MOST_TICKS;
+        let fits = exponent_of_ticks(length, middle, unit) <= TICK_BITS;
         *(if fits { &mut most } else { &mut fail }) = middle;
     }
     ScheduleError::TickRateTooHigh { most }
@@ -135,7 +135,7 @@ impl TickScale {
         // polynomial's would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that; the
         // plateau's line is rounded down; and `Moment::in_units` stops searches.
         let delay = if delay > 0 { delay as u64 } else { 0 };
-        // `up` is mostly 0, and never 1.
+        // Most curves need no shift. `up` is never 1 (see `new`).
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);

@@ -177,6 +177,7 @@ fn no_step_back_and_no_error_where_one_way_follows_another() {
     }
     for (change, seen) in CHANGES.iter().zip(seen) {
         println!("{change}: {seen}");
-        assert!(seen > 0, "{change} not seen");
+        // Not just once: at a ramp's very end any way is quick.
+        assert!(seen >= 20, "{change} seen {seen} times");
     }
 }

@@ -5,12 +5,11 @@ use crate::fraction::Side;
 use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES};
-use crate::octave::certificate::{FORWARD_ERROR, OFF, Shares, ULP_ERROR};
+use crate::octave::certificate::{FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, Shares, ULP_ERROR};
 use crate::octave::path::{Path, View, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below, top};
 use crate::ramp::bezier::CubicBezier;
-use crate::ramp::shape::Shape;
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::curves::{Rng, hard_openness, hard_times, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact, ulp_f32};
@@ -43,10 +42,9 @@ impl Truth {
     /// Judges all octaves of a curve along `samples` places each, by the way that an answer takes from a position on.
     fn judge<const OCTAVES: usize>(&mut self, curve: &Curve, samples: u32) {
         let ramps = [curve.opening, curve.closing].map(CubicBezier::new);
-        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else {
+        let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
-        let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
         let (exact, unit) =
             (Exact::new(curve), time_unit(exposure.end(Side::Start), exposure.end(Side::End)));
         for side in Side::BOTH {
@@ -90,7 +88,7 @@ impl View<'_> {
         let bounds = self.certificate(&candidate, span, stretch, places);
         let start = fixed(self.exposure.end(self.side), self.unit);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
-        let trace = Dd::from(f64::from(OFF[0] + OFF[1] * span.to));
+        let trace = Dd::from(f64::from(JOIN_OFF + FRACTION_OFF * span.to));
         // The span itself rounds its end.
         let end = range(self.exposure, self.side, self.ramp)[1].min(f64::from(span.to));
         for i in 0..=samples {
@@ -191,8 +189,7 @@ fn an_offset_beyond_its_word_is_refused() {
     let opening = std::array::from_fn(|k| (thirds[k], thirds[k]));
     let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
     let ramps = [opening, closing].map(CubicBezier::new);
-    let exposure = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
-    let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
+    let (exposure, shapes) = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
     let unit = time_unit(exposure.end(Side::Start), exposure.end(Side::End));
     let mut judged = 0;
     for side in Side::BOTH {
@@ -234,8 +231,7 @@ fn the_openness_beyond_a_join_is_bounded() {
         let opening: [_; 4] = std::array::from_fn(|k| (t[k] as f32, f[k] as f32));
         let closing = std::array::from_fn(|k| (2.0 - opening[3 - k].0, opening[3 - k].1));
         let ramps = [opening, closing].map(CubicBezier::new);
-        let Ok(exposure) = Exposure::new(&ramps[0], &ramps[1]) else { return };
-        let shapes = [Shape::new(&ramps[0]), Shape::new(&ramps[1])];
+        let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else { return };
         let bounds = Side::BOTH.map(|ramp| {
             View { exposure: &exposure, shapes: &shapes, side: ramp, ramp, unit: 0 }
                 .greatest_beyond(time)
