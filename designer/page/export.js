@@ -4,8 +4,8 @@ import { $, button, element, watch } from './dom.js';
 import { change, model } from './model.js';
 import { inWords, remedies } from './remedies.js';
 import { copy, plain, save } from './save.js';
-import { toml } from './scene.js';
 import * as studio from './studio.js';
+import { toml } from './toml.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON'], ['pico', 'Pico']];
 

@@ -46,7 +46,7 @@ async function loadTraces() {
 
 async function loadTester() {
   tester = await import('./speeds.js');
-  tester.start();
+  tester.start(loadTraces);
   render(model);
 }
 

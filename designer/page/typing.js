@@ -3,10 +3,9 @@
 import { $ } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { INNER, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, straight, tidy, withInner, withLamp, withTimes } from './scene.js';
+import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, tidy, withInner, withTimes } from './scene.js';
 
 const KINDS = { triggers: 'count', timer_hz: 'rate' };
-const LAMP = ['pulse', 'duty', 'min_pulse'];
 
 let loadTraces;
 
@@ -66,6 +65,22 @@ async function setTriggers(n, key) {
   if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
   if (!(Number.isInteger(n) && n > 0 && n <= 10_000)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
   (await loadTraces()).read(trace.file, trace.asked, n);
+}
+
+// The scene with straight ramps, or again with those that it had before.
+function straight(scene, isStraight) {
+  const { inner, spare } = scene;
+  return isStraight ? { ...withInner(scene, null), spare: { ...spare, inner } } : withInner(scene, spare.inner ?? innerOf(scene));
+}
+
+// The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses.
+function withLamp(scene, kind, length) {
+  const { pulse, duty, min_pulse } = scene;
+  const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
+  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null };
+  if (kind === 'pulse') next.pulse = spare.pulse ?? length;
+  if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
+  return next;
 }
 
 function onInput({ target }) {
