@@ -103,9 +103,10 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const fit = answer.Ok?.fit.Ok;
-    // A link has commas and semicolons between them.
-    const words = [file.name, fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${answer.Err?.reason ?? answer.Ok.fit.Err.text}`];
-    speeds.push([...words.map((it) => it.replace(/[,;]/g, ' ').slice(0, 120)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
+    // A link has commas and semicolons between them; of what is wrong it has the first words.
+    const why = answer.Err?.reason ?? answer.Ok.fit.Err?.text;
+    const words = [file.name.replace(/[,;]/g, ' '), fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${why.split(/[;\n]/)[0].replaceAll(',', '')}`];
+    speeds.push([...words.map((it) => (it.length > 120 ? `${it.slice(0, 119)}…` : it)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
   }
   tell({ busy: null });
   remember(files);
