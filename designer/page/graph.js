@@ -158,7 +158,7 @@ export class Graph {
     const isKnown = !scene.measured || (s >= first && s <= last);
     const part = isKnown ? `${short(100 * u, 3)} %` : `${s < first ? 'under' : 'over'} ${short((s < first ? 50 : 100 * view.marks.length - 50) / view.marks.length, 3)} %`;
     const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
-    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(100 * openness(view, s), 3)} % open`, `${part} collected`];
+    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(Math.round(1e4 * openness(view, s)) / 100, 3)} % open`, `${part} collected`];
     const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
     if (view.plan.Ok) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
     return parts.join(' · ');

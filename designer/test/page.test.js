@@ -264,11 +264,16 @@ test('numbers are read as people write them, and a separator of thousands is ref
   assert.equal(await copied('toml'), before);
 });
 
-test('at 1024 pixels no number is cut', async () => {
+test('at 1024 pixels no number is cut, nor one of the ticks at 320', async () => {
   await open('#name=long&unit=µs&times=-1234.5678,1262.68902,4671.17877,8710.60274&inner=0.1227014,0.0005208,0.1941086,0.9329666,0.75,0.91,0.87,0.001&triggers=10000&timer_hz=4294967295&min_gap=0.0012345&nominal=12345.678&pulse=0.012345&delay=123456.78'.replace('4294967295', '100000000'), { width: 1024, height: 2800 });
   const cut = await page.$$eval('#numbers input:not([type])', (all) => all.filter((it) => it.offsetWidth && it.scrollWidth > it.clientWidth).map((it) => `${it.id} ${it.value}`));
   assert.deepEqual(cut, []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1024);
+  for (const width of [1024, 320]) {
+    await page.setViewport({ width, height: 5000 });
+    await page.waitForSelector('#ticks td');
+    assert.deepEqual(await page.$$eval('#ticks :is(th, td)', (all) => all.filter((it) => it.scrollWidth > it.clientWidth).map((it) => it.textContent)), [], String(width));
+  }
 });
 
 test('a handle keeps within what is allowed: it slides along the border, and nothing else moves', async () => {
