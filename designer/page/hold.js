@@ -2,7 +2,7 @@
 
 import { $, button, watch } from './dom.js';
 import { limits, placeOf } from './edge.js';
-import { change } from './model.js';
+import { mend } from './export.js';
 import { remedies } from './remedies.js';
 import { lampOf, short } from './scene.js';
 import { view } from './view.js';
@@ -21,13 +21,13 @@ function heldBy(scene, i) {
   }
   if (answer.Ok && wrong && !lampOf(scene)) {
     const words = `Further, ${scene.triggers} flashes would come closer than ${short(scene.min_gap)} ${scene.unit}.`;
-    return { words, remedies: remedies(scene).map(([words, changes]) => [words, { ...scene, ...changes }]) };
+    return { words, remedies: remedies(scene) };
   }
   const reason = wrong?.reason ?? 'Further is not possible.';
   if (/back/.test(reason)) return { words: 'Further, the curve would run back in time.', remedies: [] };
   if (o > 1 || /above 1/.test(reason)) return { words: 'Fully open is 1: the curve cannot go above.', remedies: [] };
   if (o < 0 || /below 0/.test(reason)) return { words: 'Closed is 0: the curve cannot go below.', remedies: [] };
-  return { words: reason, remedies: answer.Ok ? remedies(scene).map(([words, changes]) => [words, { ...scene, ...changes }]) : [] };
+  return { words: reason, remedies: answer.Ok ? remedies(scene) : [] };
 }
 
 const isNew = watch(), isOther = watch();
@@ -40,7 +40,7 @@ export function draw({ hold }, graph) {
   if (!hold) return;
   const { words, remedies } = heldBy(hold.tried, hold.i);
   if (isOther(words, ...remedies.flat())) {
-    box.replaceChildren(words, ...remedies.map(([words, scene]) => button(words, () => change({ scene: { ...scene, given: [...scene.given, 'triggers', 'min_gap', 'lamp'] } }))));
+    box.replaceChildren(words, ...remedies.map(([words, changes]) => button(words, () => mend(changes, hold.tried))));
   }
   const x = graph.x(hold.t);
   const left = x > graph.x(0.5 * (graph.range[0] + graph.range[1])) ? `calc(${x - 18}px - 100%)` : `${x + 18}px`;

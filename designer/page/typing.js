@@ -53,8 +53,7 @@ function echo(input, value) {
 }
 
 /** Changes the scene; of the numbers, `keys` are a person's from now on. */
-function give(changes, keys, key) {
-  const { scene } = model.now;
+export function give(changes, keys = Object.keys(changes).map((key) => (LAMP.includes(key) ? 'lamp' : key)), key, scene = model.now.scene) {
   change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...keys])] } }, { key });
 }
 
@@ -104,7 +103,7 @@ function onInput({ target }) {
   // A ramp keeps its shape when its time is typed, as when it is dragged.
   else if (i >= 0) give(withTimes(model.good?.unit === scene.unit ? { ...scene, ...shapeOf(model.good) } : scene, scene.times.with(i, value)), [], id);
   else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
-  else give({ [id]: value }, [LAMP.includes(id) ? 'lamp' : id], id);
+  else give({ [id]: value }, undefined, id);
 }
 
 const shapeOf = ({ times, inner, spare }) => ({ times, inner, spare });
