@@ -121,7 +121,7 @@ export class Graph {
     };
   }
 
-  /** The cursor of the model at a time in the scene's unit; at none. */
+  /** The model's cursor at a time in the scene's unit; none without a time. */
   cursorAt(t) {
     return { cursor: Number.isFinite(t) ? t / this.perUnit : null, isPlaying: false };
   }
@@ -172,7 +172,7 @@ export class Graph {
     this.bottom = TOP + this.height;
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
-    const per = perSecond(this.scene.unit);
+    const per = this.perUnit;
     const points = [this.view, ...(this.other ? [this.other] : [])].flatMap((view) => view.ramps.flat());
     // A trace is seen whole, as far as there is light.
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
@@ -236,7 +236,7 @@ export class Graph {
     const isFitted = fit && isSameShape(trace.scene, this.scene);
     this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
     this.fit();
-    const per = perSecond(this.scene.unit);
+    const per = this.perUnit;
     const f = (x) => x.toFixed(1);
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
