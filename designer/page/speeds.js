@@ -32,8 +32,10 @@ function row([name, kind, exposure, error, scatter, pulses]) {
   const file = files.get(name);
   title.append(file ? button(name, async () => (await loadTraces()).bring([file]), { class: 'plain', title: 'Show this trace' }) : name);
   const speed = nearest(exposure);
-  const [value, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
-  const cells = exposure ? [speed ? dial(speed) : '–', `${short(exposure * value, 4)} ± ${short(error * value, 1)} ${unit}`, speed ? stops(exposure, speed) : '–',
+  const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
+  // The last digit of each is of the same size.
+  const off = short(error * by, 1), places = Math.min(9, Math.max(0, -Math.floor(Math.log10(off))));
+  const cells = exposure ? [speed ? dial(speed) : '–', `${(exposure * by).toFixed(places)} ± ${off} ${unit}`, speed ? stops(exposure, speed) : '–',
     pulses > 1 ? `${short(100 * scatter, 2)} %` : '–', pulses, kind] : ['–', '–', '–', '–', '–', kind];
   made.append(title, ...cells.map((cell) => element('td', String(cell))));
   return made;
