@@ -1,11 +1,12 @@
 // The plan in the forms that a firmware or a script takes: shown, copied, saved; or why there is none, and what would help.
 
 import { $, button, element, watch } from './dom.js';
-import { change, model } from './model.js';
+import { model } from './model.js';
 import { inWords, remedies } from './remedies.js';
 import { copy, plain, save } from './save.js';
-import { toml } from './scene.js';
 import * as studio from './studio.js';
+import { toml } from './toml.js';
+import { give } from './typing.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON'], ['pico', 'Pico']];
 
@@ -98,9 +99,8 @@ function show({ text, reason, remedies = [] }) {
   $('code').replaceChildren(fold, text.slice(head.length));
 }
 
-/** Changes the scene as a remedy says, or leads to the field that does. */
-export function mend(changes) {
-  if (typeof changes === 'string') return $(changes).focus();
-  const { scene } = model.now;
-  change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...Object.keys(changes)])] } });
+/** Changes a scene as a remedy says, or leads to the field that does. */
+export function mend(changes, scene) {
+  if (typeof changes === 'string') $(changes).focus();
+  else give(changes, undefined, undefined, scene);
 }

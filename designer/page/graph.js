@@ -1,8 +1,8 @@
 // The curve with the equal shares and the triggers, a trace, another curve beside it; below it the share of the exposure.
 
-import { $, button, element, svg, watch, write } from './dom.js';
+import { $, element, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
-import { change, model, tell } from './model.js';
+import { model, tell } from './model.js';
 import { isSameShape, perSecond, short, tidy } from './scene.js';
 import { view as viewOf } from './view.js';
 
@@ -67,7 +67,7 @@ export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum +
 export class Graph {
   constructor(box) {
     this.box = box;
-    this.isNew = { all: watch(), cursor: watch(), hold: watch(), words: watch(), other: watch(), trace: watch() };
+    this.isNew = { all: watch(), cursor: watch(), other: watch(), trace: watch() };
     const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
@@ -121,7 +121,7 @@ export class Graph {
     };
   }
 
-  /** The cursor of the model at a time in the scene's unit; at none. */
+  /** The model's cursor at a time in the scene's unit; none without a time. */
   cursorAt(t) {
     return { cursor: Number.isFinite(t) ? t / this.perUnit : null, isPlaying: false };
   }
@@ -131,14 +131,13 @@ export class Graph {
   }
 
   /** Draws the model; what has no curve of its own keeps the last one, which is marked. */
-  show({ now: { scene, other, trace }, last, cursor, isPlaying, hold }) {
+  show({ now: { scene, other, trace }, last, cursor, isPlaying }) {
     if (!last) return;
     Object.assign(this, { scene, view: last });
     if (this.isNew.other(other)) this.other = other && viewOf(other).Ok;
     if (this.isNew.trace(trace)) this.fitted = trace?.fit && viewOf(trace.scene).Ok;
     if (this.isNew.all(scene, last, other, trace, this.dragged)) this.draw();
     if (this.isNew.cursor(last, cursor, scene.unit, isPlaying, this.size)) this.point(cursor, isPlaying);
-    if (this.isNew.hold(hold, this.size)) this.tellHold(hold);
   }
 
   // The time that is pointed at, in words; and while an exposure plays, the triggers that have just fired.
@@ -152,19 +151,6 @@ export class Graph {
     write($('readout'), isRead && !isPlaying ? this.words(cursor, per) : '');
   }
 
-  // What holds a handle, beside it.
-  tellHold(hold) {
-    const box = $('hold');
-    box.hidden = !hold;
-    if (!hold) return;
-    const told = [hold.words, ...hold.remedies.flat()];
-    if (this.isNew.words(...told)) box.replaceChildren(hold.words, ...hold.remedies.map(([words, scene]) => button(words, () => change({ scene: { ...scene, given: [...scene.given, 'triggers', 'min_gap', 'lamp'] } }))));
-    const [x, y] = [this.x(hold.t), this.y(hold.o)];
-    const left = x > LEFT + this.width / 2 ? `calc(${x - 18}px - 100%)` : `${x + 18}px`;
-    // Moved so, it is no shift of the layout.
-    box.style.transform = `translate(${left}, ${Math.min(Math.max(y - 14, 4), this.bottom - 40)}px)`;
-  }
-
   words(s, per) {
     const { view, scene } = this;
     const u = shareAt(collected(this), s);
@@ -172,7 +158,7 @@ export class Graph {
     const isKnown = !scene.measured || (s >= first && s <= last);
     const part = isKnown ? `${short(100 * u, 3)} %` : `${s < first ? 'under' : 'over'} ${short((s < first ? 50 : 100 * view.marks.length - 50) / view.marks.length, 3)} %`;
     const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
-    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(100 * openness(view, s), 3)} % open`, `${part} collected`];
+    const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(Math.round(1e4 * openness(view, s)) / 100, 3)} % open`, `${part} collected`];
     const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
     if (view.plan.Ok) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
     return parts.join(' · ');
@@ -186,7 +172,7 @@ export class Graph {
     this.bottom = TOP + this.height;
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
-    const per = perSecond(this.scene.unit);
+    const per = this.perUnit;
     const points = [this.view, ...(this.other ? [this.other] : [])].flatMap((view) => view.ramps.flat());
     // A trace is seen whole, as far as there is light.
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
@@ -214,7 +200,7 @@ export class Graph {
   frame(height) {
     this.grid.replaceChildren();
     const line = (x1, y1, x2, y2, name) => svg('path', { d: `M${x1} ${y1}L${x2} ${y2}`, class: name ?? '' }, this.grid);
-    const text = (x, y, words, anchor, name = '') => (svg('text', { x, y, 'text-anchor': anchor, class: name }, this.grid).textContent = words);
+    const text = (x, y, words, anchor) => (svg('text', { x, y, 'text-anchor': anchor }, this.grid).textContent = words);
     const right = LEFT + this.width;
     for (const o of [0, 0.25, 0.5, 0.75, 1]) {
       line(LEFT, this.y(o), right, this.y(o), o === 0 || o === 1 ? 'bold' : '');
@@ -229,9 +215,9 @@ export class Graph {
       line(this.x(t), this.u(1), this.x(t), this.u(0));
       text(this.x(t), this.cdfBottom + 17, short(t, 6), 'middle');
     }
-    text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start', 'title');
-    if (this.samples) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start', 'title');
-    text(right, height - 8, `time (${this.scene.unit})`, 'end', 'title');
+    text(LEFT, this.u(1) - 8, 'share of the exposure collected', 'start');
+    if (this.samples) text(LEFT, this.bottom + 14, `trace minus curve, ${short(this.zoom(), 2)} times as high`, 'start');
+    text(right, height - 8, `time (${this.scene.unit})`, 'end');
     for (const [key, value] of Object.entries({ x: LEFT - 5, y: 0, width: this.width + 10, height })) this.framed.setAttribute(key, value);
   }
 
@@ -239,7 +225,7 @@ export class Graph {
   zoom() {
     const sizes = this.samples.map(([, , r]) => Math.abs(r)).sort((a, b) => a - b);
     const most = 1.4 * Math.max(sizes[Math.floor(0.98 * (sizes.length - 1))], 1e-5);
-    return Math.max(1, Number(((0.5 * (RESIDUAL - 20)) / most / (this.height / (this.high - this.low))).toPrecision(1)));
+    return Number(((0.5 * (RESIDUAL - 20)) / most / (this.height / (this.high - this.low))).toPrecision(1));
   }
 
   draw() {
@@ -250,7 +236,7 @@ export class Graph {
     const isFitted = fit && isSameShape(trace.scene, this.scene);
     this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
     this.fit();
-    const per = perSecond(this.scene.unit);
+    const per = this.perUnit;
     const f = (x) => x.toFixed(1);
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
@@ -269,8 +255,7 @@ export class Graph {
 
     const top = f(this.y(this.high));
     const shares = ['', ''];
-    if (!view.edges.length) shares[0] = '';
-    else if (view.edges.length <= MOST_SHARES) {
+    if (view.edges.length <= MOST_SHARES) {
       for (let i = 1; i < view.edges.length; i++) shares[i % 2] += `M${f(X(view.edges[i - 1]))} ${top}V${zero}H${f(X(view.edges[i]))}V${top}Z`;
     } else shares[0] = `M${start} ${top}V${zero}H${end}V${top}Z`;
     set(paths.even, shares[0]);

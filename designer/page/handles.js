@@ -3,7 +3,6 @@
 import { HANDLES, limits, moved, placeOf, slide } from './edge.js';
 import { svg } from './dom.js';
 import { change, model, tell } from './model.js';
-import { heldBy } from './remedies.js';
 import { INNER, innerOf, short, tidy } from './scene.js';
 import { allowed } from './view.js';
 
@@ -57,10 +56,9 @@ export class Handles {
     return { next: good, tried: next };
   }
 
-  // What holds a handle is told beside it.
   told(i, { next, tried }) {
     const [t, o] = placeOf(next, i);
-    return { hold: tried && { t, o, ...heldBy(tried, i) }, ...this.graph.cursorAt(t) };
+    return { hold: tried && { i, t, o, tried }, ...this.graph.cursorAt(t) };
   }
 
   key(event, i) {

@@ -1,4 +1,4 @@
-// The panels further down, which are loaded and written when they are seen: ticks and set-ups.
+// The panels further down, ticks and set-ups, which are written when they are seen.
 
 import { $, element, rows, svg, write as put } from './dom.js';
 import { openness } from './graph.js';

@@ -6,7 +6,6 @@ import { Graph } from './graph.js';
 import { change, go, model, start, tell } from './model.js';
 import * as panels from './panels.js';
 import * as photo from './photo.js';
-import { inWords, remedies } from './remedies.js';
 import { INNER, NUMBERS, TIMES, fromScene, hash, innerOf, lampOf, tidy } from './scene.js';
 import { load } from './view.js';
 
@@ -14,7 +13,7 @@ const isFrame = new URLSearchParams(location.search).has('embed');
 
 let graph;
 // What is loaded after the picture; and what is loaded when it is needed first.
-let exporter, typing, late;
+let late, exporter, typing, bar, hold;
 let player, traces, tester;
 const seen = new Set();
 
@@ -29,7 +28,8 @@ function render(model) {
   fields(model);
   panels.draw(model);
   exporter?.draw(model);
-  bar(model);
+  bar?.draw(model);
+  hold?.draw(model, graph);
   writeLate();
   if (traces || now.trace || model.note?.pending) traces ? traces.draw(model, graph.samples) : loadTraces();
   if (tester || now.speeds) tester ? tester.draw(model) : loadTester();
@@ -46,41 +46,13 @@ async function loadTraces() {
 
 async function loadTester() {
   tester = await import('./speeds.js');
-  tester.start();
+  tester.start(loadTraces);
   render(model);
 }
 
 const isLate = watch();
 function writeLate() {
   if (late && isLate(late, model.view, [...seen].join())) for (const id of seen) late.write(id, model);
-}
-
-// What is wrong, computed or told, where it is seen wherever one is.
-const isNew = watch();
-function bar({ wrong, busy, note, view, now: { scene } }) {
-  if (isNew(wrong, busy, busy?.words, note, view)) {
-    const isWrong = Boolean(wrong || note?.isWrong);
-    const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
-    const helps = wrong ? (view && !wrong.id ? remedies(scene).map(([words, changes]) => button(words, () => exporter.mend(changes))) : [])
-      : note ? [...(note.pending ? [button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' }))] : []), button('Close', () => tell({ note: null }))] : [];
-    $('problem').hidden = !words;
-    $('problem').classList.toggle('wrong', isWrong);
-    if ($('problem').firstElementChild.textContent !== words) $('problem').firstElementChild.textContent = words;
-    $('problem').lastElementChild.replaceChildren(...helps);
-    $('busy').hidden = !busy;
-    if (busy) write($('busy').firstElementChild, `${busy.words} …`);
-  }
-  const ramp = wrong?.ramp === 'closing' ? INNER.slice(4) : INNER.slice(0, 4);
-  const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.key === 'shutteropening' || wrong.ramp ? ramp : [wrong.key];
-  if (at.some((id) => INNER.includes(id))) $('inner').open = true;
-  for (const id of NUMBERS) {
-    const isWrong = at.includes(id);
-    if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
-    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
-      if (isWrong) $(id).setAttribute(name, value);
-      else $(id).removeAttribute(name);
-    }
-  }
 }
 
 function valueOf(scene, id) {
@@ -182,13 +154,7 @@ function listen() {
 }
 
 async function begin() {
-  try {
-    await load();
-  } catch (error) {
-    $('missing').textContent = `The page is not whole: ${error.message}. Load it again, in a browser with WebAssembly.`;
-    $('missing').classList.add('now');
-    return;
-  }
+  await load();
   document.body.classList.toggle('embed', isFrame);
   graph = new Graph($('graph'));
   offer();
@@ -197,15 +163,18 @@ async function begin() {
   listen();
   document.body.dataset.ready = '';
   performance.mark('ready');
-  const modules = ['./late.js', './export.js', './typing.js', './receive.js'].map((module) => import(module));
+  const modules = ['./late.js', './export.js', './typing.js', './bar.js', './hold.js', './receive.js'].map((module) => import(module));
   let receive;
-  [late, exporter, typing, receive] = await Promise.all(modules);
+  [late, exporter, typing, bar, hold, receive] = await Promise.all(modules);
   receive.start(loadTraces);
-  writeLate();
   exporter.start();
   typing.start(loadTraces, () => fields(model));
+  render(model);
   // Without it, which old browsers and private windows may refuse, the page needs its server.
   navigator.serviceWorker?.register('sw.js').catch(() => {});
 }
 
-begin();
+begin().catch((error) => {
+  $('missing').textContent = `The page is not whole: ${error.message}. Load it again, in a browser with WebAssembly.`;
+  $('missing').classList.add('now');
+});

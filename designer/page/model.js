@@ -19,8 +19,10 @@ export const model = {
   wrong: null,
   /** A time in seconds that is pointed at; is it that of an exposure that plays? */
   cursor: null, isPlaying: false,
-  /** What is being computed: { words, cancel }. What came of the last file: { words, isWrong }. What holds a handle. */
-  busy: null, note: null, hold: null,
+  /** What is being computed: { words, cancel }. What came of the last file: { words, isWrong }. */
+  busy: null, note: null,
+  /** A handle that does not follow: { i, t, o, tried }, of which the last is the scene that was asked for. */
+  hold: null,
   get isDraft() { return now() !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
   get canUndo() { return at > 0 || model.isDraft; },
   get canRedo() { return at < steps.length - 1; },

@@ -6,11 +6,10 @@ import { model, tell } from './model.js';
 /** How long an exposure takes here, in milliseconds. */
 const LENGTH = 4000;
 
-let frame = 0;
+let frame;
 
-export function stop() {
+function stop() {
   cancelAnimationFrame(frame);
-  frame = 0;
   if (model.isPlaying) tell({ cursor: null, isPlaying: false });
 }
 
@@ -26,7 +25,7 @@ export function play() {
     first ??= time;
     const part = (time - first) / LENGTH;
     // Another curve, or a pointer, ends it.
-    if (part > 1 || model.view !== view || (frame && time !== first && !model.isPlaying)) return stop();
+    if (part > 1 || model.view !== view || (time !== first && !model.isPlaying)) return stop();
     tell({ cursor: start + part * (end - start), isPlaying: true });
     frame = requestAnimationFrame(next);
   };

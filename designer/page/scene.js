@@ -1,4 +1,4 @@
-// A scene's numbers: as an object, as TOML, as the part of the address behind '#'.
+// A scene's numbers: as an object, and as the part of the address behind '#'.
 
 import { KEYS, UNITS } from './presets.js';
 
@@ -6,9 +6,9 @@ export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
 /** The numbers that a person writes, in the order of the engine's question. */
 export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER : key));
-const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
-const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
-const LAMP = ['pulse', 'duty', 'min_pulse'];
+export const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
+export const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
+export const LAMP = ['pulse', 'duty', 'min_pulse'];
 /** The numbers that are times, beside those of the curve. */
 export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
@@ -51,24 +51,6 @@ export function inUnit(scene, unit) {
   return converted;
 }
 
-/**
- * The shutter of a fit to a trace. Of the scene before there stays what a person gave; its nominal speed and the delay of its
- * sync are another shutter's, unless the same trace was read otherwise.
- */
-export function withFit(scene, name, fit, isSame) {
-  const found = fromScene(name, fit.scene);
-  const { given } = scene;
-  const unit = given.includes('unit') ? scene.unit : found.unit;
-  const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const kept = ['triggers', 'timer_hz', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
-  for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
-  Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
-  if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
-  const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
-  if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
-  return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null };
-}
-
 /** Are two scenes of the same shutter? */
 export function isSameShape(a, b) {
   const shape = (scene) => String([inUnit(scene, 'ns').times, scene.inner, scene.measured && inUnit(scene, 'ns').measured]);
@@ -82,22 +64,6 @@ export function innerOf(scene) {
 
 /** The scene with other inner control points. */
 export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, doubt: null });
-
-/** The scene with straight ramps, or again with those that it had before. */
-export function straight(scene, isStraight) {
-  const { inner, spare } = scene;
-  return isStraight ? { ...withInner(scene, null), spare: { ...spare, inner } } : withInner(scene, spare.inner ?? innerOf(scene));
-}
-
-/** The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses. */
-export function withLamp(scene, kind, length) {
-  const { pulse, duty, min_pulse } = scene;
-  const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
-  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null };
-  if (kind === 'pulse') next.pulse = spare.pulse ?? length;
-  if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
-  return next;
-}
 
 export const lampOf = (scene) => (scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : '');
 
@@ -131,20 +97,6 @@ export function withTimes(scene, times) {
   const isSound = times.every(Number.isFinite) && times[3] > times[0];
   const along = (inner) => (inner && isSound ? placed(relative(inner, scene.times), times) : inner);
   return { ...withInner(scene, along(scene.inner)), times, spare: { ...scene.spare, inner: along(scene.spare.inner) } };
-}
-
-const number = (x) => (x === Infinity ? 'inf' : x === -Infinity ? '-inf' : Math.abs(x) >= 1e15 ? x.toExponential() : String(x));
-const list = (numbers) => `[${numbers.map(number).join(', ')}]`;
-
-/** The scene as the text that `shutter plan` reads: by its curve, or by the times that a trace tells. */
-export function toml(scene) {
-  const { measured } = scene;
-  const lines = [`# ${scene.name.replace(/[^\x20-\x7e]/g, '_')}`, `unit = "${scene.unit}"`];
-  if (measured) lines.push('open_start = 0', `trigger_times = ${list(measured)}`);
-  else TIMES.forEach((key, i) => lines.push(`${key} = ${number(scene.times[i])}`));
-  if (scene.inner && !measured) lines.push(`shutteropening = ${list(scene.inner)}`);
-  for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null && !(measured && key === 'triggers')) lines.push(`${key} = ${number(scene[key])}`);
-  return lines.join('\n') + '\n';
 }
 
 /** The scene as the part of an address behind '#', with another one and a table of speeds beside it if there are such. */

@@ -1,6 +1,6 @@
 // Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
 
-import { toml } from './scene.js';
+import { toml } from './toml.js';
 
 const failed = (reason) => ({ Err: { reason, notes: [] } });
 

@@ -6,7 +6,7 @@ import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
 import { UNITS } from './presets.js';
 import { told } from './save.js';
-import { fromScene, inUnit, isSameShape, perSecond, short, tidy, withFit } from './scene.js';
+import { LAMP, fromScene, inUnit, isSameShape, perSecond, short, tidy } from './scene.js';
 import { remember } from './speeds.js';
 import * as studio from './studio.js';
 
@@ -77,6 +77,24 @@ export async function read(file, asked, triggers = model.now.scene.triggers) {
   change({ scene, trace: { file, name: file.name, asked, measured, fit, scene } });
 }
 
+/**
+ * The shutter of a fit to a trace. Of the scene before there stays what a person gave; its nominal speed and the delay of its
+ * sync are another shutter's, unless the same trace was read otherwise.
+ */
+function withFit(scene, name, fit, isSame) {
+  const found = fromScene(name, fit.scene);
+  const { given } = scene;
+  const unit = given.includes('unit') ? scene.unit : found.unit;
+  const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
+  const kept = ['triggers', 'timer_hz', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
+  for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
+  Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
+  if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
+  const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
+  if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
+  return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null };
+}
+
 // Measures the speeds of several traces, one after the other.
 async function measure(files) {
   const speeds = [];
@@ -85,9 +103,10 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const fit = answer.Ok?.fit.Ok;
-    // A link has commas and semicolons between them.
-    const words = [file.name, fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${answer.Err?.reason ?? answer.Ok.fit.Err.text}`];
-    speeds.push([...words.map((it) => it.replace(/[,;]/g, ' ').slice(0, 120)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
+    // A link has commas and semicolons between them; of what is wrong it has the first words.
+    const why = answer.Err?.reason ?? answer.Ok.fit.Err?.text;
+    const words = [file.name.replace(/[,;]/g, ' '), fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${why.split(/[;\n]/)[0].replaceAll(',', '')}`];
+    speeds.push([...words.map((it) => (it.length > 120 ? `${it.slice(0, 119)}…` : it)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
   }
   tell({ busy: null });
   remember(files);

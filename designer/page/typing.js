@@ -3,10 +3,9 @@
 import { $ } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { INNER, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, straight, tidy, withInner, withLamp, withTimes } from './scene.js';
+import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, tidy, withInner, withTimes } from './scene.js';
 
 const KINDS = { triggers: 'count', timer_hz: 'rate' };
-const LAMP = ['pulse', 'duty', 'min_pulse'];
 
 let loadTraces;
 
@@ -54,8 +53,7 @@ function echo(input, value) {
 }
 
 /** Changes the scene; of the numbers, `keys` are a person's from now on. */
-function give(changes, keys, key) {
-  const { scene } = model.now;
+export function give(changes, keys = Object.keys(changes).map((key) => (LAMP.includes(key) ? 'lamp' : key)), key, scene = model.now.scene) {
   change({ scene: { ...scene, ...changes, given: [...new Set([...scene.given, ...keys])] } }, { key });
 }
 
@@ -66,6 +64,22 @@ async function setTriggers(n, key) {
   if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
   if (!(Number.isInteger(n) && n > 0 && n <= 10_000)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
   (await loadTraces()).read(trace.file, trace.asked, n);
+}
+
+// The scene with straight ramps, or again with those that it had before.
+function straight(scene, isStraight) {
+  const { inner, spare } = scene;
+  return isStraight ? { ...withInner(scene, null), spare: { ...spare, inner } } : withInner(scene, spare.inner ?? innerOf(scene));
+}
+
+// The scene with another lamp, whose numbers are those that it had before; `length` is that of its first pulses.
+function withLamp(scene, kind, length) {
+  const { pulse, duty, min_pulse } = scene;
+  const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
+  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null };
+  if (kind === 'pulse') next.pulse = spare.pulse ?? length;
+  if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
+  return next;
 }
 
 function onInput({ target }) {
@@ -89,7 +103,7 @@ function onInput({ target }) {
   // A ramp keeps its shape when its time is typed, as when it is dragged.
   else if (i >= 0) give(withTimes(model.good?.unit === scene.unit ? { ...scene, ...shapeOf(model.good) } : scene, scene.times.with(i, value)), [], id);
   else if (k >= 0) give(withInner(scene, innerOf(scene).with(k, value)), [], id);
-  else give({ [id]: value }, [LAMP.includes(id) ? 'lamp' : id], id);
+  else give({ [id]: value }, undefined, id);
 }
 
 const shapeOf = ({ times, inner, spare }) => ({ times, inner, spare });

@@ -101,12 +101,9 @@ struct Measured {
 /// How a file was read.
 #[derive(Serialize)]
 struct Read {
-    /// In words.
-    told: String,
     columns: usize,
     time: Option<usize>,
     signal: usize,
-    unit: Option<Unit>,
     rate: Option<f64>,
 }
 
@@ -174,17 +171,14 @@ fn measured(
 
 impl Read {
     fn new(reading: &Reading) -> Self {
-        let (unit, rate) = match reading.clock {
-            Clock::Unit(unit) => (Some(unit), None),
-            Clock::Rate(rate) => (None, Some(rate)),
-        };
         Self {
-            told: reading.to_string(),
             columns: reading.columns,
             time: reading.time.as_ref().map(|(number, _)| *number),
             signal: reading.signal.0,
-            unit,
-            rate,
+            rate: match reading.clock {
+                Clock::Unit(_) => None,
+                Clock::Rate(rate) => Some(rate),
+            },
         }
     }
 }

@@ -7,7 +7,7 @@ use shutter_fit::trace::{Refusal, Warning};
 #[derive(Serialize)]
 pub struct Told {
     text: String,
-    /// `rate`, `unit`, `time`, `signal`, `rises`, `full`, `frame`; another file where none of them helps.
+    /// `rate`, `unit`, `signal`, `rises`, `full`, `frame`; another file where none of them helps.
     mend: Option<&'static str>,
 }
 

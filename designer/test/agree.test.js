@@ -38,7 +38,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
     await page.evaluate((hash) => (location.hash = hash), scene(i));
     await page.until((name) => document.getElementById('name').value === name, `r${i}`);
     const toml = await page.evaluate(async () => {
-      const { toml } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'scene.js'));
+      const { toml } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'toml.js'));
       const { model } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'model.js'));
       return toml(model.now.scene);
     });

@@ -1,0 +1,35 @@
+// What is wrong, computed or told, where it is seen wherever one is; and which fields it is about.
+
+import { $, button, watch, write } from './dom.js';
+import { mend } from './export.js';
+import { tell } from './model.js';
+import { inWords, remedies } from './remedies.js';
+import { INNER, NUMBERS } from './scene.js';
+
+const isNew = watch();
+/** Draws it. */
+export function draw({ wrong, busy, note, view, now: { scene } }) {
+  if (isNew(wrong, busy, busy?.words, note, view)) {
+    const isWrong = Boolean(wrong || note?.isWrong);
+    const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
+    const helps = wrong ? (view && !wrong.id ? remedies(scene).map(([words, changes]) => button(words, () => mend(changes))) : [])
+      : note ? [...(note.pending ? [button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' }))] : []), button('Close', () => tell({ note: null }))] : [];
+    $('problem').hidden = !words;
+    $('problem').classList.toggle('wrong', isWrong);
+    if ($('problem').firstElementChild.textContent !== words) $('problem').firstElementChild.textContent = words;
+    $('problem').lastElementChild.replaceChildren(...helps);
+    $('busy').hidden = !busy;
+    if (busy) write($('busy').firstElementChild, `${busy.words} …`);
+  }
+  const ramp = wrong?.ramp === 'closing' ? INNER.slice(4) : INNER.slice(0, 4);
+  const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.key === 'shutteropening' || wrong.ramp ? ramp : [wrong.key];
+  if (at.some((id) => INNER.includes(id))) $('inner').open = true;
+  for (const id of NUMBERS) {
+    const isWrong = at.includes(id);
+    if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
+    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
+      if (isWrong) $(id).setAttribute(name, value);
+      else $(id).removeAttribute(name);
+    }
+  }
+}
