@@ -648,6 +648,7 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
     for (args, reason) in [
         (vec![cut.as_str()], "ends in the pulse"),
+        (vec![&cut], "; read: column 2 of 2, \"v\"; times: column 1"),
         (vec![&values], "--rate"),
         (vec![&missing], "missing.csv: "),
         (vec![dir.to_str().unwrap()], ": "),

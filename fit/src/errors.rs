@@ -12,7 +12,8 @@ use crate::units::Units;
 /// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
 /// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
-/// Blades may start more softly than a cubic does: this share of the time below this openness may be missing before it.
+/// Blades may start more softly than a cubic does: this share of the time below this openness, beyond a straight ramp's, may be
+/// missing before it.
 const SOFTER: f64 = 0.4;
 const SOFT: f64 = 0.02;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
@@ -188,12 +189,9 @@ impl<'a> OfKind<'a> {
         }
         let linear = self.covariance.error(&Curve::LENGTH);
         let noise = if self.is_straight { linear } else { self.searched(Whole::Length, linear) };
-        let soft =
-            self.integral.feet(SOFT).map(|time| if self.is_straight { 0.0 } else { SOFTER * time });
-        let ends = soft
-            .into_iter()
-            .zip(self.feet)
-            .map(|(soft, foot)| soft.max(foot))
+        let straight = [self.curve.opening, self.curve.closing].map(|ramp| SOFT * ramp);
+        let ends = (self.integral.feet(SOFT).into_iter().zip(straight).zip(self.feet))
+            .map(|((time, straight), foot)| foot.max(SOFTER * (time - straight)))
             .fold(noise, f64::hypot);
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }

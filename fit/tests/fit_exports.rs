@@ -488,8 +488,7 @@ fn without_noise_the_error_is_that_of_a_sample() {
         // Two edges, each known to a sample by the root of 12; of ramps the foot leaves more of the length unknown.
         assert!(off < 3.0 * found.error.max(1e-5 * exposure), "{k}: {found:?}");
         let is_box = k < 4;
-        // Of ramps it counts feet that may be softer than a cubic's.
-        let efficiency = fit.efficiency.error / if is_box { step / exposure } else { 2e-3 };
+        let efficiency = fit.efficiency.error / if is_box { step / exposure } else { 1e-3 };
         assert!(found.error < step && efficiency < 1.0, "{k}: {found:?} {:?}", fit.efficiency);
         assert!(!is_box || found.error > 0.3 * step, "{k}: {found:?}");
         let report = shutter_fit::text("logic", &fit);

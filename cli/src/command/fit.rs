@@ -12,7 +12,7 @@ use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning
 use shutter_fit::unit::{Unit, count};
 use shutter_fit::{Fit, Kind, Options, Tolerance};
 
-use super::fit_many;
+use super::fit_many::{self, Speed};
 use super::input::{self, file_name, shown, stem};
 use super::kept::Old;
 use super::output::{Outputs, svg_path};
@@ -110,13 +110,6 @@ fn mains(text: &str) -> Result<f64, String> {
 
 pub(super) fn trigger_count() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(MOST_TRIGGERS))
-}
-
-/// A trace with what came of it.
-pub(super) struct Speed {
-    pub name: String,
-    pub fit: Fit,
-    pub warnings: Vec<Warning>,
 }
 
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
@@ -242,7 +235,8 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
         mains: args.mains,
         sync: args.sync,
     };
-    let mut fit = fitted(&trace, &options).map_err(told)?;
+    let mut fit =
+        fitted(&trace, &options).map_err(|refusal| format!("{refusal}; read: {reading}"))?;
     fit.reading = Some(reading);
     warnings.extend(fit.warnings.iter().cloned());
     Ok((fit, warnings))

@@ -1,10 +1,17 @@
 //! `shutter fit` of several traces: the speeds of a shutter, as a tester's list has them.
 
+use shutter_fit::trace::Warning;
 use shutter_fit::unit::{plus_minus, short, stops};
-use shutter_fit::{From, Measured};
+use shutter_fit::{Fit, From, Measured};
 
-use super::fit::Speed;
 use crate::speeds::columns;
+
+/// A trace with what came of it.
+pub struct Speed {
+    pub name: String,
+    pub fit: Fit,
+    pub warnings: Vec<Warning>,
+}
 
 /// A row for each trace.
 pub fn table(speeds: &[Speed]) -> String {
