@@ -11,6 +11,7 @@ mod rust;
 
 pub use name::{identifier, module};
 
+use crate::facts;
 use crate::lamp::Lamp;
 use crate::planned::Planned;
 
@@ -117,7 +118,7 @@ const MADE_BY: &str = concat!("Made by `shutter plan` ", env!("CARGO_PKG_VERSION
 /// The facts, a line each, as a comment.
 fn comment(start: &str, name: &str, plan: &Planned) -> String {
     let mut text = format!("{start}{MADE_BY}.\n{}\n", start.trim_end());
-    for (what, fact) in plan.facts(name) {
+    for (what, fact) in facts::lines(name, plan) {
         text += &format!("{start}{what:11}  {}\n", name::shown(&fact));
     }
     text

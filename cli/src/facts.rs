@@ -79,7 +79,14 @@ fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
 }
 
 /// The facts as lines, each a name and what is to be said.
-pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
+pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
+    match plan {
+        Planned::Curve(plan) => of_curve(name, plan),
+        Planned::Times(times) => of_times(name, times),
+    }
+}
+
+fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit());
     let of = |seconds: f64| short(unit.of(seconds), 5);
     let mut lines = vec![
@@ -131,8 +138,8 @@ pub fn lines(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     lines
 }
 
-/// The same of trigger times without a curve, where there is less to say.
-pub fn lines_of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
+/// Without a curve there is less to say.
+fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
     let (unit, triggers) = (times.unit(), &times.triggers);
     let mut lines = vec![
         ("scene", name.to_string()),

@@ -4,7 +4,6 @@ use serde::Serialize;
 use shutter_fit::unit::Unit;
 
 use crate::delay::Delay;
-use crate::facts;
 use crate::plan::{Plan, Trigger};
 use crate::scene::{Fault, trigger_times_at};
 use crate::timer::Timer;
@@ -132,14 +131,6 @@ impl Planned {
                 let of = |(i, it): (usize, &Given)| row(i, None, it.time, it.ticks, None);
                 times.triggers.iter().enumerate().map(of).collect()
             }
-        }
-    }
-
-    /// The facts as lines, each a name and what is to be said.
-    pub fn facts(&self, name: &str) -> Vec<(&'static str, String)> {
-        match self {
-            Self::Curve(plan) => facts::lines(name, plan),
-            Self::Times(times) => facts::lines_of_times(name, times),
         }
     }
 }

@@ -35,7 +35,7 @@ pub fn text(name: &str, plan: &Planned, columns: u16) -> String {
 }
 
 fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> fmt::Result {
-    for (name, fact) in planned.facts(name) {
+    for (name, fact) in facts::lines(name, planned) {
         writeln!(out, "{name:11}  {fact}")?;
     }
     if let Some(drift) = facts::drift(planned) {

@@ -401,7 +401,7 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
         ),
         ("timer_hz = 25000000\ntimer_bits = 32", "25000000 Hz"),
     ] {
-        let facts = on_timer(keys).unwrap().facts("leaf");
+        let facts = shutter::facts::lines("leaf", &on_timer(keys).unwrap());
         assert!(facts.contains(&("timer", told.into())), "{facts:?}");
     }
     let err = on_timer("timer_hz = 25000000\ntimer_bits = 24").err().unwrap();

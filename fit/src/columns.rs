@@ -1,7 +1,7 @@
 //! What may be added to a shutter's signal where the samples show it: a drift, a hum, the lamp's flicker.
 
 use crate::bins::Bin;
-use crate::hum;
+use crate::hum::{self, Mains};
 use crate::kind::KindFit;
 use crate::lag::passes_for_columns;
 use crate::noise::correlation;
@@ -16,13 +16,6 @@ const UNLIKE: f64 = 4.0;
 const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 1.0;
-
-/// The mains as far as they are known, where a unit of time is `second` seconds.
-#[derive(Clone, Copy, Debug)]
-pub struct Mains {
-    pub second: f64,
-    pub hertz: Option<f64>,
-}
 
 /// The fit with a drift and a hum, if they are worth it, or none where neither is.
 pub fn with_columns(

@@ -1,8 +1,9 @@
 //! One frame fitted by every kind of curve, with the columns that it asks for, in units of its own.
 
 use crate::bins::{self, Bin};
-use crate::columns::{self, Mains};
+use crate::columns;
 use crate::curve::{Exposure, Whole, fractions};
+use crate::hum::Mains;
 use crate::kind::KindFit;
 use crate::noise::{self, slow_correlation};
 use crate::search::Search;

@@ -1,8 +1,14 @@
 //! The sine that stands out of a signal's residuals.
 
 use crate::bins::Bin;
-use crate::columns::Mains;
 use crate::signal::{Bounds, Hum, Signal};
+
+/// The mains as far as they are known, where a unit of time is `second` seconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Mains {
+    pub second: f64,
+    pub hertz: Option<f64>,
+}
 
 /// From so many periods in a record on, it tells any frequency.
 pub const FEWEST: f64 = 3.0;
