@@ -114,7 +114,8 @@ fn a_form_is_all_that_is_printed() {
     assert!(run.err.contains("[possible values: rust, c, csv, json, pico]"), "{}", run.err);
 }
 
-/// And so they show the crate as it is. `cargo run -- plan --out docs/curve.svg --set-ups docs/set-ups.svg` draws them.
+/// And so they show the crate as it is. They are drawn by
+/// `cargo run -- plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
 #[test]
 fn the_pictures_of_the_docs_are_as_they_are_drawn() {
     let dir = empty_dir("docs");
@@ -577,7 +578,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
             0.125 * factor
         );
         fs::write(&file, text).unwrap();
-        let run = run([&file, Path::new("--out"), &picture]);
+        let run = run([&file, Path::new("--force"), Path::new("--out"), &picture]);
         assert_eq!(run.err, "");
         let fact = format!(
             "delay        {} {unit} from the sync's edge to the start of opening\n",
@@ -596,7 +597,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
     }
     // An edge far before the curve would squeeze it: it is told, not drawn to scale.
     fs::write(&file, with("min_gap", "0\ndelay = 100")).unwrap();
-    assert_eq!(run([&file, Path::new("--out"), &picture]).err, "");
+    assert_eq!(run([&file, Path::new("--force"), Path::new("--out"), &picture]).err, "");
     assert!(fs::read_to_string(&picture).unwrap().contains("sync 100 s before"));
     // Without one, that is said.
     fs::write(&file, GOOD).unwrap();

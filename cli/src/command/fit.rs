@@ -47,7 +47,7 @@ pub struct Args {
     /// Write the picture to this file: trace, curve, residual, triggers
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     picture: Option<PathBuf>,
-    /// Replace what the outputs hold, whatever that is
+    /// Replace files that hold something else
     #[arg(long)]
     force: bool,
     /// The unit of the times, where the header does not tell

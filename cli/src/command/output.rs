@@ -1,7 +1,7 @@
 //! All that the commands write. Nothing that a user has is lost:
 //!
 //! - An output that is an input or another output is refused before anything is read.
-//! - A file that begins otherwise than what is to be written, or is read-only, is refused.
+//! - A file that holds something else is refused without `--force`; one that is read-only, always.
 //! - All files of a run are written beside their places first, and take these when they are whole. What fails leaves the
 //!   old ones, and no other.
 //! - Links are followed. What is no regular file (a device, a pipe) is written to as it is.
@@ -12,9 +12,6 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 use tempfile::NamedTempFile;
-
-/// A file of ours and the one that replaces it share so many bytes: each form's first words, without any number.
-const ALIKE: usize = 24;
 
 /// The name of a picture's file, as an argument.
 pub fn svg_path(name: &str) -> Result<PathBuf, String> {
@@ -97,11 +94,10 @@ impl Outputs {
         Ok(old)
     }
 
-    /// Adds a file; an older one has to be of the same form.
+    /// Adds a file; an older one has to be empty, or the same.
     pub fn add(&mut self, path: &Path, text: String) -> Result<(), String> {
-        let begins = |text: &[u8]| text[..text.len().min(ALIKE)].to_vec();
         match self.old(path)? {
-            Some(old) if !old.is_empty() && begins(&old) != begins(text.as_bytes()) => {
+            Some(old) if !old.is_empty() && old != text.as_bytes() => {
                 Err(format!("{}: it holds something else; --force replaces it", path.display()))
             }
             _ => self.replace(path, text),

@@ -35,7 +35,7 @@ pub struct Args {
     /// Write the form to this file, and not to standard output
     #[arg(long, value_name = "FILE", requires = "emit")]
     to: Option<PathBuf>,
-    /// Replace what the outputs hold, whatever that is
+    /// Replace files that hold something else
     #[arg(long)]
     force: bool,
     /// What it is called; the scene's file name, or `shutter` for several, if left out
