@@ -62,31 +62,9 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a
-/// *weight*, a cubic of `s`.
-pub(crate) struct Errors {
-    /// Weight: 1.
-    pub(crate) time: f32,
-    /// Weight: the openness.
-    pub(crate) exposure: f32,
-    /// Weight: a bound of 1 / size.
-    pub(crate) relative: f32,
-}
-
-/// The number of errors.
-const KINDS: usize = 3;
-
-impl Errors {
-    const fn new([time, exposure, relative]: [f32; KINDS]) -> Self {
-        Self { time, exposure, relative }
-    }
-}
-
-/// What the errors are at least, by samples, and at most.
-pub(crate) struct Bounds {
-    pub(crate) least: Errors,
-    pub(crate) most: Errors,
-}
+/// The number of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time, whose weight
+/// is 1; that in exposure, by the openness; and that relative to the time, by a bound of 1 / size.
+pub(crate) const KINDS: usize = 3;
 
 /// A sample's fraction counts 2⁻²⁰ of a position, its time 2⁻²⁴ of the coefficients' unit.
 const FRACTION_BITS: i32 = 20;
@@ -135,8 +113,8 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// Bounds of the greatest errors along a stretch, by every `stride`-th point; weights are in the order of [`Errors`].
-/// `x` is the offset in widths. Samples are off by at most `noise`.
+/// What the greatest errors along a stretch are at least, by every `stride`-th point, and at most; in the unit of the
+/// coefficients. `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -145,7 +123,7 @@ pub(crate) const fn errors(
     weights: &[[f32; 4]; KINDS],
     noise: f32,
     stride: usize,
-) -> Bounds {
+) -> ([f32; KINDS], [f32; KINDS]) {
     let (mut seen, mut i) = ([0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
@@ -185,7 +163,7 @@ pub(crate) const fn errors(
         most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], stride);
         kind += 1;
     }
-    Bounds { least: Errors::new(least), most: Errors::new(most) }
+    (least, most)
 }
 
 /// The bound that follows from the greatest sample `seen`, of every `stride`-th point, by the best ellipse and degree.

@@ -58,13 +58,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn direct_triggers(&self) -> u32 {
-        let above = [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
-        let above = if above[0] > above[1] { above[0] } else { above[1] };
-        // The first and the last trigger are 1/2n from the ends, and 1/2n > above is needed. `above` counts 2⁻⁶⁴. A
-        // slack of 2⁻²⁴ is added, as fractions are rounded to `f32`. Saturating shows the compiler that the divisor is
-        // not 0.
-        let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
-        let most = (1 << 63) / above;
+        let [first, last] =
+            [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
+        let least = if first > last { first } else { last };
+        // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed, with a slack of 2⁻²⁴, as
+        // fractions are rounded to `f32`. In 2⁻⁶⁴; saturating shows the compiler that the divisor is not 0.
+        let most = (1 << 63) / ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
     }
 
@@ -296,10 +295,6 @@ struct Times<'a, const OCTAVES: usize> {
 }
 
 impl<const OCTAVES: usize> Times<'_, OCTAVES> {
-    const fn n(&self) -> u32 {
-        self.n
-    }
-
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {
