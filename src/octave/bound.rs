@@ -1,14 +1,12 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
-//! certificate", 3 and 4).
+//! certificate", 1 to 4).
 //!
-//! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`: the
-//! offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. It is
-//! sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
+//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
 //!
 //! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
 //!
-//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go
-//! the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
+//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]).
 
 use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;

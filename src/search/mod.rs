@@ -9,9 +9,8 @@
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
-//! step between them is accepted. It is not proven that the step stays between them, since noise may be all that is
-//! missing (docs/internals/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No
-//! search for an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that can be less than the noise.
+//! step between them is accepted. That the step stays between them is not proven (docs/internals/proofs.md, "The end of
+//! a search"). So [`MAX_EVALUATIONS`] end a search; then its place has no bound.
 
 pub(crate) mod guess;
 
@@ -219,7 +218,7 @@ pub(crate) const fn solve<const N: usize>(
     error: &Tolerance,
 ) -> Found {
     let Anchor { place, sign, c, sought, rounding } = *anchor;
-    // Exit: the anchor itself.
+    // The anchor itself.
     if sought <= 0.5 * error.wanted {
         return Found { place, evaluations: 0 };
     }
@@ -245,12 +244,12 @@ pub(crate) const fn solve<const N: usize>(
         let end = p + way;
         let is_inside = end.to_bits() as i32 >= low && end.to_bits() as i32 <= high;
         let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };
-        // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the
-        // target at most (proofs/solve.py): enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
+        // A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the target at most (proofs/solve.py):
+        // enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
         if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * most {
             return Found { place: Pair::sum(p, way), evaluations };
         }
-        // Exit: the cap, since another round takes two evaluations. There is no proof.
+        // Another round would take two.
         if evaluations >= MAX_EVALUATIONS - 1 {
             return Found { place: Pair::new(p), evaluations };
         }

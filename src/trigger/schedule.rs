@@ -202,9 +202,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// How many of `wanted` triggers keep a gap of `min_gap_ticks`: all of them, or a number that keeps it while one
     /// more does not. At least 1, unless none are wanted.
     ///
-    /// It tries frames, each up to the first gap that is too small: the whole one, then one with as many triggers as
-    /// the exposure has gaps, which is next to the answer for a shutter that opens fully, then others by doubled steps
-    /// and bisection. That takes a few frames at best, and `2 log2(wanted)` at worst. A gap of 0 takes none.
+    /// It tries frames, each up to the first gap that is too small: a few at best, `2 log2(wanted)` at worst, and none
+    /// for a gap of 0.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -225,8 +224,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if wanted <= 1 || min_gap_ticks == 0 {
             return Ok(wanted);
         }
+        // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
         let guess = ticks_per_unit as f32 / (self.normalization() * min_gap_ticks as f32);
-        // One trigger keeps any gap.
+        // First the whole frame, then the guess, then doubled steps and bisection. One trigger keeps any gap.
         let (mut keep, mut fail, mut n, mut step) = (1, wanted + 1, wanted, 0u32);
         while fail - keep > 1 {
             frame.n = n;
