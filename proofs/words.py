@@ -16,8 +16,8 @@ valid(
 )
 code("const fn in_words(bits: u32) -> u32 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
     (bits << 8 | 1 << 31) >> (shift & 31) }""")
-code("let before = if near < FINE.to_bits()", """{ FINE.to_bits() } else { near };
-    plan.on_line_count[side] = plan.last_before_far[side].saturating_sub(before);""")
+code("let last_before_line = if near < FINE.to_bits()", """{ FINE.to_bits() } else { near };
+    plan.on_line_count[side] = plan.last_before_far[side].saturating_sub(last_before_line);""")
 FINE = 127 - (int(source(r"const FINE: f32 = 1\.0 / (\d+)\.0;")).bit_length() - 1)
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)

@@ -191,26 +191,20 @@ impl fmt::Display for ScheduleError {
                 write!(out, "more triggers than the {capacity} that the schedule can hold")
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
-                let plural = plural(*gap);
-                write!(
-                    out,
-                    "trigger {trigger} comes {gap} tick{plural} after the one before, and {min_gap} are required"
-                )
+                let s = plural(*gap);
+                write!(out, "trigger {trigger} comes {gap} tick{s} after the one before, and {min_gap} are required")
             }
             Self::PulsesTooClose { pulse, gap, min_gap } => {
-                let plural = plural(*gap);
+                let s = plural(*gap);
                 write!(
                     out,
-                    "pulse {pulse} goes on {gap} tick{plural} after the one before has gone off, and {min_gap} are required"
+                    "pulse {pulse} goes on {gap} tick{s} after the one before has gone off, and {min_gap} are required"
                 )
             }
             Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {
-                let plural = plural(*length);
-                write!(
-                    out,
-                    "pulse {pulse} lasts {length} tick{plural}, and {min_pulse} are required"
-                )
+                let s = plural(*length);
+                write!(out, "pulse {pulse} lasts {length} tick{s}, and {min_pulse} are required")
             }
         }
     }

@@ -17,7 +17,8 @@ use crate::search::Tolerance;
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
 pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
-/// The error of the inverse that decides a cdf: less than the noise of a measured mass where nothing cancels.
+/// The error of the inverse that decides a cdf, relative to its fraction: less than what measuring a mass may lose,
+/// 2⁻³⁹ of its terms.
 pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,13 +28,6 @@ pub(crate) struct Exposure {
     pub(crate) plateau: Pair,
     /// `A = ∫ f dt`
     pub(crate) area: f64,
-}
-
-/// Where a fraction is collected.
-enum Section {
-    Plateau(Moment),
-    /// The ramp at a side, and the fraction to be collected there, in [`WHOLE`].
-    Ramp(Side, Pair),
 }
 
 impl Exposure {
@@ -101,36 +95,27 @@ impl Exposure {
     /// cap of a search there is no bound.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
-        match self.section(side, a) {
-            Section::Plateau(moment) => moment,
-            Section::Ramp(ramp, target) => {
-                // One address, or the search keeps the curve's and an index on the stack.
-                let ramp = core::hint::black_box(self.ramp(ramp));
-                let [wanted, accepted] = [error * a.hi, INVERSE_ERROR * a.hi];
-                ramp.at_mass(side, target, &Tolerance { wanted, accepted })
-            }
-        }
-    }
-
-    /// The section in which a fraction is collected, counted from a side in [`WHOLE`].
-    #[inline(always)]
-    const fn section(&self, side: Side, a: Pair) -> Section {
         let near = self.ramp(side).share;
-        if a.difference(near) < 0.0 {
-            return Section::Ramp(side, a);
-        }
-        // If the two nearly cancel, `lo` may be the greater number: the product below then loses 2⁻²⁴ of it,
-        // some 2⁻⁴⁸ of `a`. No script proves that.
-        let past_near = a.minus_loose(near);
-        let past_plateau = past_near.minus(self.plateau);
-        if past_plateau.rounded() > 0.0 {
-            return Section::Ramp(side.other(), past_plateau);
-        }
-        // Or, without a plateau, exactly at the join of the ramps: then the way is 0.
-        let (base, until) = (self.join(side), self.join(side.other()));
-        let (area, exponent) = significand(self.area);
-        let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
-        Section::Plateau(Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 })
+        let (ramp, target) = if a.difference(near) < 0.0 {
+            (side, a)
+        } else {
+            // If the two nearly cancel, `lo` may be the greater number: the product below then loses 2⁻²⁴ of it,
+            // some 2⁻⁴⁸ of `a`. No script proves that.
+            let past_near = a.minus_loose(near);
+            let past_plateau = past_near.minus(self.plateau);
+            if past_plateau.rounded() <= 0.0 {
+                // On the plateau; or, without one, exactly at the join of the ramps: then the way is 0.
+                let (base, until) = (self.join(side), self.join(side.other()));
+                let (area, exponent) = significand(self.area);
+                let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
+                return Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 };
+            }
+            (side.other(), past_plateau)
+        };
+        // One address, or the search keeps the curve's and an index on the stack.
+        let ramp = core::hint::black_box(self.ramp(ramp));
+        let [wanted, accepted] = [error * a.hi, INVERSE_ERROR * a.hi];
+        ramp.at_mass(side, target, &Tolerance { wanted, accepted })
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two

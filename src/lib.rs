@@ -39,23 +39,12 @@
 //! # From a measured shutter
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
-//! crate's repository fits the trace and prints a module for the firmware:
+//! crate's repository fits the trace and prints a module for the firmware, with the curve as a `static`, the ticks of a
+//! frame, and the delay from the camera's sync:
 //!
 //! ```text
 //! cargo run -- fit trace.csv --sync 0 --out leaf.toml
 //! cargo run -- plan leaf.toml --emit rust --to leaf.rs
-//! ```
-//!
-//! `leaf.rs` holds the fitted curve as a `static`, the ticks of a frame, and the delay from the camera's sync:
-//!
-//! ```
-//! # use shutter_curve::{ShutterCurve, valid};
-//! /// The shutter, its times in seconds.
-//! pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
-//!     [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
-//!     [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
-//! ));
-//! # assert!(SHUTTER.direct_triggers() >= 16);
 //! ```
 //!
 //! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count

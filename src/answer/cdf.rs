@@ -57,7 +57,7 @@ impl Exposure {
     /// The fraction of the exposure collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        // The section is asked for again, since a time may become that of a join.
+        // Asked again: the grid may have moved a time onto a join, which belongs to the section beside it.
         let t = match self.at(t) {
             At::Ramp(ramp) => self.ramp(ramp).on_grid(t),
             _ => t,
@@ -101,7 +101,7 @@ impl Exposure {
         if nearest < DARK {
             return 0.0;
         }
-        // mass = nearest + rest, and the middle is nearest + half, on the side of rest.
+        // mass = nearest + rest, and the middle is nearest + half; half has the sign of rest.
         let rest = (mass.hi - nearest) + mass.lo;
         let next =
             f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));

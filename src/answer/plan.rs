@@ -13,8 +13,9 @@
 //! 9. Halley's steps, what they miss in pairs, and a last step with a bound of its error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` never has an earlier time: a line's product is rounded down, and other errors are less than half of
-//! the distance between neighbours, or a quarter for a search (docs/internals/proofs.md, "An octave's certificate", 7).
+//! A greater `u` never has an earlier time. Errors are less than half of the distance between neighbours, or a quarter
+//! for a search (docs/internals/proofs.md, "An octave's certificate", 7); on the line `A u` is rounded down, which keeps
+//! the order.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::{Exposure, INVERSE_ERROR};
@@ -35,9 +36,10 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     /// The time of 2³² units. A unit is the power of two of which the curve's greatest time, or its length if that is
     /// more, has 2⁶¹ to 2⁶² ([`time_unit`]).
     scale: f32,
-    /// By side: the bits of the last `f32` before the far ramp. It tells the ramps apart without a plateau, too.
+    /// By side: the bits of the last `f32` before the far ramp. A fraction with greater bits is on the far ramp.
     last_before_far: [u32; 2],
-    /// By side: how many `f32` are on the line, that one and those next below it; 0 without a line.
+    /// By side: how many `f32` are on the line: the one with the bits `last_before_far`, and those next below it; 0
+    /// without a line.
     on_line_count: [u32; 2],
     /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
     /// or, where the join of the ramps counts as 1/2 but lies below it, the time of 1/2 alone, with a slope of 0.
@@ -55,7 +57,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         opening: &CubicBezier,
         closing: &CubicBezier,
     ) -> Result<Self, CurveError> {
-        // A fraction of 0 has no octave: by its bits it is 99 octaves or more below every top.
+        // A fraction of 0 has no octave: its exponent's bits are 0, and those of the least top, 2⁻²⁸, are 99.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
         let unit = time_unit(exposure.end(Start), exposure.end(End));
@@ -77,15 +79,18 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // Without a line nothing may be direct: a fraction on the plateau would be looked up in a ramp's octave.
-            if !Self::is_fine(plan.slope) {
+            // From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the least `u` on the line. A curve with
+            // less is far from time 0, or dark for its length. All of it is searched: without a line, a fraction on
+            // the plateau would be looked up in a ramp's octave.
+            if plan.slope >> 40 == 0 {
                 return Ok(plan);
             }
             let mut side = 0;
             while side < 2 {
                 let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);
-                let before = if near < FINE.to_bits() { FINE.to_bits() } else { near };
-                plan.on_line_count[side] = plan.last_before_far[side].saturating_sub(before);
+                let last_before_line = if near < FINE.to_bits() { FINE.to_bits() } else { near };
+                plan.on_line_count[side] =
+                    plan.last_before_far[side].saturating_sub(last_before_line);
                 side += 1;
             }
         } else if plan.exposure.half_is_beyond_join() {
@@ -103,12 +108,6 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             side += 1;
         }
         Ok(plan)
-    }
-
-    /// Has a line with this slope enough bits? From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the
-    /// least `u` on the line. A curve with less is far from time 0, or dark for its length, and all of it is searched.
-    const fn is_fine(slope: i64) -> bool {
-        slope >> 40 != 0
     }
 
     /// The exponent of the unit of time.
@@ -223,8 +222,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         }
     }
 
-    /// The side from which `u` is counted, and the bits of `a = min(u, 1 - u)`; outside [0, 1] and for NaN, bits of no
-    /// octave and of no number above 0.
+    /// The side from which `u` is counted, and the bits of `a = min(u, 1 - u)`. Outside [0, 1] `a` is negative, and for
+    /// NaN it is NaN: neither has an octave.
     ///
     /// Integers, since a comparison of floats waits for the FPU; no branch, since the side is unpredictable.
     #[inline(always)]
@@ -252,7 +251,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         let octave = &self.octaves[side as usize][index];
         // Let a = (1 + f) 2^e. If 2^e is the octave's power, the position is f. If it is half of that, the position is
         // (f - 1) / 2. That is where `top - bits` borrows from the exponent: where bit 23 of top ^ bits ^ below is 1.
-        // With f in the upper bits of a word, and that bit as its sign, the word is f / 2 or (f - 1) / 2 in 2⁻³²:
+        // With f in the upper bits of a word, and that bit as its sign, the word is f / 2 or (f - 1) / 2 in 2⁻³². So it
+        // is doubled if it is not negative:
         //   top    0.375   0 01111101 100...
         //   bits   0.3     0 01111101 00110...   no borrow:  0.2 / 2, and the position is 0.2
         //   bits   0.2     0 01111100 10011...   a borrow:  (0.6 - 1) / 2 = -0.2, which is the position

@@ -16,9 +16,9 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let hi = way.hi * first * second;
     let sum = Pair::sum(base, hi);
     let rest = sum.lo + way.lo * first * second;
-    // base ± way = sum.hi + rest, but for the rounding of `rest`. Midway between two `f32` the rest is ±1/2 or ±1/4
-    // ulp, a power of two, so a significand without bits (as 0 has it) goes to `careful_sum`. Below 2⁻⁷⁸ parts may be
-    // subnormal.
+    // base ± way = sum.hi + rest, but for the rounding of `rest`. If that is midway between two `f32`, the rest is ±1/2
+    // or ±1/4 ulp. So all powers of two, whose stored significand is 0, go to `careful_sum`, and 0 does with them.
+    // Below 2⁻⁷⁸ parts may be subnormal.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
         return careful_sum(base, way, first, second);
     }
@@ -95,8 +95,8 @@ impl Moment {
     /// The time in units of `2^unit`, at most 2⁶² of them.
     pub(crate) const fn in_units(self, unit: i32) -> i64 {
         let Pair { hi, lo } = self.way.shifted(self.unit - unit);
-        // way = floor(hi + lo), but for what rounds `rest`: ways of at least 2²⁴ units keep their order, since there
-        // `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
+        // way = floor(hi + lo), apart from the rounding of `rest`: ways of at least 2²⁴ units keep their order, since
+        // there `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
         let whole = fixed(hi, 0);
         let rest = (hi - whole as f32) + lo;
         let down = fixed(rest, 0);

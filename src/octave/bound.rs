@@ -1,14 +1,12 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
-//! certificate", 3 and 4).
+//! certificate", 1 to 4).
 //!
-//! On the stretch, `s` runs from -1 to 1. There the error in time, `R(s) = Q(x(s)) - t(s)`, is a polynomial of `s`: the
-//! offset `x` has degree 6, the octave's polynomial `Q` has degree 8 in that, and the time `t` has degree 3. It is
-//! sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
+//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
 //!
 //! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
 //!
-//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]). Samples go
-//! the answer's own way, from a position to a value in 32 bits: what is certified is what is served.
+//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]).
 
 use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
@@ -62,31 +60,9 @@ const DEGREES: usize = 7;
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The greatest errors along a stretch, in the unit of the coefficients, or bounds of them: each is `R` times a
-/// *weight*, a cubic of `s`.
-pub(crate) struct Errors {
-    /// Weight: 1.
-    pub(crate) time: f32,
-    /// Weight: the openness.
-    pub(crate) exposure: f32,
-    /// Weight: a bound of 1 / size.
-    pub(crate) relative: f32,
-}
-
-/// The number of errors.
-const KINDS: usize = 3;
-
-impl Errors {
-    const fn new([time, exposure, relative]: [f32; KINDS]) -> Self {
-        Self { time, exposure, relative }
-    }
-}
-
-/// What the errors are at least, by samples, and at most.
-pub(crate) struct Bounds {
-    pub(crate) least: Errors,
-    pub(crate) most: Errors,
-}
+/// The number of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time, whose weight
+/// is 1; that in exposure, by the openness; and that relative to the time, by a bound of 1 / size.
+pub(crate) const KINDS: usize = 3;
 
 /// A sample's fraction counts 2⁻²⁰ of a position, its time 2⁻²⁴ of the coefficients' unit.
 const FRACTION_BITS: i32 = 20;
@@ -135,8 +111,8 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// Bounds of the greatest errors along a stretch, by every `stride`-th point; weights are in the order of [`Errors`].
-/// `x` is the offset in widths. Samples are off by at most `noise`.
+/// What the greatest errors along a stretch are at least, by every `stride`-th point, and at most; in the unit of the
+/// coefficients. `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -145,7 +121,7 @@ pub(crate) const fn errors(
     weights: &[[f32; 4]; KINDS],
     noise: f32,
     stride: usize,
-) -> Bounds {
+) -> ([f32; KINDS], [f32; KINDS]) {
     let (mut seen, mut i) = ([0.0; KINDS], 0);
     while i < COSINES.len() {
         let mut place = COSINES[i];
@@ -185,7 +161,7 @@ pub(crate) const fn errors(
         most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], stride);
         kind += 1;
     }
-    Bounds { least: Errors::new(least), most: Errors::new(most) }
+    (least, most)
 }
 
 /// The bound that follows from the greatest sample `seen`, of every `stride`-th point, by the best ellipse and degree.

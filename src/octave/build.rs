@@ -8,7 +8,7 @@ use crate::octave::span::Span;
 use crate::octave::{Octave, below};
 use crate::ramp::shape::Shape;
 
-/// By how many steps a ramp's tops are raised: by the first number that gives every octave a polynomial, or else the
+/// By how many steps a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
 /// last. (The octave at the join is often too much for one; from a raised top it has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
@@ -18,8 +18,8 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     if !ramp.is(side) {
         return [far, 0.5];
     }
-    // The plateau's line begins above FINE. If the near ramp's join is below that, the look-up takes the plateau up to
-    // FINE for this ramp. So this ramp has no octaves.
+    // The line begins above FINE. If the near ramp's join is below that, what is between them is on the plateau. But
+    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that has no octaves.
     let is_hidden = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if is_hidden { 0.0 } else { to }]
@@ -92,9 +92,9 @@ impl View<'_> {
             octaves[index] = Octave::NONE;
             let top = below(first, index);
             if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-                // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else the far
-                // ramp's `a` just below its last octave would find the near ramp's first one: as with a join at 0.7, a
-                // far top at 7/8 and an `a` of 0.8, all times LEAST_TOP.
+                // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
+                // ramp's `a` there would find the near ramp's first octave. An example, all times LEAST_TOP: the join
+                // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8 is below 7/8: on the far ramp.
                 count = index + 1;
             }
             if let Some(span) = Span::new(range, top) {

@@ -61,6 +61,7 @@ impl View<'_> {
         }
         let exponent = exponent(most) - 30;
         let exponent = if exponent < self.unit { self.unit } else { exponent };
+        // The factor is an `i32`.
         if exponent - self.unit > 30 {
             return None;
         }

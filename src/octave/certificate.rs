@@ -3,7 +3,7 @@
 
 use crate::fraction::Side::{End, Start};
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{Errors, FIRST_STRIDE, SAMPLE_OFF, Sampled, errors};
+use crate::octave::bound::{FIRST_STRIDE, KINDS, SAMPLE_OFF, Sampled, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Path, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -28,7 +28,7 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes a weight ([`Errors`]) at a sample, as a share of the openness's coefficients without
+/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without
 /// signs, or of `Limits::per_size`.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
@@ -117,10 +117,10 @@ impl View<'_> {
         let (mut stride, mut shares) = (FIRST_STRIDE, Shares::REFUSED);
         let (Some(sampled), true) = (Sampled::new(&along), fits) else { return shares };
         while stride > 0 {
-            let errors = errors(octave, &sampled, &offset, &weights, noise, stride);
-            shares = limits.shares(&errors.most);
+            let (least, most) = errors(octave, &sampled, &offset, &weights, noise, stride);
+            shares = limits.shares(most);
             // More samples cannot help where those seen are too wrong.
-            let is_decided = shares.are_certain() || !limits.shares(&errors.least).are_certain();
+            let is_decided = shares.are_certain() || !limits.shares(least).are_certain();
             stride = if is_decided { 0 } else { stride / 2 };
         }
         shares
@@ -183,7 +183,7 @@ impl Limits {
     /// The shares that follow from the greatest errors, with what rounding adds (docs/internals/proofs.md,
     /// "From time to exposure").
     #[inline(never)]
-    const fn shares(&self, &Errors { time, exposure, relative }: &Errors) -> Shares {
+    const fn shares(&self, [time, exposure, relative]: [f32; KINDS]) -> Shares {
         let error = time + self.rounding;
         let rounding = self.rounding + error * WEIGHT_OFF;
         // most >= t' >= slowest

@@ -4,9 +4,9 @@ use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::SHIFT_MASK;
 use crate::octave::path::{Path, scale};
 
-/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (Unhalved it is less, too: a
-/// top is at most 15/8 of the power.) A word of offsets ends at 0.5 width. The center's error takes 0.009 of the 0.02
-/// between: 2⁸ for a rounded middle and 31 for the shift in its lowest bits, both times 2¹⁷ at most.
+/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (If it is never halved, too:
+/// a top is at most 15/8 of the power, and `half` a quarter of the top.) A word of offsets ends at 0.5 width. Of the
+/// 0.02 between, the center's error takes 0.009: 2⁸ for a rounded middle and 31 for the shift, both times 2¹⁷ at most.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;
@@ -48,7 +48,7 @@ impl Span {
         Some(Self { from, to, middle, half, power, width, shift })
     }
 
-    /// The position of the middle plus 2³², the shift in its lowest bits. Its lower word is `Octave::center`.
+    /// 2³² plus the position of the middle, whose lowest bits are the shift. The lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
         fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }

@@ -55,8 +55,8 @@ impl Ramp {
 
     /// The place at which `target` has passed since the end that faces a side, within [`TIME_ERROR`]; `None` where time
     /// nearly stands still, and only a search finds it. After two of Halley's steps in single precision about a
-    /// thousandth is missing. That is measured in pairs, and a third step leaves about its cube; a bound ([`left`])
-    /// accepts the place or not.
+    /// thousandth is missing. That is measured in pairs, and a third step leaves about its cube. The place is accepted
+    /// if a bound of that ([`left`]) is at most 3/4 of the error; the last quarter is for measuring.
     #[inline(always)]
     pub(crate) const fn quick_place(&self, side: Side, target: Pair) -> Option<Pair> {
         let Series { c, last } = self.time_since(side);
@@ -91,8 +91,8 @@ impl Ramp {
         let series = self.time_since(side);
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor = Anchor::end(c, target.hi);
-        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if that is below SLOW and nearer to the target than
-        // the end is.
+        // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if it is below SLOW there, and the target nearer than from
+        // the end. It is least at `-c2 / 3 c3`, by `c1 - c2² / 3 c3`.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
             let slowest = -c2 / thrice;
@@ -148,9 +148,8 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// A bound of the sum of two errors: that of [`mass`](Self::mass) here, at most 2⁻³⁹ of the terms from the start;
-    /// and that of the mass at which a search from a side ends that aims at nearly this one, at most 2⁻³⁹ of the terms
-    /// from the side.
+    /// How far [`mass`](Self::mass) and an inverse near here may disagree. Measuring the mass loses at most 2⁻³⁹ of the
+    /// terms from the start. A search from `side` for nearly this mass ends within 2⁻³⁹ of the terms from that side.
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;
@@ -171,7 +170,8 @@ const fn gridded(start: f32, end: f32, t: f32) -> f32 {
     if t.abs() >= half || t == start || t == end {
         return t;
     }
-    // The farther end is 2 to 4 times `half`, and the sum 0.5 to 2.5: its ulp is 1/4, 1/2 or 1 ulp of the farther end.
+    // The farther end is 2 to 4 times `half`, and `t + 1.5 half` is 0.5 to 2.5 times it. So an ulp of that sum, to
+    // which `t` is rounded, is 1/4, 1/2 or 1 ulp of the farther end.
     let t = (t + 1.5 * half) - 1.5 * half;
     if t < start {
         start

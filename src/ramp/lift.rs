@@ -5,10 +5,10 @@ use super::cubic::{cubic_range, quadratic_min, widened};
 
 /// The control values of a cubic, raised so that it is nowhere below 0.
 ///
-/// Let `raise` be -min f, and 2⁻⁴⁸ of the greatest value for rounding. `v` becomes `v + (stays - v) share`, rounded up,
-/// which takes `-raise` to 0 and keeps `stays`. That is the greater end, so that an opening still reaches the plateau
-/// at 1. If that end has less than half of the greatest value, it is the greatest value instead. So the curve moves
-/// nowhere by more than `raise`.
+/// Let `raise` be -min f plus 2⁻⁴⁸ of the greatest value, for rounding. `v` becomes `v + (stays - v) share`, rounded
+/// up: -`raise` becomes 0, and `stays` keeps its value. `stays` is the greater end, so that an opening still reaches
+/// the plateau at 1; but the greatest value if the end has less than half of that. So the curve moves nowhere by more
+/// than `raise`.
 ///
 /// An end at 0 moves even if only the inside dips. Otherwise the slope there would have to be raised to 0, which moves
 /// the curve much farther: `3p² - s p` dips by only `s²/12`, or 2⁻²² for a slope of -3.5 · 2⁻¹¹.

@@ -53,17 +53,10 @@ struct RampEnd {
     mass: [Pair; 5],
 }
 
-impl RampEnd {
-    /// Without its series.
-    const fn new(at: f32) -> Self {
-        Self { at, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] }
-    }
-}
-
 /// A flat place: the minimum of `t'` or `f` inside a ramp. Place, mass and powers count from the ramp's nearer end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Flat {
-    /// From that end to here, with a sign that says which it is: negative for the later one.
+    /// From that end to here; negative, -0.0 included, if that is the later end.
     place: f32,
     /// From that end to here.
     mass: Pair,
@@ -106,8 +99,9 @@ impl Ramp {
         let share = Pair::from_f64(if share < DARK as f64 { 0.0 } else { share });
         let per_unit = power_of_two_f64(-ramp_unit(start, end));
         let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
+        let first = RampEnd { at: start, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] };
         let mut ramp = Self {
-            ends: [RampEnd::new(start), RampEnd::new(end)],
+            ends: [first, RampEnd { at: end, ..first }],
             last_of_time: Pair::ZERO,
             last_of_mass: Pair::ZERO,
             openness: shape.f,
@@ -244,7 +238,8 @@ impl Ramp {
         let from_end = flat.place.abs();
         // Around `from_end` the fifth coefficient is c5 + 6 c6 from_end, and the sixth c6.
         let c5 = c5 + 6.0 * c6 * from_end;
-        // The signs of the powers, which may count back from the other end, and of the way.
+        // `powers_sign`: do the powers count back, from the other end? `sign`: does the target lie back from the
+        // anchor?
         let (base, powers_sign) = if flat.side().is(side) { (0.0, 0) } else { (LAST_PLACE, BACK) };
         let place = Pair::sum(base, flipped(from_end, powers_sign));
         let sign = sought.to_bits() & BACK;

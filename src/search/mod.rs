@@ -9,9 +9,8 @@
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
 //! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
-//! step between them is accepted. It is not proven that the step stays between them, since noise may be all that is
-//! missing (docs/internals/proofs.md, "The end of a search"). So [`MAX_EVALUATIONS`] end a search, without a proof. No
-//! search for an `f32` is known to take so many. A cdf's search to 2⁻⁴⁰ may, since that can be less than the noise.
+//! step between them is accepted. That the step stays between them is not proven (docs/internals/proofs.md, "The end of
+//! a search"). So [`MAX_EVALUATIONS`] end a search; then its place has no bound.
 
 pub(crate) mod guess;
 
@@ -121,26 +120,6 @@ pub(crate) struct Found {
     pub(crate) evaluations: u32,
 }
 
-/// Two places, and the target between them, by their bits: so a half of the bracket has half of its `f32`.
-struct Bracket {
-    low: i32,
-    high: i32,
-}
-
-impl Bracket {
-    /// A NaN is outside.
-    #[inline(always)]
-    const fn holds(&self, p: f32) -> bool {
-        let bits = p.to_bits() as i32;
-        bits >= self.low && bits <= self.high
-    }
-
-    #[inline(always)]
-    const fn middle(&self) -> f32 {
-        f32::from_bits((self.low + (self.high - self.low) / 2) as u32)
-    }
-}
-
 /// The first Taylor coefficients around `x`: `S`, `S'` and `S'' / 2`.
 pub(crate) struct Taylor {
     x: f32,
@@ -239,7 +218,7 @@ pub(crate) const fn solve<const N: usize>(
     error: &Tolerance,
 ) -> Found {
     let Anchor { place, sign, c, sought, rounding } = *anchor;
-    // Exit: the anchor itself.
+    // The anchor itself.
     if sought <= 0.5 * error.wanted {
         return Found { place, evaluations: 0 };
     }
@@ -249,7 +228,8 @@ pub(crate) const fn solve<const N: usize>(
     let mut distance = anchor.distance(p);
     let mut moved = distance - local.x;
     let mut needs_slopes = moved.abs() > MOVED * local.x;
-    let mut bracket = Bracket { low: 0, high: LAST_PLACE.to_bits() as i32 };
+    // The bracket, by the bits of its ends: so a half of it has half of its `f32`, and a NaN is outside.
+    let (mut low, mut high) = (0, LAST_PLACE.to_bits() as i32);
     loop {
         if needs_slopes {
             (local, moved) = (Taylor::new(&c, distance), 0.0);
@@ -257,23 +237,24 @@ pub(crate) const fn solve<const N: usize>(
         }
         let missing = target.difference(series.at(p));
         evaluations += 1;
-        *(if missing > 0.0 { &mut bracket.low } else { &mut bracket.high }) = p.to_bits() as i32;
+        *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
         let missing = flipped(missing, sign);
         let step = local.short_step(missing);
         let way = flipped(step, sign);
         let end = p + way;
-        let is_inside = bracket.holds(end);
+        let is_inside = end.to_bits() as i32 >= low && end.to_bits() as i32 <= high;
         let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };
-        // Exit: the bound accepts the step. A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the
-        // target at most (proofs/solve.py): enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
+        // A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the target at most (proofs/solve.py):
+        // enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
         if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * most {
             return Found { place: Pair::sum(p, way), evaluations };
         }
-        // Exit: the cap, since another round takes two evaluations. There is no proof.
+        // Another round would take two.
         if evaluations >= MAX_EVALUATIONS - 1 {
             return Found { place: Pair::new(p), evaluations };
         }
-        p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { bracket.middle() };
+        let middle = f32::from_bits((low + (high - low) / 2) as u32);
+        p = if is_inside && evaluations < FREE_EVALUATIONS { end } else { middle };
         (distance, needs_slopes) = (anchor.distance(p), true);
     }
 }

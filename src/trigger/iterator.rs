@@ -1,8 +1,8 @@
 //! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
 //! either end.
 
-/// The iterator `$name`, whose fields are a `frame`, with `n()` items, of which item `i` is `frame.at(i)`, and the
-/// range of those that are `left`.
+/// The iterator `$name`, whose fields are a `frame`, of which item `i` is `frame.at(i)`, and the range of those that
+/// are `left`.
 macro_rules! iterate {
     ($name:ident, $item:ty) => {
         impl<const OCTAVES: usize> Iterator for $name<'_, OCTAVES> {
@@ -63,26 +63,16 @@ macro_rules! iterate {
 
         impl<const OCTAVES: usize> core::fmt::Debug for $name<'_, OCTAVES> {
             fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-                let (n, left) = (self.frame.n(), &self.left);
-                out.debug_struct(stringify!($name))
-                    .field("n", &n)
-                    .field("left", left)
-                    .finish_non_exhaustive()
+                let mut out = out.debug_struct(stringify!($name));
+                out.field("left", &self.left).finish_non_exhaustive()
             }
         }
 
         #[cfg(feature = "defmt")]
         impl<const OCTAVES: usize> defmt::Format for $name<'_, OCTAVES> {
             fn format(&self, out: defmt::Formatter<'_>) {
-                let (n, left) = (self.frame.n(), &self.left);
-                defmt::write!(
-                    out,
-                    "{=str} {{ n: {}, left: {}..{}, .. }}",
-                    stringify!($name),
-                    n,
-                    left.start,
-                    left.end
-                );
+                let (name, left) = (stringify!($name), &self.left);
+                defmt::write!(out, "{=str} {{ left: {}..{}, .. }}", name, left.start, left.end);
             }
         }
     };

@@ -115,10 +115,6 @@ struct Pulses<'a, const OCTAVES: usize> {
 }
 
 impl<const OCTAVES: usize> Pulses<'_, OCTAVES> {
-    const fn n(&self) -> u32 {
-        self.ticks.n()
-    }
-
     /// Pulse `i`. Its ends are in order, and so are neighbouring pulses, since rounding keeps the order of
     /// `2i + 1 - duty` and `2i + 1 + duty`, and so does all that follows.
     const fn at(&self, i: u32) -> Pulse {

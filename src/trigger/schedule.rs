@@ -58,13 +58,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn direct_triggers(&self) -> u32 {
-        let above = [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
-        let above = if above[0] > above[1] { above[0] } else { above[1] };
-        // The first and the last trigger are 1/2n from the ends, and 1/2n > above is needed. `above` counts 2⁻⁶⁴. A
-        // slack of 2⁻²⁴ is added, as fractions are rounded to `f32`. Saturating shows the compiler that the divisor is
-        // not 0.
-        let above = ((above * DOUBLE_WORD) as u64).saturating_add(1 << 40);
-        let most = (1 << 63) / above;
+        let [first, last] =
+            [self.plan.least_direct(Side::Start), self.plan.least_direct(Side::End)];
+        let least = if first > last { first } else { last };
+        // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed, with a slack of 2⁻²⁴, as
+        // fractions are rounded to `f32`. In 2⁻⁶⁴; saturating shows the compiler that the divisor is not 0.
+        let most = (1 << 63) / ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
         if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
     }
 
@@ -203,9 +202,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// How many of `wanted` triggers keep a gap of `min_gap_ticks`: all of them, or a number that keeps it while one
     /// more does not. At least 1, unless none are wanted.
     ///
-    /// It tries frames, each up to the first gap that is too small: the whole one, then one with as many triggers as
-    /// the exposure has gaps, which is next to the answer for a shutter that opens fully, then others by doubled steps
-    /// and bisection. That takes a few frames at best, and `2 log2(wanted)` at worst. A gap of 0 takes none.
+    /// It tries frames, each up to the first gap that is too small: a few at best, `2 log2(wanted)` at worst, and none
+    /// for a gap of 0.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -226,8 +224,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if wanted <= 1 || min_gap_ticks == 0 {
             return Ok(wanted);
         }
+        // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
         let guess = ticks_per_unit as f32 / (self.normalization() * min_gap_ticks as f32);
-        // One trigger keeps any gap.
+        // First the whole frame, then the guess, then doubled steps and bisection. One trigger keeps any gap.
         let (mut keep, mut fail, mut n, mut step) = (1, wanted + 1, wanted, 0u32);
         while fail - keep > 1 {
             frame.n = n;
@@ -296,10 +295,6 @@ struct Times<'a, const OCTAVES: usize> {
 }
 
 impl<const OCTAVES: usize> Times<'_, OCTAVES> {
-    const fn n(&self) -> u32 {
-        self.n
-    }
-
     /// The time of trigger `i`.
     #[inline(always)]
     fn at(&self, i: u32) -> f32 {

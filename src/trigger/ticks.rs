@@ -38,10 +38,6 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
     }
 
-    pub(crate) const fn n(&self) -> u32 {
-        self.n
-    }
-
     /// The tick of trigger `i`.
     #[inline(always)]
     pub(crate) const fn at(&self, i: u32) -> u32 {
@@ -103,11 +99,11 @@ const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError 
 #[derive(Clone)]
 pub(crate) struct TickScale {
     start: i64,
-    /// How far the delay, the time since the start, moves up, so that the interval has 62 or 63 bits: 0, or at least 2.
+    /// The bits by which a delay, the time since the start, moves up, so that the interval has 62 or 63 bits.
     up: u32,
     /// The rate, moved up until it has 32 bits.
     rate: u32,
-    /// What moves the upper 64 of the 96 bits of delay · rate, both moved up, down to half ticks.
+    /// The bits by which `delay · rate / 2³²` moves down to half ticks, where both are moved up.
     down: u32,
 }
 
@@ -120,6 +116,7 @@ impl TickScale {
         // One bit is not worth a shift: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
+        // Half ticks are delay · rate · 2^(unit + 1), and the product is delay · rate · 2^(up + zeros - 32).
         let down = (up + zeros) as i32 - unit - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
@@ -131,9 +128,9 @@ impl TickScale {
     #[inline(always)]
     pub(crate) const fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
-        // Clamped at 0: a time's last units may be wrong, and place it before the start. No time is beyond the end: a
-        // polynomial's would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that; the
-        // plateau's line is rounded down; and `Moment::in_units` stops searches.
+        // A time's last units may be wrong, and place it before the start. No time is beyond the end. A polynomial's
+        // would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that. The plateau's
+        // line is rounded down. `Moment::in_units` stops searches.
         let delay = if delay > 0 { delay as u64 } else { 0 };
         // Most curves need no shift. `up` is never 1 (see `new`).
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
