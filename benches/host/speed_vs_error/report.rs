@@ -2,9 +2,8 @@
 
 use crate::accuracy::Figures;
 use crate::methods::Method::{Table256, Textbook};
-use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
+use crate::methods::{CURVES, FORWARDS, METHODS, Method};
 use crate::support::cases::{CASES, judge, shutter};
-use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
 use crate::support::rendering::{PULSES, Pulses};
 use crate::table::{Row, number, shown, table};
@@ -87,64 +86,52 @@ pub fn time(times: &[Option<f64>], method: Method) -> Option<f64> {
     times[METHODS.iter().position(|one| *one == method)?]
 }
 
-/// A method's mean and greatest cycles on a curve, where `docs/internals/cost.md` has them.
-pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<[f64; 2]> {
+/// A method's mean cycles on a curve, where `docs/internals/cost.md` has them.
+pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
-    let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;
-    let mean = head.iter().position(|name| *name == "mean")?;
-    let [call, octaves] = method.cost();
-    let head = [&format!("| {call}"), CURVES[curve].0, octaves];
-    let row = rows.find(|row| row.len() > mean && row[..3] == head)?;
-    // Behind it the 99 %, then the greatest.
-    let cycles = [mean, mean + 2].map(|column| row[column].trim_matches('*').parse().ok());
-    Some([cycles[0]?, cycles[1]?])
+    let head = rows.by_ref().find(|row| row[0] == "| call")?;
+    let column = head.iter().position(|name| *name == CURVES[curve].0)?;
+    let call = format!("| {}", method.cost());
+    rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
 fn methods(measured: &Measured) -> String {
     let costs = METHODS.iter().map(|method| {
         let times = measured.times.iter().map(|(times, _)| time(times, *method));
         let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-        let cycles = [SOFT, TRAPEZOID].into_iter().flat_map(|curve| {
-            let cycles = cycles(measured, *method, curve);
-            [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])))
-        });
         let head = [method.name().to_owned(), method.bytes().to_string()];
-        head.into_iter().chain(times).chain(cycles).collect()
+        head.into_iter().chain(times).collect()
     });
     let timed = CURVES.map(|(name, ..)| format!("{name}, ns")).join(" | ");
-    let cycles = "M4F cycles, soft: mean | max | trapezoid: mean | max";
-    let costs = table(&format!("method | bytes | {timed} | {cycles}"), 1, costs);
+    let costs = table(&format!("method | bytes | {timed}"), 1, costs);
     let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let numbers = [
-            figures.quantile(1.0),
-            figures.quantile(0.999),
-            figures.mean(),
+            figures.forward.0,
+            figures.forward.1,
             figures.of_interval.0,
             figures.of_interval.1,
             figures.backward,
             figures.steps_back,
             figures.failures,
-            figures.evaluations.0,
         ];
-        let worst = figures.evaluations.1.to_string();
-        [method.name().into()].into_iter().chain(numbers.map(number)).chain([worst]).collect()
+        [method.name().into()].into_iter().chain(numbers.map(number)).collect()
     });
-    let header = "method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) \
-                  | steps back | failures | evaluations: mean | worst";
+    let header = "method | forward: max | mean | of the interval: max | mean | backward, ulp(u) \
+                  | steps back | failures";
     let errors = table(header, 1, errors);
     format!(
         "## The methods
 
 The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
 of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer); Newton inside a bracket until an
-absolute 1e-6 (another renderer); tables of the exact inverse at equally spaced `u`, joined by lines or by monotone
-cubics; and Newton in doubles. The last three are for straight ramps alone, which take one square root, from the nearer
-end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
+absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally spaced `u`, joined by lines
+or by monotone cubics. The last three are for straight ramps alone, which take one square root, from the nearer end: by
+`libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
 
 ### Cost
 
-`soft` has a third of its mass in ramps, `all ramp` all of it, `trapezoid` a third in straight ramps, `box` none. Cycles
-are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.md` has them.
+*Soft* has a third of its mass in ramps, *all ramp* all of it, *trapezoid* a third in straight ramps, *box* none.
+[cost.md](cost.md) has cycles.
 
 {costs}
 
@@ -152,8 +139,7 @@ are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.m
 
 {errors}
 
-Evaluations are of the mass, a polynomial of degree 6. This crate's polynomials of octaves and its plateau take none. The square
-roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
+The square roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
 
 ![Worst cases](worst-cases.svg)
 
@@ -184,40 +170,33 @@ Both need `p` for a `t`, which no table gives: this crate solves by its own sear
     )
 }
 
+/// A row of figures for each case; those that a search found are one row, of their worst.
 fn hard_cases() -> String {
-    let rows = CASES.iter().map(|case| {
+    let judged = CASES.iter().map(|case| {
         let curve = case.curve();
         let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
         let [textbook, by_table] = [Textbook, Table256].map(|method| {
             let inverse = method.build(&curve).expect("it serves every curve");
-            judge(&exact, |u| inverse.inverse_cdf(u))
+            judge(&exact, |u| inverse.inverse_cdf(u)).of_interval
         });
         let own = judge(&exact, |u| ours.inverse_cdf(u));
-        let evaluations = hard_us(&exact, 4, 400).iter().map(|u| ours.evaluations(*u)).max();
-        vec![
-            case.name.into(),
-            number(textbook.of_interval),
-            textbook.failures.to_string(),
-            textbook.steps_back.to_string(),
-            number(by_table.of_interval),
-            by_table.failures.to_string(),
-            number(own.of_interval),
-            number(own.forward),
-            number(own.backward),
-            format!("{}, {}", own.failures, own.steps_back),
-            evaluations.unwrap_or(0).to_string(),
-        ]
+        (case.name, [textbook, by_table, own.of_interval, own.backward])
     });
-    let header = "case | textbook: error | failures | steps back | table: error | failures | this crate: error | ulp(t) \
-                  | ulp(u) | failures, steps back | evaluations: worst";
-    let table = table(header, 1, rows);
+    let (found, ours): (Vec<_>, Vec<_>) = judged.partition(|(name, _)| name.starts_with("search:"));
+    let most = |i: usize| found.iter().map(|(_, figures)| figures[i]).fold(0.0, f64::max);
+    let name = format!("{} that a search found, the worst of each column", found.len());
+    let worst = (name.as_str(), [0, 1, 2, 3].map(most));
+    let row = |(name, figures): (&str, [f64; 4])| {
+        [name.into()].into_iter().chain(figures.map(number)).collect()
+    };
+    let header = "case | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
+    let table = table(header, 1, ours.into_iter().chain([worst]).map(row));
     format!(
         "## Hard cases
 
-Each is a test in `tests/hard_cases.rs`, which also rebuilds where other systems fail. The textbook Newton and the
-table of 256 beside this crate with 8 octaves: the greatest error as a share of the interval, failures and steps back
-of about 1000 `u` a curve, and this crate's errors in ulp(t) and, once half an ulp(t) is forgiven, in ulp(u). The error
-in ulp(t) is large where the density is next to nothing: there a small ulp(u) is all that can be had.
+The greatest error over about 1000 `u` a curve, as a share of the interval, and the backward error of this crate with 8
+octaves. Far from time 0 an ulp of time is a large share of the interval. Each case is a test in `tests/hard_cases.rs`,
+which also rebuilds where other systems fail.
 
 {table}"
     )
