@@ -47,8 +47,8 @@ const CALLS: [(&str, Function, usize); 14] = [
     ("the FPU's square root", SqrtFpu, DEFAULT),
 ];
 
-/// The octaves with which building is measured.
-const BUILT: [usize; 2] = [0, DEFAULT];
+/// The octaves of which all cores are told.
+const TOLD: [usize; 2] = [0, DEFAULT];
 
 /// Those for straight ramps.
 const SQUARE_ROOTS: [Function; 3] = [SqrtLibm, SqrtMicromath, SqrtFpu];
@@ -105,14 +105,14 @@ pub fn write() -> Result {
         series(&[InverseCdf], &OCTAVES, On::All),
         series(&[Static, Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::All),
         series(&SQUARE_ROOTS, &[DEFAULT], On::All),
-        series(&[Construct], &BUILT, On::All),
+        series(&[Construct], &TOLD, On::All),
     ];
     let m4f = Measured::new(M4F, OPT_LEVEL, &plan.concat())?;
     let plan = [
-        series(&[InverseCdf], &OCTAVES, On::Rows),
+        series(&[InverseCdf], &TOLD, On::Rows),
         series(&[Static, Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::Rows),
         series(&SQUARE_ROOTS, &[DEFAULT], On::Rows),
-        series(&[Construct], &BUILT, On::Rows),
+        series(&[Construct], &TOLD, On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
     let others = others.into_iter().collect::<Result<Vec<_>>>()?;
@@ -179,12 +179,14 @@ fn overview(cores: &[&Measured]) -> [String; 3] {
     for (row, curve) in ROWS[..=TRAPEZOID].iter().enumerate() {
         for (name, function, octaves) in CALLS {
             // *Trapezoid* stands for straight ramps, which alone have other methods than *soft*.
-            if row == TRAPEZOID && function != Static && !function.is_for_straight_ramps() {
+            let is_told =
+                row != TRAPEZOID || function == Static || function.is_for_straight_ramps();
+            if !is_told || !TOLD.contains(&octaves) {
                 continue;
             }
             let on = |core: &&Measured| Some(core.on(function, row, octaves)?.instructions().mean);
             let counts: Vec<_> = cores.iter().map(|core| on(core).map(grouped)).collect();
-            if counts.iter().flatten().count() > 1 {
+            if counts.iter().any(Option::is_some) {
                 rows.push(format!("{curve}: {name} | {}", figures(counts)));
             }
         }
@@ -212,7 +214,9 @@ fn overview(cores: &[&Measured]) -> [String; 3] {
 
 /// The first screen.
 fn introduction(cores: &[&Measured]) -> String {
-    let [calls, everywhere, curves] = overview(cores);
+    let [calls, ..] = overview(cores);
+    // Of the first core there are cycles.
+    let [_, everywhere, curves] = overview(&cores[1..]);
     format!(
         "Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times, with `OCTAVES = 8` if no other number is named. *Soft* collects a third
 of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps; *typical* is the mean over {TYPICAL} curves. *Worst* is the
@@ -222,7 +226,7 @@ over typical curves.
 
 {calls}
 
-The same in instructions:
+The same on other cores, in instructions:
 
 {everywhere}
 
@@ -277,7 +281,7 @@ fn of_trapezoid(u: f32) -> f64 {
 /// What every call takes beside time, on each core, and what building a curve does.
 fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
     let building =
-        BUILT.map(|octaves| (format!("building, `OCTAVES = {octaves}`"), Construct, octaves));
+        TOLD.map(|octaves| (format!("building, `OCTAVES = {octaves}`"), Construct, octaves));
     let calls = [Static, Cdf, Openness, TickStep, Schedule];
     let calls = CALLS.iter().filter(|(_, function, _)| calls.contains(function));
     let calls = calls.map(|(name, function, octaves)| (name.to_string(), *function, *octaves));
