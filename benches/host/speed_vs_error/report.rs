@@ -48,9 +48,8 @@ predicted; on another machine trust the ratios.
 Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones), {}
 fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
 
-- *forward*: |t - exact| in ulp(t);
-- *of the interval*: the same as a share of `close_end - open_start`, its mean over the uniform half;
-- *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, but for half an ulp of rounding;
+- *forward* and *backward*: as [accuracy.md](../accuracy.md) has them, in ulp of `t` and of `u`;
+- *of the interval*: the distance from the exact time as a share of the interval, its mean over the uniform half;
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
@@ -130,8 +129,7 @@ or by monotone cubics. The last three are for straight ramps alone, which take o
 
 ### Cost
 
-*Soft* has a third of its mass in ramps, *all ramp* all of it, *trapezoid* a third in straight ramps, *box* none.
-[cost.md](cost.md) has cycles.
+The curves are those of [cost.md](cost.md), which has cycles.
 
 {costs}
 
@@ -143,8 +141,7 @@ The square roots are judged on the {straight} of these curves whose ramps are st
 
 ![Worst cases](worst-cases.svg)
 
-Each random curve's worst `u`, over about 1000 that are likely to be bad: octave ends, section bounds with their
-neighbours, the smallest numbers, random ones. Where several lie at one place, it has one dot.",
+Each random curve's worst `u`, over about 1000 that are likely to be bad. Where several lie at one place, it has one dot.",
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
@@ -271,10 +268,10 @@ fn every_f32(measured: &Measured) -> String {
         "## Every f32
 
 `cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and with other
-counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and `openness` at all times from a
-curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve runs across it, at every sixteenth stretch). A
-second formulation in doubles judges all; the double-double oracle judges samples and the worst of each 4 million (*judged*). These
-{answers} answers took {minutes:.0} minutes on two busy cores, in a run of its own. `every-f32.csv` has each curve.
+counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. It asks `cdf` and `openness` at all times of a
+curve (within 2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the
+oracle judges samples and the worst of each 4 million (*judged*). These {answers} answers took {minutes:.0} minutes on two busy cores.
+`every-f32.csv` has each curve.
 
 {table}
 
@@ -292,8 +289,8 @@ fn rendering(measured: &Measured) -> String {
         "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel. Equally spaced pulses must be dimmed by the openness, which a lamp of equal
-pulses cannot do, and random ones are far noisier. `tests/statistics.rs` holds this.
+within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
+openness, which a lamp of equal pulses cannot do, and random ones are far noisier.
 
 ![A moving bar in pulses](rendering.svg)
 
