@@ -203,7 +203,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If fewer than `wanted`, then one more than the
     /// answer breaks the gap. The answer is at least 1, unless none are wanted.
     ///
-    /// It plans a few frames at best and `2 log2(wanted)` at worst, each up to its first gap that is too small.
+    /// It tries frames, each up to the first gap that is too small: a few at best, `2 log2(wanted)` at worst, and none
+    /// for a gap of 0.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
