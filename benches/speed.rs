@@ -57,9 +57,10 @@ impl<T> fmt::Display for Row<T> {
 fn inverses(curve: usize) -> Vec<Row<Method>> {
     let figures = accuracy::measure(&[CURVES[curve].1], SAMPLES);
     let served = METHODS.into_iter().zip(figures).filter(|(_, figures)| figures.curves > 0);
-    let name = |method: Method| match method.cost() {
-        [_, octaves] if method.is_ours() => format!("this crate, {octaves} octaves"),
-        _ => method.name().replace('`', ""),
+    let name = |method: Method| {
+        let name = method.name().replace('`', "");
+        let octaves = name.strip_prefix("OCTAVES = ");
+        octaves.map(|octaves| format!("this crate, {octaves} octaves")).unwrap_or(name)
     };
     let rows = served.map(|(method, figures)| Row {
         name: name(method),

@@ -122,7 +122,7 @@ pub enum ScheduleError {
     TickRateZero,
     /// The interval is longer than 2³¹ ticks at this rate.
     TickRateTooHigh {
-        /// The greatest rate at which it is not; 0 where none is low enough.
+        /// The greatest rate that fits; 0 if none does.
         most: u32,
     },
     /// More triggers or pulses than a frame can have.

@@ -27,8 +27,8 @@
 //! |---|---|
 //! | a shutter: by two [`CubicBezier`]s, straight ramps, RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a constant curve, whose fault stops the build | [`valid`] |
-//! | a smaller or a faster curve: more or fewer than 8 polynomials per half of [0, 1] | [`with_octaves`] |
-//! | one Bezier alone as a density, of any scale | [`density`], after [`scaled`] if it exceeds 1 |
+//! | a smaller curve that needs more searches, or a larger one that needs fewer | [`with_octaves`] |
+//! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
 //! | the ticks of a frame: constant, or checked at run time | [`ticks`], [`schedule_into`] |
@@ -52,15 +52,15 @@
 //!
 //! # Accuracy
 //!
-//! On every curve that constructs, the *backward error* is at most 0.5 ulp: the time is that of a fraction within 0.5
-//! ulp of `u`. On typical curves it is within 0.69 ulp of the exact time. Times and ticks never step back, and every
+//! On every valid curve the *backward error* is at most 0.5 ulp: a change of `u` by 0.5 ulp or less makes the answer
+//! exact. On typical curves the time is within 0.69 ulp of the exact one. Times and ticks never step back, and every
 //! machine with IEEE `f32` arithmetic gives the same bits. The page [`accuracy`] has every promise and what holds it.
 //!
 //! # Cost
 //!
 //! A `static` curve takes 1256 bytes of flash and no time at start-up. On a Cortex-M4F an [`inverse_cdf`] takes some 70
 //! to 110 cycles on average, and up to some 1600 where it needs a search. Frames of up to [`direct_triggers`] never
-//! need one. Building a curve at run time takes some 1.8 million instructions there. The README compares other methods,
+//! need one. Building a curve at run time takes some 1.7 million instructions there. The README compares other methods,
 //! and says when not to use this crate.
 //!
 //! # Features and minimum Rust

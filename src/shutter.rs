@@ -17,12 +17,12 @@ use crate::ramp::bezier::CubicBezier;
 /// Hz. Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0
 /// or end at 1 (a jump).
 ///
-/// `OCTAVES` is the number of octaves of `u` on either side. The first octave goes from a ramp's last fraction down to
-/// half of it, the next from there to a quarter, and so on. A polynomial answers each, unless the curve is too
-/// difficult there. A curve takes 488 bytes, and 96 more for each of `OCTAVES`. With 8 a side at most one `u` in 256 of
-/// a typical curve is found by a search; with 0 all `u` on the ramps are. The promised accuracy is the same. More than
-/// 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
-/// [`with_octaves`](Self::with_octaves) takes another number than 8.
+/// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
+/// another number than 8. Fractions count from the nearer end. The first polynomial of a ramp answers its largest
+/// fraction down to half of that, the next one down to a quarter, and so on. A search answers the rest, and wherever
+/// the curve is too difficult for a polynomial: with 8 at most one `u` in 256 of a typical curve, with 0 all `u` on the
+/// ramps. The promised accuracy is the same for every number. A curve takes 488 bytes, and 96 more for each of
+/// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) plan: Plan<OCTAVES>,
@@ -107,12 +107,12 @@ impl ShutterCurve {
         }
     }
 
-    /// One Bezier `(t(p), f(p))` as a density: as a shutter that opens along it and closes at once where it ends.
+    /// One Bezier `(t(p), f(p))` alone as a density: the opening ramp of a shutter whose closing ramp has no length.
     ///
     /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
     /// not depend on it. But `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best
     /// by a power of two, which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
-    /// the scaled density. (An `f` above 1 by up to 2⁻²² is taken for the rounding of control points, and for 1.)
+    /// the scaled density.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -150,9 +150,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
-    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below
-    /// 2⁻¹²⁶. Since control points are rounded, the openness and the slope of time may pass their bounds by 2⁻²². But
-    /// time may not pass its ramp's ends by more than 2⁻⁴⁶ of the ramp.
+    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below 2⁻¹²⁶.
+    /// Rounded control points are forgiven: the openness may pass 0 or 1, and the slope of time 0, by up to 2⁻²². But
+    /// time may pass its ramp's ends by at most 2⁻⁴⁶ of the ramp.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -274,8 +274,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.plan.inverse_cdf(u)
     }
 
-    /// The effective exposure time `A = ∫ f dt`, in the curve's unit: for so long a fully open shutter would let the
-    /// same light through.
+    /// The effective exposure time `A = ∫ f dt`, in the curve's unit. In that time a fully open shutter lets the same
+    /// light through.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

@@ -19,13 +19,13 @@ pub struct Pulse {
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
-    /// the same dose through the shutter, `duty · A / n`. It takes the part `duty`, above 0 and at most 1, out of the
-    /// middle of its share of the exposure, from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
+    /// the same dose through the shutter, `duty · A / n`. A pulse lights the middle of its share of the exposure, as
+    /// much of it as `duty` says (above 0, at most 1): from `F⁻¹((i + 1/2 - duty/2) / n)` to
+    /// `F⁻¹((i + 1/2 + duty/2) / n)`.
     ///
-    /// Pulses are in order, never overlap, and none is of negative length; at a duty of 1 they touch. Ticks are counted
-    /// and rounded as [`trigger_ticks`](Self::trigger_ticks) does it. Each end is within 0.52 tick of the exact time of
-    /// a fraction within two ulp of its own: the `f32` takes one and a half, the inverse half. A pulse that is shorter
-    /// than a tick may go on and off at the same one.
+    /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse that is
+    /// shorter than a tick may go on and off at the same one. Ticks are counted and rounded as
+    /// [`trigger_ticks`](Self::trigger_ticks) does it, but the fraction of a pulse's end may be off by two ulp.
     ///
     /// ```
     /// use shutter_curve::{Pulse, ShutterCurve, valid};
@@ -67,8 +67,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short; the slice then holds a part of the schedule. Those of
-    /// [`pulse_ticks`](Self::pulse_ticks); the slice is then unchanged.
+    /// A pulse or a gap that is too short: then the slice holds a part of the schedule. The errors of
+    /// [`pulse_ticks`](Self::pulse_ticks): then the slice is unchanged.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],

@@ -38,7 +38,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the
     /// plateau.
     ///
-    /// As a constant it makes a deadline that the compiler checks:
+    /// In a constant the compiler checks it:
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -86,10 +86,10 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// Each tick is within 0.52 tick of the exact time of a fraction within one ulp of `(2i + 1) / 2n`: the `f32` takes
-    /// half an ulp, the inverse half. (The ulp is that of the fraction or of its rest to 1, whichever is less.) On
-    /// typical curves it is within 0.8 tick of the exact time in intervals of up to 2²⁴ ticks. In longer intervals an
-    /// ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹.
+    /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
+    /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve a change of
+    /// `(2i + 1) / 2n` by one ulp or less brings the exact time within 0.52 tick. (Of an ulp of the fraction and one of
+    /// its rest to 1, the lesser counts.)
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
@@ -119,8 +119,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A gap that is not kept; the slice then holds a part of the schedule. Those of
-    /// [`trigger_ticks`](Self::trigger_ticks); the slice is then unchanged.
+    /// A gap that is too small: then the slice holds a part of the schedule. The errors of
+    /// [`trigger_ticks`](Self::trigger_ticks): then the slice is unchanged.
     pub const fn schedule_into(
         &self,
         ticks: &mut [u32],
@@ -199,8 +199,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(schedule)
     }
 
-    /// How many of `wanted` triggers keep a gap of `min_gap_ticks`: all of them, or a number that keeps it while one
-    /// more does not. At least 1, unless none are wanted.
+    /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If fewer than `wanted`, then one more than the
+    /// answer breaks the gap. The answer is at least 1, unless none are wanted.
     ///
     /// It tries frames, each up to the first gap that is too small: a few at best, `2 log2(wanted)` at worst, and none
     /// for a gap of 0.

@@ -2,7 +2,6 @@
 
 use std::fs::{File, write};
 
-use measured::roots::ROOTS;
 use measured::{
     CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TRAPEZOID, TYPICAL,
 };
@@ -13,15 +12,13 @@ use crate::disassembly::Disassembly;
 use crate::firmware::{Core, build, output};
 use crate::trace::{Call, replay};
 
-use Function::{Construct, InverseCdf, Root, SqrtFpu, Static, TickStep};
+use Function::{Construct, InverseCdf, SqrtFpu, Static, TickStep};
 
 /// What functions are measured on.
 #[derive(Clone, Copy, PartialEq)]
 pub enum On {
     /// Uniform inputs, on the curves with rows of their own.
     Rows,
-    /// Uniform inputs, on all typical curves.
-    Typical,
     /// All that there is: hard inputs on all curves, too.
     All,
 }
@@ -32,14 +29,12 @@ pub fn series(functions: &[Function], octaves: &[usize], on: On) -> Vec<Series> 
     for (function, octaves) in functions.iter().flat_map(|f| octaves.iter().map(|c| (*f, *c))) {
         // Of uniform inputs, and of hard ones.
         let curves = match function {
-            Root => [ROOTS.len(), 0],
             Construct => [1, 0],
             Static => [TYPICAL, TYPICAL],
             _ => [TYPICAL, CURVES.len()],
         };
         let most = match on {
             On::Rows => [ROWS.len(), 0],
-            On::Typical => [TYPICAL, 0],
             On::All => curves,
         };
         for (i, inputs) in Inputs::ALL.into_iter().enumerate() {
@@ -61,10 +56,7 @@ pub struct Ran {
 
 /// How what the calls of a series took is spread.
 pub struct Spread {
-    pub min: u32,
-    pub median: u32,
     pub mean: f64,
-    pub most: u32,
     pub max: u32,
 }
 
@@ -83,16 +75,9 @@ impl Ran {
     }
 
     fn spread(&self, of: fn(&Call) -> u32) -> Spread {
-        let mut values: Vec<u32> = self.calls.iter().map(of).collect();
-        values.sort_unstable();
-        let (n, total) = (values.len(), values.iter().map(|v| f64::from(*v)).sum::<f64>());
-        Spread {
-            min: values[0],
-            median: values[n / 2],
-            mean: total / n as f64,
-            most: values[(n * 99 / 100).min(n - 1)],
-            max: values[n - 1],
-        }
+        let values = self.calls.iter().map(of);
+        let total: f64 = values.clone().map(f64::from).sum();
+        Spread { mean: total / values.len() as f64, max: values.max().unwrap_or(0) }
     }
 
     /// The share of the calls whose answers took a search.

@@ -11,30 +11,16 @@ const SEED: u64 = 4;
 pub struct Figures {
     /// On how many curves it was measured.
     pub curves: usize,
-    /// |t - exact| in ulp(t), of all samples, in order.
-    pub forward: Vec<f32>,
+    /// The greatest |t - exact| in ulp(t), and the mean.
+    pub forward: (f64, f64),
     /// The greatest error as a fraction of the interval, and the mean of those at uniform fractions.
     pub of_interval: (f64, f64),
     /// The greatest error in ulp(u), once half an ulp(t) is forgiven.
     pub backward: f64,
     /// Of neighbouring u.
     pub steps_back: f64,
-    /// Mean and worst number of evaluations.
-    pub evaluations: (f64, u32),
     /// NaN, outside the interval, or off by more than 1 % of it.
     pub failures: f64,
-}
-
-impl Figures {
-    /// The error that this share of the samples does not exceed.
-    pub fn quantile(&self, share: f64) -> f64 {
-        let last = self.forward.len() - 1;
-        f64::from(self.forward[(share * last as f64) as usize])
-    }
-
-    pub fn mean(&self) -> f64 {
-        self.forward.iter().map(|e| f64::from(*e)).sum::<f64>() / self.forward.len() as f64
-    }
 }
 
 /// The named typical curves, and random ones.
@@ -52,6 +38,7 @@ const fn is_uniform(sample: usize) -> bool {
 /// Of so many samples a curve, and as many neighbours of the first, on each curve that a method serves.
 pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
     let mut all = vec![Figures::default(); METHODS.len()];
+    let mut measured = [0u32; METHODS.len()];
     for (index, curve) in curves.iter().enumerate() {
         let (exact, mut rng) = (Exact::new(curve), Rng::new(SEED, index as u64));
         // Uniform, and towards both ends on a scale of octaves: where tables and absolute tolerances fail.
@@ -70,13 +57,11 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
         let first = us[0].0.min(0.999).to_bits();
         let (start, end) = (curve.open_start(), curve.close_end());
         let length = f64::from(end) - f64::from(start);
-        for (method, figures) in METHODS.iter().zip(&mut all) {
+        for ((method, figures), measured) in METHODS.iter().zip(&mut all).zip(&mut measured) {
             let Some(inverse) = method.build(curve) else { continue };
             figures.curves += 1;
             for (i, &(u, truth)) in us.iter().enumerate() {
-                let (t, evaluations) = inverse.solve(u);
-                figures.evaluations.0 += f64::from(evaluations);
-                figures.evaluations.1 = figures.evaluations.1.max(evaluations);
+                let t = inverse.inverse_cdf(u);
                 let error = |t: f32| (f64::from(t) - truth.hi).abs() / length;
                 figures.failures += f64::from(!(t >= start && t <= end && error(t) <= 0.01));
                 // The errors are those of a caller who mends what can be seen: NaN, and times outside.
@@ -85,7 +70,10 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
                 figures.of_interval.1 += if is_uniform(i) { error(t) } else { 0.0 };
                 // No error is relative to a time of 0.
                 if truth.hi != 0.0 {
-                    figures.forward.push(exact.forward_ulp(t, truth) as f32);
+                    let error = exact.forward_ulp(t, truth);
+                    figures.forward.0 = figures.forward.0.max(error);
+                    figures.forward.1 += error;
+                    *measured += 1;
                 }
                 figures.backward = figures.backward.max(exact.judge(u, t).backward);
             }
@@ -95,11 +83,10 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
             figures.steps_back += back.count() as f64;
         }
     }
-    for figures in &mut all {
+    for (figures, measured) in all.iter_mut().zip(measured) {
         let count = (figures.curves * samples) as f64;
-        figures.forward.sort_by(f32::total_cmp);
+        figures.forward.1 /= f64::from(measured);
         figures.of_interval.1 /= 0.5 * count;
-        figures.evaluations.0 /= count;
         figures.failures *= 1e6 / count;
         figures.steps_back *= 1e6 / count;
     }

@@ -53,8 +53,9 @@ fn main() -> Result {
 fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
     let curves = accuracy::curves(random);
     let scene = Picture::new(&CURVES[0].1);
-    let rendering =
-        (6..=12).map(|k| (1 << k, PULSES.map(|pulses| rendered(&scene, pulses, 1 << k))));
+    let rendering = (6..=12)
+        .step_by(2)
+        .map(|k| (1 << k, PULSES.map(|pulses| rendered(&scene, pulses, 1 << k))));
     let measured = Measured {
         curves: curves.len(),
         samples,

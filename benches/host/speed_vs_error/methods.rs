@@ -48,12 +48,7 @@ pub fn fractions() -> Vec<f32> {
 }
 
 pub trait Inverse {
-    /// The time, and how often a polynomial of the mass was evaluated for it.
-    fn solve(&self, u: f32) -> (f32, u32);
-
-    fn inverse_cdf(&self, u: f32) -> f32 {
-        self.solve(u).0
-    }
+    fn inverse_cdf(&self, u: f32) -> f32;
 
     /// One call after the other, each result kept from being optimised away.
     fn singles(&self, u: &[f32]) {
@@ -64,17 +59,14 @@ pub trait Inverse {
 }
 
 impl<const OCTAVES: usize> Inverse for ShutterCurve<OCTAVES> {
-    fn solve(&self, u: f32) -> (f32, u32) {
-        (self.inverse_cdf(u), self.evaluations(u))
-    }
     fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse_cdf(u)
     }
 }
 
 /// A peer is the way in which its data are used.
-impl<F: Fn(f32) -> (f32, u32)> Inverse for F {
-    fn solve(&self, u: f32) -> (f32, u32) {
+impl<F: Fn(f32) -> f32> Inverse for F {
+    fn inverse_cdf(&self, u: f32) -> f32 {
         self(u)
     }
 }
@@ -158,16 +150,16 @@ impl Method {
         }
     }
 
-    /// Its call and number of octaves in the table of cycles.
-    pub const fn cost(self) -> [&'static str; 2] {
+    /// Its call in the table of cycles.
+    pub const fn cost(self) -> &'static str {
         match self {
-            Octaves0 => ["`inverse_cdf`", "0"],
-            Octaves4 => ["`inverse_cdf`", "4"],
-            Octaves8 => ["`inverse_cdf`", "8"],
-            Octaves16 => ["`inverse_cdf`", "16"],
-            Textbook => ["textbook Newton in `f32`", "8"],
-            Table256 => ["linear table of 256", "8"],
-            _ => [self.name(), "8"],
+            Octaves0 => "`inverse_cdf`, `OCTAVES = 0`",
+            Octaves4 => "`inverse_cdf`, `OCTAVES = 4`",
+            Octaves8 => "`inverse_cdf`",
+            Octaves16 => "`inverse_cdf`, `OCTAVES = 16`",
+            Textbook => "textbook Newton in `f32`",
+            Table256 => "linear table of 256",
+            _ => self.name(),
         }
     }
 
@@ -201,39 +193,39 @@ impl Method {
             Octaves16 => task.on(shutter::<16>(c)),
             Textbook => {
                 let newton = TextbookNewton::new(c.opening, c.closing);
-                task.on(move |u| newton.solve(u))
+                task.on(move |u| newton.inverse_cdf(u))
             }
             Bracketed => {
                 let parts = Parts::<f32>::new(c.opening, c.closing);
-                task.on(move |u| parts.inverse_cdf(u, bracketed))
+                task.on(move |u| parts.inverse_cdf(u, bracketed).0)
             }
             Doubles => {
                 let parts = Parts::<f64>::new(c.opening, c.closing);
-                task.on(move |u| parts.inverse_cdf(u, doubles))
+                task.on(move |u| parts.inverse_cdf(u, doubles).0)
             }
             Table256 => {
                 let table = InverseTable::<256>::new(exact());
-                task.on(move |u| (table.inverse_cdf(u), 0))
+                task.on(move |u| table.inverse_cdf(u))
             }
             Table1024 => {
                 let table = InverseTable::<1024>::new(exact());
-                task.on(move |u| (table.inverse_cdf(u), 0))
+                task.on(move |u| table.inverse_cdf(u))
             }
             CubicTable => {
                 let table = MonotoneCubicTable::<64>::new(exact());
-                task.on(move |u| (table.inverse_cdf(u), 0))
+                task.on(move |u| table.inverse_cdf(u))
             }
             RootLibm => {
                 let ramps = straight(c)?;
-                task.on(move |u| (ramps.inverse_cdf(u, libm::sqrtf), 0))
+                task.on(move |u| ramps.inverse_cdf(u, libm::sqrtf))
             }
             RootMicromath => {
                 let ramps = straight(c)?;
-                task.on(move |u| (ramps.inverse_cdf(u, F32Ext::sqrt), 0))
+                task.on(move |u| ramps.inverse_cdf(u, F32Ext::sqrt))
             }
             RootFpu => {
                 let ramps = straight(c)?;
-                task.on(move |u| (ramps.inverse_cdf(u, f32::sqrt), 0))
+                task.on(move |u| ramps.inverse_cdf(u, f32::sqrt))
             }
         })
     }

@@ -109,7 +109,7 @@ fn superscript(n: i32) -> String {
 pub fn frontier(path: &str, measured: &Measured) {
     let on = |method: Method| if method.is_root() { TRAPEZOID } else { SOFT };
     let times = METHODS.map(|method| time(&measured.times[on(method)].0, method));
-    let cycles = METHODS.map(|method| Some(cycles(measured, method, on(method))?[0]));
+    let cycles = METHODS.map(|method| cycles(measured, method, on(method)));
     let panels = [
         ("nanoseconds a sample on the host, soft curve", times),
         ("mean cycles a sample on a Cortex-M4F (model), soft curve", cycles),

@@ -2,9 +2,8 @@
 
 use crate::accuracy::Figures;
 use crate::methods::Method::{Table256, Textbook};
-use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
+use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
 use crate::support::cases::{CASES, judge, shutter};
-use crate::support::curves::hard_us;
 use crate::support::oracle::Exact;
 use crate::support::rendering::{PULSES, Pulses};
 use crate::table::{Row, number, shown, table};
@@ -49,9 +48,8 @@ predicted; on another machine trust the ratios.
 Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones), {}
 fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
 
-- *forward*: |t - exact| in ulp(t);
-- *of the interval*: the same as a share of `close_end - open_start`, its mean over the uniform half;
-- *backward*: the smallest change of `u`, in ulp(u), that makes the answer exact, but for half an ulp of rounding;
+- *forward* and *backward*: as [accuracy.md](../accuracy.md) has them, in ulp of `t` and of `u`;
+- *of the interval*: the distance from the exact time as a share of the interval, its mean over the uniform half;
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
@@ -87,64 +85,53 @@ pub fn time(times: &[Option<f64>], method: Method) -> Option<f64> {
     times[METHODS.iter().position(|one| *one == method)?]
 }
 
-/// A method's mean and greatest cycles on a curve, where `docs/internals/cost.md` has them.
-pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<[f64; 2]> {
+/// A method's mean cycles on a curve, where `docs/internals/cost.md` has them.
+pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> {
     let mut rows = measured.cost.lines().map(|line| line.split(" | ").collect::<Vec<_>>());
-    let head = rows.by_ref().find(|row| row.starts_with(&["| call", "curve"]))?;
-    let mean = head.iter().position(|name| *name == "mean")?;
-    let [call, octaves] = method.cost();
-    let head = [&format!("| {call}"), CURVES[curve].0, octaves];
-    let row = rows.find(|row| row.len() > mean && row[..3] == head)?;
-    // Behind it the 99 %, then the greatest.
-    let cycles = [mean, mean + 2].map(|column| row[column].trim_matches('*').parse().ok());
-    Some([cycles[0]?, cycles[1]?])
+    let head = rows.by_ref().find(|row| row[0] == "| call")?;
+    let column = head.iter().position(|name| *name == CURVES[curve].0)?;
+    let call = format!("| {}", method.cost());
+    rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
 fn methods(measured: &Measured) -> String {
     let costs = METHODS.iter().map(|method| {
-        let times = measured.times.iter().map(|(times, _)| time(times, *method));
+        // A box has no ramps, where methods differ.
+        let times = measured.times[..=TRAPEZOID].iter().map(|(times, _)| time(times, *method));
         let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-        let cycles = [SOFT, TRAPEZOID].into_iter().flat_map(|curve| {
-            let cycles = cycles(measured, *method, curve);
-            [0, 1].map(|i| cycles.map_or_else(|| "-".into(), |c| format!("{:.0}", c[i])))
-        });
         let head = [method.name().to_owned(), method.bytes().to_string()];
-        head.into_iter().chain(times).chain(cycles).collect()
+        head.into_iter().chain(times).collect()
     });
-    let timed = CURVES.map(|(name, ..)| format!("{name}, ns")).join(" | ");
-    let cycles = "M4F cycles, soft: mean | max | trapezoid: mean | max";
-    let costs = table(&format!("method | bytes | {timed} | {cycles}"), 1, costs);
+    let timed = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
+    let timed = timed.collect::<Vec<_>>().join(" | ");
+    let costs = table(&format!("method | bytes | {timed}"), 1, costs);
     let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let numbers = [
-            figures.quantile(1.0),
-            figures.quantile(0.999),
-            figures.mean(),
+            figures.forward.0,
+            figures.forward.1,
             figures.of_interval.0,
             figures.of_interval.1,
             figures.backward,
             figures.steps_back,
             figures.failures,
-            figures.evaluations.0,
         ];
-        let worst = figures.evaluations.1.to_string();
-        [method.name().into()].into_iter().chain(numbers.map(number)).chain([worst]).collect()
+        [method.name().into()].into_iter().chain(numbers.map(number)).collect()
     });
-    let header = "method | forward: max | 99.9 % | mean | of the interval: max | mean | backward, ulp(u) \
-                  | steps back | failures | evaluations: mean | worst";
+    let header = "method | forward: max | mean | of the interval: max | mean | backward, ulp(u) \
+                  | steps back | failures";
     let errors = table(header, 1, errors);
     format!(
         "## The methods
 
 The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
 of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer); Newton inside a bracket until an
-absolute 1e-6 (another renderer); tables of the exact inverse at equally spaced `u`, joined by lines or by monotone
-cubics; and Newton in doubles. The last three are for straight ramps alone, which take one square root, from the nearer
-end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
+absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally spaced `u`, joined by lines
+or by monotone cubics. The last three are for straight ramps alone, which take one square root, from the nearer end: by
+`libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
 
 ### Cost
 
-`soft` has a third of its mass in ramps, `all ramp` all of it, `trapezoid` a third in straight ramps, `box` none. Cycles
-are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.md` has them.
+The curves are those of [cost.md](cost.md), which has cycles.
 
 {costs}
 
@@ -152,23 +139,22 @@ are a model of a Cortex-M4F without wait states, over uniform `u`, where `cost.m
 
 {errors}
 
-Evaluations are of the mass, a polynomial of degree 6. This crate's polynomials of octaves and its plateau take none. The square
-roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
+The square roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
 
 ![Worst cases](worst-cases.svg)
 
-Each random curve's worst `u`, over about 1000 that are likely to be bad: octave ends, section bounds with their
-neighbours, the smallest numbers, random ones. Where several lie at one place, it has one dot.",
+Each random curve's worst `u`, over about 1000 that are likely to be bad. Where several lie at one place, it has one dot.",
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
 
 fn forwards(measured: &Measured) -> String {
-    let rows = CURVES.iter().zip(&measured.times).map(|((name, ..), (_, forwards))| {
-        let cells =
-            forwards.iter().flat_map(|(time, error)| [format!("{time:.1}"), number(*error)]);
-        [(*name).into()].into_iter().chain(cells).collect()
-    });
+    let rows =
+        CURVES[..=TRAPEZOID].iter().zip(&measured.times).map(|((name, ..), (_, forwards))| {
+            let cells =
+                forwards.iter().flat_map(|(time, error)| [format!("{time:.1}"), number(*error)]);
+            [(*name).into()].into_iter().chain(cells).collect()
+        });
     let names = FORWARDS.map(|(name, _)| format!("{name}, ns | error")).join(" | ");
     let table = table(&format!("curve | {names}"), 1, rows);
     format!(
@@ -184,40 +170,38 @@ Both need `p` for a `t`, which no table gives: this crate solves by its own sear
     )
 }
 
+/// A row for each case that is hard for another method; those that a search found, and the others, are a row each.
 fn hard_cases() -> String {
-    let rows = CASES.iter().map(|case| {
+    let judged = CASES.iter().map(|case| {
         let curve = case.curve();
         let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
         let [textbook, by_table] = [Textbook, Table256].map(|method| {
             let inverse = method.build(&curve).expect("it serves every curve");
-            judge(&exact, |u| inverse.inverse_cdf(u))
+            judge(&exact, |u| inverse.inverse_cdf(u)).of_interval
         });
         let own = judge(&exact, |u| ours.inverse_cdf(u));
-        let evaluations = hard_us(&exact, 4, 400).iter().map(|u| ours.evaluations(*u)).max();
-        vec![
-            case.name.into(),
-            number(textbook.of_interval),
-            textbook.failures.to_string(),
-            textbook.steps_back.to_string(),
-            number(by_table.of_interval),
-            by_table.failures.to_string(),
-            number(own.of_interval),
-            number(own.forward),
-            number(own.backward),
-            format!("{}, {}", own.failures, own.steps_back),
-            evaluations.unwrap_or(0).to_string(),
-        ]
+        (case.name, [textbook, by_table, own.of_interval, own.backward])
     });
-    let header = "case | textbook: error | failures | steps back | table: error | failures | this crate: error | ulp(t) \
-                  | ulp(u) | failures, steps back | evaluations: worst";
+    let (found, ours): (Vec<_>, Vec<_>) = judged.partition(|(name, _)| name.starts_with("search:"));
+    let (told, others): (Vec<_>, Vec<_>) =
+        ours.into_iter().partition(|(_, [textbook, by_table, ..])| textbook.max(*by_table) > 0.01);
+    let worst = |cases: &[(&str, [f64; 4])], which: &str| {
+        let most = |i: usize| cases.iter().map(|(_, figures)| figures[i]).fold(0.0, f64::max);
+        let name = format!("{} {which}, the worst of each column", cases.len());
+        [name].into_iter().chain([0, 1, 2, 3].map(|i| number(most(i)))).collect()
+    };
+    let told = told
+        .into_iter()
+        .map(|(name, figures)| [name.into()].into_iter().chain(figures.map(number)).collect());
+    let rows = told.chain([worst(&found, "that a search found"), worst(&others, "others")]);
+    let header = "case | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
     let table = table(header, 1, rows);
     format!(
         "## Hard cases
 
-Each is a test in `tests/hard_cases.rs`, which also rebuilds where other systems fail. The textbook Newton and the
-table of 256 beside this crate with 8 octaves: the greatest error as a share of the interval, failures and steps back
-of about 1000 `u` a curve, and this crate's errors in ulp(t) and, once half an ulp(t) is forgiven, in ulp(u). The error
-in ulp(t) is large where the density is next to nothing: there a small ulp(u) is all that can be had.
+The greatest error over about 1000 `u` a curve, as a share of the interval, and the backward error of this crate with 8
+octaves, where another method errs by more than 1 %. Far from time 0 an ulp of time is a large share of the interval. Each
+case is a test in `tests/hard_cases.rs`, which also rebuilds where other systems fail.
 
 {table}"
     )
@@ -277,25 +261,26 @@ fn every_f32(measured: &Measured) -> String {
                 "" => "-".into(),
                 _ => sum(&rows, column).to_string(),
             });
-        let worst = ["error", "judged", "evaluations"].map(|column| most(&rows, column));
+        let worst = ["error", "judged"].map(|column| most(&rows, column));
         let head = [format!("`{function}`"), octaves.clone(), rows.len().to_string()];
         head.into_iter().chain(sums).chain(worst).collect()
     });
-    let header = "function | octaves | curves | answers | out of range | steps back | error, ulp | judged | evaluations";
+    let header =
+        "function | octaves | curves | answers | out of range | steps back | error, ulp | judged";
     let table = table(header, 1, rows);
     format!(
         "## Every f32
 
 `cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and with other
-counts for all from 2<sup>-20</sup> up, below which the same solver serves them all; and `cdf` and `openness` at all times from a
-curve's start to its end (of those within 2<sup>-64</sup> of time 0, where a curve runs across it, at every sixteenth stretch). A
-second formulation in doubles judges all; the double-double oracle judges samples and the worst of each 4 million (*judged*). These
-{answers} answers took {minutes:.0} minutes on two busy cores, in a run of its own. `every-f32.csv` has each curve.
+counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. It asks `cdf` and `openness` at all times of a
+curve (within 2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the
+oracle judges samples and the worst of each 4 million (*judged*). These {answers} answers took {minutes:.0} minutes on two busy cores.
+`every-f32.csv` has each curve.
 
 {table}
 
 The error of the inverse is its backward error, that of `cdf` and `openness` in ulp at some time within an ulp of the one asked for,
-an ulp of the cdf being at least that of 2<sup>-24</sup>. Evaluations are the most of every 16th `f32`."
+an ulp of the cdf being at least that of 2<sup>-24</sup>."
     )
 }
 
@@ -308,8 +293,8 @@ fn rendering(measured: &Measured) -> String {
         "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel. Equally spaced pulses must be dimmed by the openness, which a lamp of equal
-pulses cannot do, and random ones are far noisier. `tests/statistics.rs` holds this.
+within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
+openness, which a lamp of equal pulses cannot do, and random ones are far noisier.
 
 ![A moving bar in pulses](rendering.svg)
 

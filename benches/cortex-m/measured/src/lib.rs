@@ -1,14 +1,11 @@
 //! What the firmware measures and the host reports: the calls, the curves, the inputs and their order.
 #![no_std]
-#![cfg_attr(all(bare, feature = "cost"), feature(core_intrinsics), allow(internal_features))]
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
 pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
 pub mod baseline;
-#[cfg(feature = "cost")]
-pub mod roots;
 
 /// A curve of the reference data or found by search.
 pub struct Curve {
@@ -71,11 +68,10 @@ pub enum Function {
     SqrtLibm,
     SqrtMicromath,
     SqrtFpu,
-    Root,
 }
 
 impl Function {
-    pub const ALL: [Self; 13] = {
+    pub const ALL: [Self; 12] = {
         use Function::*;
         [
             InverseCdf,
@@ -90,7 +86,6 @@ impl Function {
             SqrtLibm,
             SqrtMicromath,
             SqrtFpu,
-            Root,
         ]
     };
 
@@ -112,7 +107,7 @@ impl Inputs {
     pub const ALL: [Self; 2] = [Self::Uniform, Self::Hard];
 }
 
-/// A series of calls on one curve; of [`Function::Root`] on no curve, but by one of `roots`.
+/// A series of calls on one curve.
 #[derive(Clone, Copy)]
 pub struct Series {
     pub function: Function,

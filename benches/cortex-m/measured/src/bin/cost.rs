@@ -5,6 +5,7 @@
 //! follow.
 #![no_std]
 #![no_main]
+#![cfg_attr(bare, feature(core_intrinsics), allow(internal_features))]
 
 use core::arch::asm;
 use core::fmt::Write;
@@ -12,7 +13,6 @@ use core::hint::black_box;
 use core::mem::MaybeUninit;
 
 use measured::baseline::{InverseTable, StraightRamps, TextbookNewton};
-use measured::roots::{DIVISOR, ROOTS, dividend, fpu_sqrt};
 use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
 use micromath::F32Ext;
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
@@ -28,14 +28,14 @@ fn the_call<A, B, O>(call: impl FnOnce(A, B) -> O, a: A, b: B) -> O {
     call(a, b)
 }
 
-fn root<const I: usize>(x: f32) -> f32 {
-    the_call(|x, divisor| (ROOTS[I].of)(x, divisor), x, black_box(DIVISOR))
+/// By the processor's instruction, where it has one: `sqrt` is not in stable `core`.
+#[inline(always)]
+fn fpu_sqrt(x: f32) -> f32 {
+    #[cfg(bare)]
+    return core::intrinsics::sqrtf32(x);
+    #[cfg(not(bare))]
+    libm::sqrtf(x)
 }
-
-macro_rules! each {
-    ($($i:literal)*) => { [$(root::<$i>),*] };
-}
-const EACH_ROOT: [fn(f32) -> f32; ROOTS.len()] = each!(0 1 2 3 4 5 6 7 8 9 10 11);
 
 /// The inverse of each typical curve, in a `static` of its own.
 macro_rules! each_static {
@@ -169,7 +169,6 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
         Function::SqrtMicromath => by_square_roots(us, data, F32Ext::sqrt),
         Function::SqrtFpu => by_square_roots(us, data, fpu_sqrt),
-        Function::Root => depth(us.map(dividend), EACH_ROOT[series.curve]),
     }
 }
 
