@@ -67,23 +67,23 @@ function setUps(scene, plan, view) {
   const X = (t) => 50 + ((t - start) / (end - start)) * 900;
   plan.set_ups.forEach(({ is_shuttered, pulses }, i) => {
     const figure = box.children[i];
+    const middles = pulses.map(([from, to]) => X(0.5 * (from + to)));
+    const half = Math.min(14, ...middles.slice(1).map((x, k) => 0.45 * (x - middles[k])));
     const [on, light, base, dose, full] = figure.querySelectorAll('path');
     const f = (x) => x.toFixed(1);
     let [outline, filled, doses] = ['', '', ''];
     const bottom = 2 * UP + 12;
-    for (const [from, to, part] of pulses) {
+    for (const [k, [from, to, part]] of pulses.entries()) {
       const [a, b] = [f(X(from)), f(X(to))];
       outline += `M${a} ${UP}V4H${b}V${UP}`;
       filled += `M${a} ${UP}`;
       const steps = is_shuttered ? 6 : 1;
-      for (let k = 0; k <= steps; k++) {
-        const t = from + ((to - from) * k) / steps;
+      for (let step = 0; step <= steps; step++) {
+        const t = from + ((to - from) * step) / steps;
         filled += `L${f(X(t))} ${f(UP - (UP - 4) * (is_shuttered ? openness(view, t) : 1))}`;
       }
       filled += `L${b} ${UP}Z`;
-      const middle = X(0.5 * (from + to));
-      const half = Math.min(14, 380 / pulses.length);
-      doses += `M${f(middle - half)} ${bottom}V${f(bottom - part * (UP - 14))}H${f(middle + half)}V${bottom}Z`;
+      doses += `M${f(middles[k] - half)} ${bottom}V${f(bottom - part * (UP - 14))}H${f(middles[k] + half)}V${bottom}Z`;
     }
     on.setAttribute('d', outline);
     light.setAttribute('d', filled);

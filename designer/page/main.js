@@ -81,15 +81,16 @@ function fields({ now: { scene }, wrong }) {
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
   for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
   const at = hash({ scene });
-  const pressed = [...$('presets').children].find((it) => it.dataset.hash === at);
+  const pressed = model.last && [...$('presets').children].find((it) => it.dataset.hash === at);
   for (const it of $('presets').children) {
     const isPressed = String(it === pressed);
     if (it.getAttribute('aria-pressed') !== isPressed) it.setAttribute('aria-pressed', isPressed);
     it.tabIndex = it === (pressed ?? $('presets').firstChild) ? 0 : -1;
   }
-  // A preset that is changed is still of its kind.
+  // What is told of a preset does not hold of it once it is changed, but keeps its room.
   const kind = pressed ?? [...$('presets').children].find((it) => it.dataset.name === scene.name && !scene.given.includes('name'));
   write($('story'), kind?.dataset.story ?? '');
+  $('story').style.visibility = pressed ? '' : 'hidden';
   document.title = `${scene.name} · Curve designer`;
 }
 

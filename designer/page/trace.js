@@ -6,7 +6,7 @@ import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
 import { UNITS } from './presets.js';
 import { told } from './save.js';
-import { LAMP, fromScene, inUnit, isSameShape, perSecond, short, tidy } from './scene.js';
+import { GIVEN, LAMP, fromScene, inUnit, isSameShape, perSecond, short, tidy } from './scene.js';
 import { remember } from './speeds.js';
 import * as studio from './studio.js';
 
@@ -29,11 +29,11 @@ async function open(file) {
   const name = file.name.replace(/\.toml$/i, '');
   if (file.size > LONGEST_SCENE) return refuse(`${file.name}: this is too long for a scene`);
   const busy = begin(`Opening ${file.name}`);
-  const answer = await studio.parse(name, await file.text());
+  const answer = await studio.parse(file.name, await file.text());
   if (model.busy !== busy || !answer) return;
-  if (answer.Err) return refuse([`${file.name}: ${answer.Err.reason}`, ...answer.Err.notes].join('\n'));
+  if (answer.Err) return refuse(answer.Err.reason);
   tell({ busy: null });
-  change({ scene: fromScene(name, answer.Ok), trace: null });
+  change({ scene: { ...fromScene(name, answer.Ok), given: GIVEN }, trace: null });
   told(`Opened ${file.name}.`);
 }
 
@@ -86,7 +86,7 @@ function withFit(scene, name, fit, isSame) {
   const { given } = scene;
   const unit = given.includes('unit') ? scene.unit : found.unit;
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const kept = ['triggers', 'timer_hz', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
+  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
   Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
   if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
@@ -176,7 +176,7 @@ function results(fit) {
   line('fitted', fit.kind);
   line('exposure', `${fit.told} (standard error)`);
   line('residual', `${short(100 * fit.rms, 3)} % of the light (rms)`);
-  line('test', !fit.explained ? `the trace has structure that the curve has not: ${short(100 * fit.structure, 2)} % of the light`
+  line('test', !fit.explained ? 'the curve does not explain the trace'
     : fit.tested ? 'the curve explains the trace' : 'untested: there is too little dark to know the noise by');
   line('flashes', fit.own ? 'at the trace’s own times, which are what is exported; the curve is drawn beside it' : 'by the curve');
   return list;

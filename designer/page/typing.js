@@ -5,7 +5,7 @@ import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
 import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, tidy, withInner, withTimes } from './scene.js';
 
-const KINDS = { triggers: 'count', timer_hz: 'rate' };
+const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
 
 let loadTraces;
 

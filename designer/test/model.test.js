@@ -52,7 +52,8 @@ test('a shutter whose flashes do not fit is what is shown, undone and redone; wh
   assert.match(await page.text('#problem'), /come 0\.\d+ ms apart, and 0\.4 ms is required/, 'in the unit that is shown');
   assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')));
   assert.match(await code(), /^There is nothing to copy yet/);
-  assert.ok(!(await page.isSeen('#ticks')));
+  for (const id of ['ticks', 'ticks-note', 'set-ups']) assert.ok(!(await page.isSeen(`#${id}`)), id);
+  assert.deepEqual(await page.$$eval('[data-panel] .head', (all) => all.map((it) => /no plan/.test(getComputedStyle(it, '::after').content))), [true, true]);
   // It is seen wherever one is.
   assert.ok(await page.$eval('#problem', (it) => it.getBoundingClientRect().bottom <= innerHeight));
   const shape = await curve();
@@ -89,6 +90,9 @@ test('a misfit takes the trace’s own triggers away, as the program does; a cha
   const light = await page.evaluate(() => Math.max(...document.querySelector('path.trace').getAttribute('d').match(/[\d.]+ [\d.]+/g).map((at) => at.split(' ').map(Number)).filter(([, y]) => y < 150).map(([x]) => x)));
   assert.ok(light < (await page.evaluate(() => Number(document.querySelector('#plot rect').getAttribute('width')))), String(light));
   assert.match(await page.text('#trace'), /at the trace’s own times/);
+  assert.equal((await page.$eval('#trace', (it) => it.innerText)).match(/structure/g).length, 1);
+  // No curve shares the exposure out.
+  assert.doesNotMatch(await page.$eval('#hint', (it) => it.innerText), /Shaded/);
   // Another number of them is asked of the trace.
   await page.fill('#triggers', '9');
   await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 9);
@@ -129,6 +133,65 @@ test('what a drag leaves of the trace is drawn and told while it is dragged', as
   await page.mouse.up();
   assert.equal(await page.attribute('path.residual', 'd'), before);
   await page.says('the curve explains the trace');
+});
+
+test('a scene in TOML is as it was written, to the bits of its timer, and what a person gave in it stays', async () => {
+  await open();
+  const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\ntimer_hz = 2000000\ntimer_bits = 16\nmin_gap = 0.25\ndelay = 1\n';
+  const file = join(scratch, 'short.toml');
+  writeFileSync(file, text);
+  await drop(['short.toml', text]);
+  await page.until(() => document.getElementById('name').value === 'short');
+  for (const form of ['rust', 'json', 'c']) assert.equal(await copied(form), shutter('plan', file, '--emit', form), form);
+  assert.match(await copied('rust'), /u16/);
+  const link = await copiedBy(() => page.click('#link'));
+  // What holds the handle is the timer, and is told.
+  await drag('close_end', 100, 0);
+  await page.until(() => !document.getElementById('hold').hidden);
+  assert.match(await page.text('#hold'), /^timer, bits: the frame ends at tick \d+, and a count of 16 bits/);
+  await page.mouse.up();
+  await page.push('Take a timer of 32 bits');
+  assert.equal(await page.value('#timer_bits'), '');
+  assert.ok(Number(await page.value('#close_end')) > 15.5);
+  await open(link.slice(url.length));
+  assert.equal(await copied('json'), shutter('plan', file, '--emit', 'json'));
+  await drop(['short.toml', text]);
+  await page.until(() => document.getElementById('told').textContent === 'Opened short.toml.');
+  await drop(['mine.csv', trace()]);
+  await fitted('mine.csv');
+  assert.deepEqual(await Promise.all(['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'delay'].map((id) => page.value(`#${id}`))), ['7', '2000000', '16', '0.25', '']);
+});
+
+test('a scene of trigger times without a curve is refused, with the reason', async () => {
+  await open();
+  const shown = await curve();
+  await drop(['bare.toml', 'open_start = 0\ntrigger_times = [1, 2, 3.5]\ntimer_hz = 1000\nmin_gap = 0\n']);
+  await page.waitForSelector('#problem.wrong');
+  assert.match(await page.text('#problem'), /^bare\.toml: these are trigger times as they were measured, and this page needs the curve/);
+  assert.equal(await curve(), shown);
+});
+
+test('after how many frames a delay that moves matters is told as the program tells it', async () => {
+  await open();
+  assert.ok(!(await page.isSeen('#drift')));
+  await preset('measured');
+  const scene = join(scratch, 'measured.toml');
+  writeFileSync(scene, await copied('toml'));
+  const [, told] = /^drift +(.*)$/m.exec(shutter('plan', scene));
+  assert.equal((await page.text('#drift')).toLowerCase(), `${told}.`);
+  assert.match(told, /in \d+ frames$/);
+});
+
+test('what is told of a preset is not told of another curve, and no dose covers the next', async () => {
+  await open();
+  assert.ok(await page.isSeen('#story'));
+  await page.fill('#triggers', '11');
+  assert.ok(!(await page.isSeen('#story')));
+  await preset('liquid-crystal');
+  assert.ok(await page.isSeen('#story'));
+  const bars = await page.$$eval('#set-ups .dose', (all) => all.map((it) => [...it.getAttribute('d').matchAll(/M([\d.]+) .*?H([\d.]+)/g)].map(([, from, to]) => [Number(from), Number(to)])));
+  assert.equal(bars.length, 3);
+  for (const row of bars) assert.ok(row.length === 16 && row.every(([from], i) => i === 0 || from > row[i - 1][1]), String(row));
 });
 
 test('what is pointed at is of the curve that is there', async () => {
