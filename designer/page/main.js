@@ -91,6 +91,7 @@ function fields({ now: { scene }, wrong }) {
   const kind = pressed ?? [...$('presets').children].find((it) => it.dataset.name === scene.name && !scene.given.includes('name'));
   write($('story'), kind?.dataset.story ?? '');
   $('story').style.visibility = pressed ? '' : 'hidden';
+  document.querySelector('h1').dataset.name = scene.name;
   document.title = `${scene.name} · Curve designer`;
 }
 
@@ -150,6 +151,7 @@ function listen() {
   }, { rootMargin: '80px' });
   for (const card of document.querySelectorAll('[data-panel]')) observer.observe(card);
   addEventListener('beforeprint', () => {
+    tell({ cursor: null, isPlaying: false });
     for (const card of document.querySelectorAll('[data-panel]')) late?.write(card.dataset.panel, model);
   });
 }

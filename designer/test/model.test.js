@@ -396,6 +396,16 @@ test('on paper the curve is whole, with all ticks and no buttons', async () => {
   assert.deepEqual({ ...seen, right: 0 }, { buttons: 0, rows: 18, cut: [], right: 0 });
   assert.ok(seen.right <= 700);
   assert.ok((await page.pdf({ format: 'a4' })).length > 10_000);
+  const title = () => page.evaluate(() => getComputedStyle(document.querySelector('h1'), '::after').content);
+  assert.equal(await title(), '": soft"');
+  // What is in the way of a plan is told there as well, and no heading stands over nothing.
+  await page.fill('#min_gap', '0.9');
+  assert.ok(await page.isSeen('#problem'));
+  assert.equal(await page.$eval('#bar', (it) => getComputedStyle(it).position), 'static');
+  await page.fill('#min_gap', '0');
+  await page.fill('#triggers', '200');
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.ok(!(await page.isSeen('[data-panel=set-ups]')));
 });
 
 test('the table of ticks has the columns of the CSV, and fits at 1024', async () => {
@@ -432,7 +442,17 @@ test('a finger reads the graph; at 320 pixels nothing overflows, nor with large 
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
   const { x, y, width, height } = await page.box('#graph');
   await page.touchscreen.tap(x + width / 2, y + height / 3);
-  assert.match(await page.text('#readout'), /% open · .*% collected/);
+  assert.match(await page.text('#readout'), /% open · .*% collected · flash \d+: tick \d+$/);
+  // No word is cut, nor what holds a handle.
+  await page.fill('#delay', '123.5');
+  await page.fill('#min_gap', '0.55');
+  await drag('close_start', -60, 0);
+  await page.mouse.up();
+  assert.ok(await page.isSeen('#hold'));
+  const cut = await page.$$eval('#readout, #facts dd, #hold', (all) => all.filter((it) => it.scrollWidth > it.clientWidth || it.scrollHeight > it.clientHeight + 1).map((it) => it.textContent));
+  assert.deepEqual(cut, []);
+  const [box, hold] = [await page.box('#graph'), await page.box('#hold')];
+  assert.ok(hold.x >= box.x && hold.x + hold.width <= box.x + box.width && hold.y + hold.height <= box.y + box.height, JSON.stringify([box, hold]));
   await page.setViewport({ width: 640, height: 2000 });
   await page.evaluate(() => (document.documentElement.style.fontSize = '200%'));
   await wait(100);
