@@ -17,6 +17,9 @@ const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
 
+/** Can so many flashes be asked for? */
+export const isCount = (n) => Number.isInteger(n) && n > 0 && n <= 10_000;
+
 export const perSecond = (unit) => 1000 ** UNITS.indexOf(unit);
 
 /** A number without the digits that a division or a product of it left behind. */

@@ -6,7 +6,7 @@ import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
 import { UNITS } from './presets.js';
 import { told } from './save.js';
-import { GIVEN, LAMP, fromScene, inUnit, isSameShape, perSecond, short, tidy } from './scene.js';
+import { GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, perSecond, short, tidy } from './scene.js';
 import { remember } from './speeds.js';
 import * as studio from './studio.js';
 
@@ -19,8 +19,9 @@ const empty = $('trace').firstElementChild;
 
 /** Opens files: a scene; a trace, which is fitted; several traces, of which a table is made. */
 export function bring(files) {
-  if (files.length > 1) return measure(files.filter(({ name }) => !/\.toml$/i.test(name)));
-  return /\.toml$/i.test(files[0].name) ? open(files[0]) : read(files[0], {});
+  const hasScene = files.some(({ name }) => /\.toml$/i.test(name));
+  if (files.length > 1) return hasScene ? tell({ note: { words: 'A scene in TOML is opened alone: no file beside it was read.', isWrong: true } }) : measure(files);
+  return hasScene ? open(files[0]) : read(files[0], {});
 }
 
 const refuse = (words) => tell({ busy: null, note: { words, isWrong: true } });
@@ -62,12 +63,16 @@ async function fitted(busy, file, asked) {
   return model.busy === busy ? answer : undefined;
 }
 
-/** Reads the trace in a file as is asked for, and fits it for so many triggers. */
-export async function read(file, asked, triggers = model.now.scene.triggers) {
+/** Reads the trace in a file as is asked for, and fits it for so many triggers, or for as many as the scene has. */
+export async function read(file, asked, wanted) {
+  const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
+  const triggers = wanted ?? there();
   const isSame = model.now.trace?.file === file;
-  const busy = begin(`Reading ${file.name}`);
+  const busy = Object.assign(begin(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
   if (!answer) return;
+  // Another number was chosen meanwhile.
+  if (!wanted && there() !== triggers) return read(file, asked);
   if (answer.Err) return refuse(`${file.name}: ${answer.Err.reason}`);
   const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
   // What cannot be fitted as it is read can be read otherwise.

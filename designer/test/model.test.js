@@ -257,6 +257,16 @@ test('an undo during a drag ends the drag', async () => {
   await page.mouse.up();
   assert.equal(await curve(), before);
   assert.equal(await page.attribute('#presets [data-name="leaf"]', 'aria-pressed'), 'true');
+  // So does the browser's Back.
+  await wait(200);
+  await drag('open_end', 40, 0);
+  await page.goBack();
+  await page.until(() => document.querySelector('#presets [data-name="soft"]').ariaPressed === 'true');
+  await page.mouse.move(x + 90, y, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await page.attribute('#presets [data-name="soft"]', 'aria-pressed'), 'true');
+  await page.goForward();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, before);
 });
 
 test('a newer choice ends what is computed, which says so meanwhile and never comes after', async () => {
@@ -279,6 +289,43 @@ test('a newer choice ends what is computed, which says so meanwhile and never co
   await drop(['bench.csv', trace()]);
   await fitted('bench.csv');
   assert.equal(await page.value('#name'), 'bench');
+});
+
+test('a number that is typed while a trace is read counts, though the reading began before', async () => {
+  await open();
+  const slow = () => page.evaluate(() => {
+    const { postMessage } = Worker.prototype;
+    Worker.prototype.postMessage = function (...it) {
+      setTimeout(() => postMessage.apply(this, it), 700);
+    };
+  });
+  await slow();
+  await page.fill('#triggers', '1.5');
+  await drop(['bench.csv', trace()]);
+  await page.waitForSelector('#busy:not([hidden])');
+  await page.fill('#triggers', '13');
+  await fitted('bench.csv');
+  assert.equal(await page.value('#triggers'), '13');
+  await page.says('The 13 times by the curve');
+  await drop(['bounce.csv', bouncing()]);
+  await fitted('bounce.csv');
+  assert.equal((await ticks()).length, 13);
+  await page.fill('#triggers', '9');
+  await page.waitForSelector('#busy:not([hidden])');
+  await page.fill('#triggers', '13');
+  await wait(2500);
+  assert.ok(!(await page.isSeen('#busy')));
+  assert.equal((await ticks()).length, 13);
+  assert.equal(await page.value('#triggers'), '13');
+});
+
+test('of files that are dropped together none vanishes without a word', async () => {
+  await open();
+  const shown = await curve();
+  await drop(['mine.toml', 'open_start = 0'], ['bench.csv', trace()]);
+  await page.says('opened alone: no file beside it was read');
+  assert.ok(!(await page.isSeen('#speeds')));
+  assert.equal(await curve(), shown);
 });
 
 test('a form that is refused is not offered, and what would help is', async () => {

@@ -537,7 +537,9 @@ test('a newcomer sees pictures, words, the speed, and an exposure that plays unl
     document.getElementById('inner').open = false;
     return document.querySelector('main').innerText;
   });
-  assert.doesNotMatch(text, /\bcdf\b|\b[ty][1-6]\b|open_start|\bT[EV]\b|emulated|Take away|\bBIC\b|direct/);
+  const stories = await page.$$eval('#presets button', (all) => all.map((it) => it.dataset.story));
+  assert.equal(new Set(stories).size, 9);
+  assert.doesNotMatch(text + stories, /\bcdf\b|\b[ty][1-6]\b|open_start|\bT[EV]\b|emulated|Take away|\bBIC\b|direct/);
   assert.match(await page.text('header'), /shutter opens.*trace.*flash/s);
   for (const link of ['docs.rs/shutter-curve', 'docs.rs/crate/shutter-curve', 'measuring.md']) assert.ok(await page.count(`header a[href*="${link}"]`), link);
   // It plays, and what has come so far fills; then the picture is whole.
