@@ -52,7 +52,7 @@ async function loadTester() {
 
 const isLate = watch();
 function writeLate() {
-  if (late && isLate(late, model.view, [...seen].join())) for (const id of seen) late.write(id, model);
+  if (late && isLate(late, model.view, model.isDraft, [...seen].join())) for (const id of seen) late.write(id, model);
 }
 
 function valueOf(scene, id) {

@@ -528,6 +528,22 @@ test('a move writes nothing that is not seen', async () => {
   assert.deepEqual(await ticks(), asked);
 });
 
+test('while a handle is dragged only the rows in sight are written, and all once it is let go', async () => {
+  await open(ALL_RAMP, { width: 1360, height: 3200 });
+  await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 256);
+  for (const isAtEnd of [false, true]) {
+    await page.$eval('#ticks', (it, top) => it.parentElement.scrollTo(0, top), isAtEnd ? 1e5 : 0);
+    await wait(100);
+    const before = await ticks();
+    await drag('t2', -30, 10);
+    const during = await ticks();
+    const changed = during.flatMap((tick, i) => (tick === before[i] ? [] : [i]));
+    assert.ok(changed.length > 8 && changed.length < 40 && changed.includes(isAtEnd ? 250 : 5), String(changed));
+    await page.mouse.up();
+    assert.deepEqual(await ticks(), JSON.parse(await copied('json')).triggers.map((trigger) => trigger.ticks));
+  }
+});
+
 test('a newcomer sees pictures, words, the speed, and an exposure that plays unless motion is not wanted', async () => {
   await open('', { width: 1280, height: 900 });
   const pictures = await page.$$eval('#presets button', (all) => all.map((it) => [it.querySelector('path').getAttribute('d'), it.querySelector('small').textContent]));
