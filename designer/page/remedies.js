@@ -9,9 +9,11 @@ export function inWords(reason, { timer_hz, unit }) {
   const time = (ticks) => `${short((ticks / timer_hz) * perSecond(unit), 4)} ${unit}`;
   // A field is called as it is on the page.
   const label = (all, key) => ($(key)?.labels ? `${$(key).labels[0].firstChild.data.trim().replace(/,$/, '')}: ` : all);
-  return reason.replace(/(\d+) ticks? apart, and (\d+) (is|are) required/, (_, is, least) => `${time(is)} apart, and ${time(least)} is required`)
+  return reason.replace(/(?<= ticks?( apart)?, and )(\d+) (is|are) required/, (_, apart, least) => `${time(least)} is required`)
+    .replace(/(?<![\^\d])(\d+) ticks?\b/g, (_, ticks) => time(ticks))
     .replace(/open_start <= open_end.*/, 'to open, to be open, to close, to be closed is the order')
-    .replace(/^(\w+): /, label).replace(/\btrigger(s?)\b/g, (_, many) => (many ? 'flashes' : 'flash'));
+    .replace(/ to open_start: `delay = 0`.*/, ' to the start of opening').replace('`--emit rust`', 'the form Rust')
+    .replace(/^trigger_times: /, '').replace(/^(\w+): /, label).replace(/\btriggers\b|(?<=\d )trigger\b|\btrigger(?= \d)/g, (it) => (it === 'trigger' ? 'flash' : 'flashes'));
 }
 
 /** What would make a scene whose curve is good one that can be played, as [words, changes of the scene]. */

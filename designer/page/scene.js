@@ -111,6 +111,7 @@ export function hash({ scene, other, speeds }) {
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
   if (scene.measured) parts.push(`measured=${scene.measured}`);
+  if (scene.doubt) parts.push(part('doubt', scene.doubt));
   if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
   if (speeds) parts.push(part('speeds', speeds.map((row) => row.join(',')).join(';')));
   return '#' + parts.join('&');
@@ -140,7 +141,7 @@ function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: null, spare: {}, given: GIVEN };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: parts.get('doubt'), spare: {}, given: GIVEN };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
   if (parts.has('measured')) scene.measured = numbers('measured');

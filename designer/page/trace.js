@@ -183,7 +183,8 @@ function results(fit) {
   line('residual', `${short(100 * fit.rms, 3)} % of the light (rms)`);
   line('test', !fit.explained ? 'the curve does not explain the trace'
     : fit.tested ? 'the curve explains the trace' : 'untested: there is too little dark to know the noise by');
-  line('flashes', fit.own ? 'at the trace’s own times, which are what is exported; the curve is drawn beside it' : 'by the curve');
+  if (fit.own) line('flashes', 'at the trace’s own times, which are what is exported; the curve is drawn beside it');
+  else if (fit.explained) line('flashes', 'by the curve');
   return list;
 }
 

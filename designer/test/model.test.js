@@ -118,6 +118,31 @@ test('a misfit takes the trace’s own triggers away, as the program does; a cha
   assert.ok(await page.isDisabled('#copy'));
 });
 
+test('a misfit without triggers of its own takes nothing away, until a person insists', async () => {
+  await open();
+  // Too little dark beside the pulse.
+  const dip = (t) => (t > 3 && t < 4.4 ? -0.2 * Math.sin((Math.PI * (t - 3)) / 1.4) : 0);
+  await drop(['dip.csv', trace({ from: 0.2, samples: 930, noise: 0.002, more: dip })]);
+  await fitted('dip.csv');
+  const isDoubted = async () => {
+    await page.until(() => !document.getElementById('code').classList.contains('waits'));
+    assert.match(await code(), /^There is nothing to copy yet: no curve explains this trace/);
+    for (const id of ['copy', 'save', 'link', 'frame', 'svg', 'png']) assert.ok(await page.isDisabled(`#${id}`), id);
+  };
+  await isDoubted();
+  const text = await page.$eval('#trace', (it) => it.innerText);
+  assert.match(text, /the curve's, and off by more than their errors say/);
+  assert.doesNotMatch(text, /by the curve\n/);
+  await wait(200);
+  const address = await page.evaluate(() => location.hash);
+  await page.push('Use the curve all the same');
+  assert.match(await copied('rust'), /static SHUTTER/);
+  await page.click('#undo');
+  await isDoubted();
+  await open(address);
+  await isDoubted();
+});
+
 test('what a drag leaves of the trace is drawn and told while it is dragged', async () => {
   await open();
   await drop(['bench.csv', trace()]);
@@ -345,6 +370,24 @@ test('a form that is refused is not offered, and what would help is', async () =
   await page.push('Use 64 flashes');
   await page.until(() => !document.getElementById('copy').disabled);
   assert.match(await copied('pico'), /^n 64$/m);
+});
+
+test('what is wrong is told in the words and the unit of the page', async () => {
+  await open();
+  const told = async (name, changes, words) => {
+    await preset(name);
+    for (const [id, value] of Object.entries(changes)) await page.fill(`#${id}`, value);
+    assert.match(await page.text('#problem'), words);
+    assert.doesNotMatch(await page.text('#problem'), /`|\bticks?\b|trigger s/);
+  };
+  await told('projector', { pulse: '9' }, /^pulses of 9 ms: pulses 0 and 1 overlap by 0\.815 ms, and 2 ms is required; those of up to 0\.532 ms fit, or up to 5 flashes keep that/);
+  await told('soft', { delay: '-1' }, /^sync delay: 0 or more is required; an edge cannot trigger what comes before it/);
+  await told('soft', { timer_hz: '2.5' }, /^flashes 0 and 1 come 0 ms apart, and 400 ms is required; 1 flash keeps that/);
+  await open();
+  await drop(['bounce.csv', bouncing()]);
+  await fitted('bounce.csv');
+  await choose('pico');
+  assert.match(await code(), /the scene has flash times without one: .* fires what the form Rust makes of them/);
 });
 
 test('what holds a handle is told beside it, with what would help', async () => {
