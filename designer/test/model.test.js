@@ -387,7 +387,7 @@ test('what is wrong is told in the words and the unit of the page', async () => 
   await drop(['bounce.csv', bouncing()]);
   await fitted('bounce.csv');
   await choose('pico');
-  assert.match(await code(), /the scene has flash times without one: .* fires what the form Rust makes of them/);
+  assert.match(await code(), /the scene has trigger times without one: .* fires what the form Rust makes of them/);
 });
 
 test('what holds a handle is told beside it, with what would help', async () => {
