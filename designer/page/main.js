@@ -127,10 +127,14 @@ function offer() {
 }
 
 function listen() {
-  const play = async () => (player ??= await import('./play.js')).play();
+  const play = async (isUnasked) => {
+    player ??= await import('./play.js');
+    // Whoever does something meanwhile is not disturbed.
+    if (isUnasked !== true || (!graph.dragged && model.cursor === null)) player.play();
+  };
   $('play').onclick = play;
   // Where motion is not wanted, nothing moves unless it is asked to.
-  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(() => graph.dragged || model.cursor !== null || play(), 800);
+  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(play, 800, true);
   // Behind '#' there is the curve: what is skipped to has no address.
   document.querySelector('.skip').onclick = (event) => {
     event.preventDefault();
