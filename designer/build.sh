@@ -25,7 +25,7 @@ fi
 echo "designer: building the page, in two parts, a minute or two the first time ..." >&2
 rm -rf dist.files
 mkdir dist.files
-cp page/* ../cli/traces/leaf.csv ../docs/designer.png dist.files
+cp page/* ../cli/traces/leaf.csv dist.files
 cargo run --quiet --package designer --bin presets >dist.files/presets.js
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.

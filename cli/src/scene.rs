@@ -57,6 +57,8 @@ pub struct Values {
     pub triggers: f64,
     /// The timer's ticks in a second.
     pub timer_hz: f64,
+    /// The bits of its count.
+    pub timer_bits: Option<f64>,
     /// Between two triggers or pulses.
     pub min_gap: f64,
     /// The exposure that the shutter's maker names.
@@ -72,7 +74,7 @@ pub struct Values {
 }
 
 /// The keys of [`Values`], as a page numbers them and as a fault's place does.
-pub const KEYS: [&str; 13] = [
+pub const KEYS: [&str; 14] = [
     "open_start",
     "open_end",
     "close_start",
@@ -80,6 +82,7 @@ pub const KEYS: [&str; 13] = [
     "shutteropening",
     "triggers",
     "timer_hz",
+    "timer_bits",
     "min_gap",
     "nominal",
     "pulse",
@@ -107,6 +110,7 @@ impl Values {
             shutteropening: optional("shutteropening").map(|_| eight()),
             triggers: number("triggers"),
             timer_hz: number("timer_hz"),
+            timer_bits: optional("timer_bits"),
             min_gap: number("min_gap"),
             nominal: optional("nominal"),
             pulse: optional("pulse"),
@@ -136,7 +140,7 @@ impl From<Values> for Scene {
             shutteropening: eight.map(|eight| at("shutteropening", eight)),
             triggers: number("triggers", values.triggers),
             timer_hz: number("timer_hz", values.timer_hz),
-            timer_bits: None,
+            timer_bits: values.timer_bits.map(|x| number("timer_bits", x)),
             min_gap: number("min_gap", values.min_gap),
             nominal: values.nominal.map(|x| number("nominal", x)),
             pulse: values.pulse.map(|x| number("pulse", x)),

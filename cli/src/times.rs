@@ -101,7 +101,7 @@ impl Times {
             open_start: at(0.0),
             trigger_times: Spanned::new(place.clone(), times.iter().copied().map(at).collect()),
             timer_hz: scene.timer_hz,
-            timer_bits: None,
+            timer_bits: scene.timer_bits,
             min_gap: scene.min_gap,
             nominal: scene.nominal,
             delay: scene.delay,

@@ -2,7 +2,7 @@
 
 import { $, button, watch, write } from './dom.js';
 import { mend } from './export.js';
-import { tell } from './model.js';
+import { go, tell } from './model.js';
 import { inWords, remedies } from './remedies.js';
 import { INNER, NUMBERS } from './scene.js';
 
@@ -12,7 +12,7 @@ export function draw({ wrong, busy, note, view, now: { scene } }) {
   if (isNew(wrong, busy, busy?.words, note, view)) {
     const isWrong = Boolean(wrong || note?.isWrong);
     const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
-    const helps = wrong ? (view && !wrong.id ? remedies(scene).map(([words, changes]) => button(words, () => mend(changes))) : [])
+    const helps = wrong?.isLink ? [button('Go on without it', () => go(-1))] : wrong ? (view && !wrong.id ? remedies(scene).map(([words, changes]) => button(words, () => mend(changes))) : [])
       : note ? [...(note.pending ? [button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' }))] : []), button('Close', () => tell({ note: null }))] : [];
     $('problem').hidden = !words;
     $('problem').classList.toggle('wrong', isWrong);

@@ -78,7 +78,7 @@ async function written(scene, form) {
   const most = Number(/up to (\d+) pulses/.exec(reason)?.[1]);
   const helps = most && !scene.measured ? [[`Use ${most} flashes`, { triggers: most }]]
     : /no\s+delay/.test(reason) ? [['Give the sync’s delay', 'delay'], ['The sync is the opening: delay 0', { delay: 0 }]] : [];
-  return { reason, remedies: helps };
+  return { reason: inWords(reason, scene), remedies: helps };
 }
 
 function show({ text, reason, remedies = [] }) {

@@ -288,7 +288,7 @@ export class Graph {
     if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
     else paths.lamp.removeAttribute('clip-path');
     const { samples } = this;
-    const keys = { lamp: pulses.length, trace: samples, other: this.other };
+    const keys = { lamp: pulses.length, trace: samples, other: this.other, share: shares[1] };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
     const points = (y) => (samples ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
     set(paths.trace, points(([, o]) => this.y(o)));

@@ -3,7 +3,7 @@
 import { $, button, watch } from './dom.js';
 import { limits, placeOf } from './edge.js';
 import { mend } from './export.js';
-import { remedies } from './remedies.js';
+import { inWords, remedies } from './remedies.js';
 import { lampOf, short } from './scene.js';
 import { view } from './view.js';
 
@@ -19,15 +19,15 @@ function heldBy(scene, i) {
     if (i && t < least) return { words: `It cannot come before ${NAMES[i - 1]}, at ${short(least)} ${scene.unit}.`, remedies: [] };
     if (i < 3 && t > most) return { words: `It cannot come after ${NAMES[i + 1]}, at ${short(most)} ${scene.unit}.`, remedies: [] };
   }
-  if (answer.Ok && wrong && !lampOf(scene)) {
-    const words = `Further, ${scene.triggers} flashes would come closer than ${short(scene.min_gap)} ${scene.unit}.`;
+  if (wrong?.key === 'triggers' && !lampOf(scene)) {
+    const words = `Further, ${scene.triggers} flashes would come closer than ${scene.min_gap ? `${short(scene.min_gap)} ${scene.unit}` : 'a tick'}.`;
     return { words, remedies: remedies(scene) };
   }
   const reason = wrong?.reason ?? 'Further is not possible.';
   if (/back/.test(reason)) return { words: 'Further, the curve would run back in time.', remedies: [] };
   if (o > 1 || /above 1/.test(reason)) return { words: 'Fully open is 1: the curve cannot go above.', remedies: [] };
   if (o < 0 || /below 0/.test(reason)) return { words: 'Closed is 0: the curve cannot go below.', remedies: [] };
-  return { words: reason, remedies: answer.Ok ? remedies(scene) : [] };
+  return { words: inWords(reason, scene), remedies: answer.Ok ? remedies(scene) : [] };
 }
 
 const isNew = watch(), isOther = watch();

@@ -8,15 +8,23 @@ import { perSecond, short } from './scene.js';
 const MOST_ROWS = 300;
 
 /** Writes a panel of the model. */
-export function write(id, { now: { scene }, view }) {
+export function write(id, { now: { scene }, view, isDraft }) {
   const plan = view?.plan.Ok;
   if (!plan) return;
-  if (id === 'ticks') ticks(scene, plan, view.marks);
+  if (id === 'ticks') ticks(scene, plan, view.marks, isDraft);
   if (id === 'set-ups') setUps(scene, plan, view);
 }
 
-// As the CSV has it, in the scene's unit.
-function ticks(scene, plan, marks) {
+// The rows that are in sight.
+let sight = [0, 20];
+const box = $('ticks').parentElement;
+box.onscroll = () => {
+  const row = box.scrollHeight / $('ticks').rows.length;
+  sight = [box.scrollTop / row - 2, (box.scrollTop + box.clientHeight) / row];
+};
+
+// As the CSV has it, in the scene's unit. Of a draft, as while a handle is dragged, only what is in sight is written.
+function ticks(scene, plan, marks, isDraft) {
   const { pulses, delay } = plan;
   const table = $('ticks');
   const names = ['#', 'share', `time, ${scene.unit}`, 'ticks', 'gap', ...(delay == null ? [] : ['from sync']), ...(pulses.length ? ['on', 'off'] : [])];
@@ -37,6 +45,7 @@ function ticks(scene, plan, marks) {
   put($('ticks-note'), hidden ? `without ${hidden} in the middle; the CSV has all` : `${n}`);
   const per = perSecond(scene.unit);
   for (let row = 0; row < lines.length; row++) {
+    if (isDraft && (row < sight[0] || row > sight[1])) continue;
     const i = hidden && row >= MOST_ROWS / 2 ? row + hidden : row;
     const [t, , u] = marks[i], tick = plan.ticks[i];
     const cells = [i, u.toFixed(5), short(t * per, 6), tick, i ? tick - plan.ticks[i - 1] : '–', ...(delay == null ? [] : [delay + tick]), ...(pulses[i] ?? [])];
@@ -67,23 +76,23 @@ function setUps(scene, plan, view) {
   const X = (t) => 50 + ((t - start) / (end - start)) * 900;
   plan.set_ups.forEach(({ is_shuttered, pulses }, i) => {
     const figure = box.children[i];
+    const middles = pulses.map(([from, to]) => X(0.5 * (from + to)));
+    const half = Math.min(14, ...middles.slice(1).map((x, k) => 0.45 * (x - middles[k])));
     const [on, light, base, dose, full] = figure.querySelectorAll('path');
     const f = (x) => x.toFixed(1);
     let [outline, filled, doses] = ['', '', ''];
     const bottom = 2 * UP + 12;
-    for (const [from, to, part] of pulses) {
+    for (const [k, [from, to, part]] of pulses.entries()) {
       const [a, b] = [f(X(from)), f(X(to))];
       outline += `M${a} ${UP}V4H${b}V${UP}`;
       filled += `M${a} ${UP}`;
       const steps = is_shuttered ? 6 : 1;
-      for (let k = 0; k <= steps; k++) {
-        const t = from + ((to - from) * k) / steps;
+      for (let step = 0; step <= steps; step++) {
+        const t = from + ((to - from) * step) / steps;
         filled += `L${f(X(t))} ${f(UP - (UP - 4) * (is_shuttered ? openness(view, t) : 1))}`;
       }
       filled += `L${b} ${UP}Z`;
-      const middle = X(0.5 * (from + to));
-      const half = Math.min(14, 380 / pulses.length);
-      doses += `M${f(middle - half)} ${bottom}V${f(bottom - part * (UP - 14))}H${f(middle + half)}V${bottom}Z`;
+      doses += `M${f(middles[k] - half)} ${bottom}V${f(bottom - part * (UP - 14))}H${f(middles[k] + half)}V${bottom}Z`;
     }
     on.setAttribute('d', outline);
     light.setAttribute('d', filled);

@@ -52,7 +52,7 @@ async function loadTester() {
 
 const isLate = watch();
 function writeLate() {
-  if (late && isLate(late, model.view, [...seen].join())) for (const id of seen) late.write(id, model);
+  if (late && isLate(late, model.view, model.isDraft, [...seen].join())) for (const id of seen) late.write(id, model);
 }
 
 function valueOf(scene, id) {
@@ -81,15 +81,17 @@ function fields({ now: { scene }, wrong }) {
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
   for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
   const at = hash({ scene });
-  const pressed = [...$('presets').children].find((it) => it.dataset.hash === at);
+  const pressed = model.last && [...$('presets').children].find((it) => it.dataset.hash === at);
   for (const it of $('presets').children) {
     const isPressed = String(it === pressed);
     if (it.getAttribute('aria-pressed') !== isPressed) it.setAttribute('aria-pressed', isPressed);
     it.tabIndex = it === (pressed ?? $('presets').firstChild) ? 0 : -1;
   }
-  // A preset that is changed is still of its kind.
+  // What is told of a preset does not hold of it once it is changed, but keeps its room.
   const kind = pressed ?? [...$('presets').children].find((it) => it.dataset.name === scene.name && !scene.given.includes('name'));
   write($('story'), kind?.dataset.story ?? '');
+  $('story').style.visibility = pressed ? '' : 'hidden';
+  document.querySelector('h1').dataset.name = scene.name;
   document.title = `${scene.name} · Curve designer`;
 }
 
@@ -125,10 +127,14 @@ function offer() {
 }
 
 function listen() {
-  const play = async () => (player ??= await import('./play.js')).play();
+  const play = async (isUnasked) => {
+    player ??= await import('./play.js');
+    // Whoever does something meanwhile is not disturbed.
+    if (isUnasked !== true || (!graph.dragged && model.cursor === null)) player.play();
+  };
   $('play').onclick = play;
   // Where motion is not wanted, nothing moves unless it is asked to.
-  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(() => graph.dragged || model.cursor !== null || play(), 800);
+  if (!matchMedia('(prefers-reduced-motion: reduce)').matches) setTimeout(play, 800, true);
   // Behind '#' there is the curve: what is skipped to has no address.
   document.querySelector('.skip').onclick = (event) => {
     event.preventDefault();
@@ -149,6 +155,7 @@ function listen() {
   }, { rootMargin: '80px' });
   for (const card of document.querySelectorAll('[data-panel]')) observer.observe(card);
   addEventListener('beforeprint', () => {
+    tell({ cursor: null, isPlaying: false });
     for (const card of document.querySelectorAll('[data-panel]')) late?.write(card.dataset.panel, model);
   });
 }

@@ -42,7 +42,7 @@ export function draw({ now: { scene, trace }, view, last }) {
     lines.push(['Half open', plan ? `for ${of(plan.half_open)}` : '–'], ['Efficiency', `${short(100 * last.efficiency, 4)} %`]);
   }
   const hz = scene.timer_hz;
-  lines.push(['Timer', hz >= 1e6 ? `${short(hz / 1e6, 6)} MHz` : hz >= 1e3 ? `${short(hz / 1e3, 6)} kHz` : `${hz} Hz`]);
+  lines.push(['Timer', `${hz >= 1e6 ? `${short(hz / 1e6, 6)} MHz` : hz >= 1e3 ? `${short(hz / 1e3, 6)} kHz` : `${hz} Hz`}${scene.timer_bits ? `, ${scene.timer_bits} bits` : ''}`]);
   lines.push(['Sync', plan?.delay != null ? `${plan.delay} ticks before it opens` : 'no delay known']);
   lines.push(['Flashes', !plan ? `${scene.triggers} do not fit` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`]);
   const list = rows($('facts'), lines.length, () => {
@@ -54,6 +54,10 @@ export function draw({ now: { scene, trace }, view, last }) {
     write(list[i].firstChild, what);
     write(list[i].lastChild, fact);
   });
+
+  const drift = plan?.drift;
+  $('drift').hidden = !drift;
+  if (drift) write($('drift'), `${drift[0].toUpperCase()}${drift.slice(1)}.`);
 
   // The closest gap beside what is required of it.
   const box = $('gap');

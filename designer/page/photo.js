@@ -103,5 +103,5 @@ export function draw({ now: { scene }, last: view, cursor, isPlaying }) {
   for (let i = 0; i < a.length; i += 4) squares += (a[i] - b[i]) ** 2;
   const differ = (100 * Math.sqrt((4 * squares) / a.length)) / 255;
   const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${n > 1 ? ' of equal light' : ''}`;
-  write($('flash-caption'), `${what}: ${differ < 2 ? 'hard to tell from the left picture' : `${short(differ, 2)} % off the left picture`}`);
+  write($('flash-caption'), `${what}: ${differ < 2 ? 'hard to tell from the first picture' : `${short(differ, 2)} % off the first picture`}`);
 }

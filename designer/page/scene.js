@@ -6,14 +6,19 @@ export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
 /** The numbers that a person writes, in the order of the engine's question. */
 export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER : key));
-export const OPTIONAL = ['nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
+export const OPTIONAL = ['timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
 export const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
 export const LAMP = ['pulse', 'duty', 'min_pulse'];
 /** The numbers that are times, beside those of the curve. */
 export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay'];
+/** What a person has given who gives a whole scene. */
+export const GIVEN = ['name', 'unit', 'triggers', 'timer_hz', 'timer_bits', 'min_gap', 'lamp'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
+
+/** Can so many flashes be asked for? */
+export const isCount = (n) => Number.isInteger(n) && n > 0 && n <= 10_000;
 
 export const perSecond = (unit) => 1000 ** UNITS.indexOf(unit);
 
@@ -106,6 +111,7 @@ export function hash({ scene, other, speeds }) {
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
   if (scene.measured) parts.push(`measured=${scene.measured}`);
+  if (scene.doubt) parts.push(part('doubt', scene.doubt));
   if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
   if (speeds) parts.push(part('speeds', speeds.map((row) => row.join(',')).join(';')));
   return '#' + parts.join('&');
@@ -135,8 +141,7 @@ function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const given = ['name', 'unit', 'triggers', 'timer_hz', 'min_gap', 'lamp'];
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: null, spare: {}, given };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: parts.get('doubt'), spare: {}, given: GIVEN };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
   if (parts.has('measured')) scene.measured = numbers('measured');

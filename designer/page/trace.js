@@ -6,7 +6,7 @@ import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
 import { UNITS } from './presets.js';
 import { told } from './save.js';
-import { LAMP, fromScene, inUnit, isSameShape, perSecond, short, tidy } from './scene.js';
+import { GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, perSecond, short, tidy } from './scene.js';
 import { remember } from './speeds.js';
 import * as studio from './studio.js';
 
@@ -19,8 +19,9 @@ const empty = $('trace').firstElementChild;
 
 /** Opens files: a scene; a trace, which is fitted; several traces, of which a table is made. */
 export function bring(files) {
-  if (files.length > 1) return measure(files.filter(({ name }) => !/\.toml$/i.test(name)));
-  return /\.toml$/i.test(files[0].name) ? open(files[0]) : read(files[0], {});
+  const hasScene = files.some(({ name }) => /\.toml$/i.test(name));
+  if (files.length > 1) return hasScene ? tell({ note: { words: 'A scene in TOML is opened alone: no file beside it was read.', isWrong: true } }) : measure(files);
+  return hasScene ? open(files[0]) : read(files[0], {});
 }
 
 const refuse = (words) => tell({ busy: null, note: { words, isWrong: true } });
@@ -29,11 +30,11 @@ async function open(file) {
   const name = file.name.replace(/\.toml$/i, '');
   if (file.size > LONGEST_SCENE) return refuse(`${file.name}: this is too long for a scene`);
   const busy = begin(`Opening ${file.name}`);
-  const answer = await studio.parse(name, await file.text());
+  const answer = await studio.parse(file.name, await file.text());
   if (model.busy !== busy || !answer) return;
-  if (answer.Err) return refuse([`${file.name}: ${answer.Err.reason}`, ...answer.Err.notes].join('\n'));
+  if (answer.Err) return refuse(answer.Err.reason);
   tell({ busy: null });
-  change({ scene: fromScene(name, answer.Ok), trace: null });
+  change({ scene: { ...fromScene(name, answer.Ok), given: GIVEN }, trace: null });
   told(`Opened ${file.name}.`);
 }
 
@@ -62,12 +63,16 @@ async function fitted(busy, file, asked) {
   return model.busy === busy ? answer : undefined;
 }
 
-/** Reads the trace in a file as is asked for, and fits it for so many triggers. */
-export async function read(file, asked, triggers = model.now.scene.triggers) {
+/** Reads the trace in a file as is asked for, and fits it for so many triggers, or for as many as the scene has. */
+export async function read(file, asked, wanted) {
+  const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
+  const triggers = wanted ?? there();
   const isSame = model.now.trace?.file === file;
-  const busy = begin(`Reading ${file.name}`);
+  const busy = Object.assign(begin(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
   if (!answer) return;
+  // Another number was chosen meanwhile.
+  if (!wanted && there() !== triggers) return read(file, asked);
   if (answer.Err) return refuse(`${file.name}: ${answer.Err.reason}`);
   const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
   // What cannot be fitted as it is read can be read otherwise.
@@ -86,7 +91,7 @@ function withFit(scene, name, fit, isSame) {
   const { given } = scene;
   const unit = given.includes('unit') ? scene.unit : found.unit;
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const kept = ['triggers', 'timer_hz', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
+  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
   Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
   if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
@@ -176,9 +181,10 @@ function results(fit) {
   line('fitted', fit.kind);
   line('exposure', `${fit.told} (standard error)`);
   line('residual', `${short(100 * fit.rms, 3)} % of the light (rms)`);
-  line('test', !fit.explained ? `the trace has structure that the curve has not: ${short(100 * fit.structure, 2)} % of the light`
+  line('test', !fit.explained ? 'the curve does not explain the trace'
     : fit.tested ? 'the curve explains the trace' : 'untested: there is too little dark to know the noise by');
-  line('flashes', fit.own ? 'at the trace’s own times, which are what is exported; the curve is drawn beside it' : 'by the curve');
+  if (fit.own) line('flashes', 'at the trace’s own times, which are what is exported; the curve is drawn beside it');
+  else if (fit.explained) line('flashes', 'by the curve');
   return list;
 }
 

@@ -3,9 +3,9 @@
 import { $ } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, perSecond, tidy, withInner, withTimes } from './scene.js';
+import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, isCount, perSecond, tidy, withInner, withTimes } from './scene.js';
 
-const KINDS = { triggers: 'count', timer_hz: 'rate' };
+const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
 
 let loadTraces;
 
@@ -60,9 +60,11 @@ export function give(changes, keys = Object.keys(changes).map((key) => (LAMP.inc
 // So many flashes. Those of a trace are its own: it is asked again.
 async function setTriggers(n, key) {
   const { scene, trace } = model.now;
+  // Another number of this trace's own may be under way.
+  if (trace && n === scene.measured?.length && model.busy?.file === trace.file) model.busy?.cancel();
   if (!scene.measured || n === scene.measured.length) return give({ triggers: n }, ['triggers'], key);
   if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
-  if (!(Number.isInteger(n) && n > 0 && n <= 10_000)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
+  if (!isCount(n)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
   (await loadTraces()).read(trace.file, trace.asked, n);
 }
 

@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
 use shutter::fitted::{self, Zero};
-use shutter::plan::Plan;
 use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
@@ -66,9 +65,13 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
 
 /// The scene, if it can be planned.
 fn checked(name: &str, text: &str) -> Result<scene::Scene, Wrong> {
-    let scene = scene::parse(text).map_err(|fault| fault.locate(name, text))?;
-    Plan::new(&scene).map_err(|fault| fault.locate(name, text))?;
-    Ok(scene)
+    let located = |fault: scene::Fault| fault.locate(name, text);
+    if let Planned::Times(_) = Planned::parse(text).map_err(located)? {
+        let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: open their \
+                      trace here, or give the times to `shutter plan` in a terminal";
+        return Err(format!("{name}: {reason}").into());
+    }
+    Ok(scene::parse(text).map_err(located)?)
 }
 
 /// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
@@ -121,10 +124,9 @@ struct Fitted {
     /// Told, and in seconds with its standard error.
     told: String,
     exposure: (f64, f64),
-    /// Does the model explain the trace; could that be tested; what is left, as a share of the light.
+    /// Does the model explain the trace; could that be tested?
     explained: bool,
     tested: bool,
-    structure: f64,
     /// In seconds after the opening, each with its standard error.
     triggers: Vec<(f64, f64)>,
     pulses: usize,
@@ -238,7 +240,6 @@ fn fitted(
         ),
         explained: fit.test.explained,
         tested: fit.test.tested,
-        structure: fit.test.share,
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
         pulses: fit.frames.count,

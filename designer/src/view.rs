@@ -1,7 +1,7 @@
 //! All that the page shows of a scene.
 
 use serde::Serialize;
-use shutter::facts::Facts;
+use shutter::facts::{Facts, drift};
 use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::{Scene, Values};
 use shutter::set_up::{Row, SetUps};
@@ -46,6 +46,8 @@ struct Planned {
     /// The least gap between two, or the least darkness, where there are two; what is asked for; how long it is half open.
     seconds: Part,
     set_ups: Vec<Doses>,
+    /// When a delay that moves matters, as the program says it.
+    drift: Option<String>,
 }
 
 /// One of the set-ups.
@@ -145,7 +147,7 @@ impl View {
             return Ok(Self {
                 marks: numbers.put(times.enumerate().flat_map(mark)),
                 plan: Times::of_values(values, &measured)
-                    .map(|times| Planned::of_times(&times, numbers))
+                    .map(|times| Planned::of_times(times, numbers))
                     .map_err(Wrong::from),
                 ..common
             });
@@ -156,22 +158,22 @@ impl View {
         Ok(Self {
             edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
             marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.openness(t), u(i as f32 + 0.5)])),
-            plan: planned.map(|plan| Planned::new(&plan, numbers)).map_err(Wrong::from),
+            plan: planned.map(|plan| Planned::new(plan, numbers)).map_err(Wrong::from),
             ..common
         })
     }
 }
 
 impl Planned {
-    fn new(plan: &Plan, numbers: &mut Numbers) -> Self {
+    fn new(plan: Plan, numbers: &mut Numbers) -> Self {
         let pulses: Vec<_> = plan.triggers.iter().filter_map(|trigger| trigger.pulse).collect();
         let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
         let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
         let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
-        let SetUps { length, rows } = SetUps::new(plan);
+        let SetUps { length, rows } = SetUps::new(&plan);
         let rows = if plan.triggers.len() > MOST_DOSES { Vec::new() } else { Vec::from(rows) };
         let mut doses = |row: &Row| {
-            let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(plan, length, (on, off))];
+            let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(&plan, length, (on, off))];
             let pulses = numbers.put(row.pulses.iter().flat_map(dose));
             Doses { is_shuttered: row.is_shuttered, pulses }
         };
@@ -181,12 +183,13 @@ impl Planned {
             pulses,
             delay: plan.from_edge(0),
             most: Some(plan.most),
-            seconds: numbers.put([closest, plan.min_gap, Facts::new(plan).half_open]),
+            seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
             set_ups,
+            drift: drift(&plan.into()),
         }
     }
 
-    fn of_times(times: &Times, numbers: &mut Numbers) -> Self {
+    fn of_times(times: Times, numbers: &mut Numbers) -> Self {
         let ticks: Vec<_> = times.triggers.iter().map(|given| given.ticks).collect();
         let closest = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
         let closest = closest.map_or(f64::NAN, |gap| f64::from(gap) / f64::from(times.timer.hz));
@@ -197,6 +200,7 @@ impl Planned {
             most: None,
             seconds: numbers.put([closest, times.min_gap, f64::NAN]),
             set_ups: Vec::new(),
+            drift: drift(&times.into()),
         }
     }
 }

@@ -101,7 +101,7 @@ pub fn warning(warning: &Warning) -> Told {
         }
         W::Misfit { share, by_trace, .. } => {
             let whose = match by_trace {
-                true => "the trace's own, and the curve's are not",
+                true => "the trace's own",
                 false => "the curve's, and off by more than their errors say",
             };
             let text = format!("the trace has structure that the curve has not, {:.2} % of the light: exposure and triggers are {whose}", 100.0 * share);

@@ -52,7 +52,8 @@ test('a shutter whose flashes do not fit is what is shown, undone and redone; wh
   assert.match(await page.text('#problem'), /come 0\.\d+ ms apart, and 0\.4 ms is required/, 'in the unit that is shown');
   assert.ok((await page.isDisabled('#copy')) && (await page.isDisabled('#save')));
   assert.match(await code(), /^There is nothing to copy yet/);
-  assert.ok(!(await page.isSeen('#ticks')));
+  for (const id of ['ticks', 'ticks-note', 'set-ups']) assert.ok(!(await page.isSeen(`#${id}`)), id);
+  assert.deepEqual(await page.$$eval('[data-panel] .head', (all) => all.map((it) => /no plan/.test(getComputedStyle(it, '::after').content))), [true, true]);
   // It is seen wherever one is.
   assert.ok(await page.$eval('#problem', (it) => it.getBoundingClientRect().bottom <= innerHeight));
   const shape = await curve();
@@ -89,6 +90,9 @@ test('a misfit takes the trace’s own triggers away, as the program does; a cha
   const light = await page.evaluate(() => Math.max(...document.querySelector('path.trace').getAttribute('d').match(/[\d.]+ [\d.]+/g).map((at) => at.split(' ').map(Number)).filter(([, y]) => y < 150).map(([x]) => x)));
   assert.ok(light < (await page.evaluate(() => Number(document.querySelector('#plot rect').getAttribute('width')))), String(light));
   assert.match(await page.text('#trace'), /at the trace’s own times/);
+  assert.equal((await page.$eval('#trace', (it) => it.innerText)).match(/structure/g).length, 1);
+  // No curve shares the exposure out.
+  assert.doesNotMatch(await page.$eval('#hint', (it) => it.innerText), /Shaded/);
   // Another number of them is asked of the trace.
   await page.fill('#triggers', '9');
   await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 9);
@@ -114,6 +118,31 @@ test('a misfit takes the trace’s own triggers away, as the program does; a cha
   assert.ok(await page.isDisabled('#copy'));
 });
 
+test('a misfit without triggers of its own takes nothing away, until a person insists', async () => {
+  await open();
+  // Too little dark beside the pulse.
+  const dip = (t) => (t > 3 && t < 4.4 ? -0.2 * Math.sin((Math.PI * (t - 3)) / 1.4) : 0);
+  await drop(['dip.csv', trace({ from: 0.2, samples: 930, noise: 0.002, more: dip })]);
+  await fitted('dip.csv');
+  const isDoubted = async () => {
+    await page.until(() => !document.getElementById('code').classList.contains('waits'));
+    assert.match(await code(), /^There is nothing to copy yet: no curve explains this trace/);
+    for (const id of ['copy', 'save', 'link', 'frame', 'svg', 'png']) assert.ok(await page.isDisabled(`#${id}`), id);
+  };
+  await isDoubted();
+  const text = await page.$eval('#trace', (it) => it.innerText);
+  assert.match(text, /the curve's, and off by more than their errors say/);
+  assert.doesNotMatch(text, /by the curve\n/);
+  await wait(200);
+  const address = await page.evaluate(() => location.hash);
+  await page.push('Use the curve all the same');
+  assert.match(await copied('rust'), /static SHUTTER/);
+  await page.click('#undo');
+  await isDoubted();
+  await open(address);
+  await isDoubted();
+});
+
 test('what a drag leaves of the trace is drawn and told while it is dragged', async () => {
   await open();
   await drop(['bench.csv', trace()]);
@@ -129,6 +158,65 @@ test('what a drag leaves of the trace is drawn and told while it is dragged', as
   await page.mouse.up();
   assert.equal(await page.attribute('path.residual', 'd'), before);
   await page.says('the curve explains the trace');
+});
+
+test('a scene in TOML is as it was written, to the bits of its timer, and what a person gave in it stays', async () => {
+  await open();
+  const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\ntimer_hz = 2000000\ntimer_bits = 16\nmin_gap = 0.25\ndelay = 1\n';
+  const file = join(scratch, 'short.toml');
+  writeFileSync(file, text);
+  await drop(['short.toml', text]);
+  await page.until(() => document.getElementById('name').value === 'short');
+  for (const form of ['rust', 'json', 'c']) assert.equal(await copied(form), shutter('plan', file, '--emit', form), form);
+  assert.match(await copied('rust'), /u16/);
+  const link = await copiedBy(() => page.click('#link'));
+  // What holds the handle is the timer, and is told.
+  await drag('close_end', 100, 0);
+  await page.until(() => !document.getElementById('hold').hidden);
+  assert.match(await page.text('#hold'), /^timer, bits: the frame ends at tick \d+, and a count of 16 bits/);
+  await page.mouse.up();
+  await page.push('Take a timer of 32 bits');
+  assert.equal(await page.value('#timer_bits'), '');
+  assert.ok(Number(await page.value('#close_end')) > 15.5);
+  await open(link.slice(url.length));
+  assert.equal(await copied('json'), shutter('plan', file, '--emit', 'json'));
+  await drop(['short.toml', text]);
+  await page.until(() => document.getElementById('told').textContent === 'Opened short.toml.');
+  await drop(['mine.csv', trace()]);
+  await fitted('mine.csv');
+  assert.deepEqual(await Promise.all(['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'delay'].map((id) => page.value(`#${id}`))), ['7', '2000000', '16', '0.25', '']);
+});
+
+test('a scene of trigger times without a curve is refused, with the reason', async () => {
+  await open();
+  const shown = await curve();
+  await drop(['bare.toml', 'open_start = 0\ntrigger_times = [1, 2, 3.5]\ntimer_hz = 1000\nmin_gap = 0\n']);
+  await page.waitForSelector('#problem.wrong');
+  assert.match(await page.text('#problem'), /^bare\.toml: these are trigger times as they were measured, and this page needs the curve/);
+  assert.equal(await curve(), shown);
+});
+
+test('after how many frames a delay that moves matters is told as the program tells it', async () => {
+  await open();
+  assert.ok(!(await page.isSeen('#drift')));
+  await preset('measured');
+  const scene = join(scratch, 'measured.toml');
+  writeFileSync(scene, await copied('toml'));
+  const [, told] = /^drift +(.*)$/m.exec(shutter('plan', scene));
+  assert.equal((await page.text('#drift')).toLowerCase(), `${told}.`);
+  assert.match(told, /in \d+ frames$/);
+});
+
+test('what is told of a preset is not told of another curve, and no dose covers the next', async () => {
+  await open();
+  assert.ok(await page.isSeen('#story'));
+  await page.fill('#triggers', '11');
+  assert.ok(!(await page.isSeen('#story')));
+  await preset('liquid-crystal');
+  assert.ok(await page.isSeen('#story'));
+  const bars = await page.$$eval('#set-ups .dose', (all) => all.map((it) => [...it.getAttribute('d').matchAll(/M([\d.]+) .*?H([\d.]+)/g)].map(([, from, to]) => [Number(from), Number(to)])));
+  assert.equal(bars.length, 3);
+  for (const row of bars) assert.ok(row.length === 16 && row.every(([from], i) => i === 0 || from > row[i - 1][1]), String(row));
 });
 
 test('what is pointed at is of the curve that is there', async () => {
@@ -194,6 +282,16 @@ test('an undo during a drag ends the drag', async () => {
   await page.mouse.up();
   assert.equal(await curve(), before);
   assert.equal(await page.attribute('#presets [data-name="leaf"]', 'aria-pressed'), 'true');
+  // So does the browser's Back.
+  await wait(200);
+  await drag('open_end', 40, 0);
+  await page.goBack();
+  await page.until(() => document.querySelector('#presets [data-name="soft"]').ariaPressed === 'true');
+  await page.mouse.move(x + 90, y, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await page.attribute('#presets [data-name="soft"]', 'aria-pressed'), 'true');
+  await page.goForward();
+  await page.until((d) => document.querySelector('path.curve').getAttribute('d') === d, before);
 });
 
 test('a newer choice ends what is computed, which says so meanwhile and never comes after', async () => {
@@ -218,6 +316,43 @@ test('a newer choice ends what is computed, which says so meanwhile and never co
   assert.equal(await page.value('#name'), 'bench');
 });
 
+test('a number that is typed while a trace is read counts, though the reading began before', async () => {
+  await open();
+  const slow = () => page.evaluate(() => {
+    const { postMessage } = Worker.prototype;
+    Worker.prototype.postMessage = function (...it) {
+      setTimeout(() => postMessage.apply(this, it), 700);
+    };
+  });
+  await slow();
+  await page.fill('#triggers', '1.5');
+  await drop(['bench.csv', trace()]);
+  await page.waitForSelector('#busy:not([hidden])');
+  await page.fill('#triggers', '13');
+  await fitted('bench.csv');
+  assert.equal(await page.value('#triggers'), '13');
+  await page.says('The 13 times by the curve');
+  await drop(['bounce.csv', bouncing()]);
+  await fitted('bounce.csv');
+  assert.equal((await ticks()).length, 13);
+  await page.fill('#triggers', '9');
+  await page.waitForSelector('#busy:not([hidden])');
+  await page.fill('#triggers', '13');
+  await wait(2500);
+  assert.ok(!(await page.isSeen('#busy')));
+  assert.equal((await ticks()).length, 13);
+  assert.equal(await page.value('#triggers'), '13');
+});
+
+test('of files that are dropped together none vanishes without a word', async () => {
+  await open();
+  const shown = await curve();
+  await drop(['mine.toml', 'open_start = 0'], ['bench.csv', trace()]);
+  await page.says('opened alone: no file beside it was read');
+  assert.ok(!(await page.isSeen('#speeds')));
+  assert.equal(await curve(), shown);
+});
+
 test('a form that is refused is not offered, and what would help is', async () => {
   await open();
   await choose('pico');
@@ -235,6 +370,24 @@ test('a form that is refused is not offered, and what would help is', async () =
   await page.push('Use 64 flashes');
   await page.until(() => !document.getElementById('copy').disabled);
   assert.match(await copied('pico'), /^n 64$/m);
+});
+
+test('what is wrong is told in the words and the unit of the page', async () => {
+  await open();
+  const told = async (name, changes, words) => {
+    await preset(name);
+    for (const [id, value] of Object.entries(changes)) await page.fill(`#${id}`, value);
+    assert.match(await page.text('#problem'), words);
+    assert.doesNotMatch(await page.text('#problem'), /`|\bticks?\b|trigger s/);
+  };
+  await told('projector', { pulse: '9' }, /^pulses of 9 ms: pulses 0 and 1 overlap by 0\.815 ms, and 2 ms is required; those of up to 0\.532 ms fit, or up to 5 flashes keep that/);
+  await told('soft', { delay: '-1' }, /^sync delay: 0 or more is required; an edge cannot trigger what comes before it/);
+  await told('soft', { timer_hz: '2.5' }, /^flashes 0 and 1 come 0 ms apart, and 400 ms is required; 1 flash keeps that/);
+  await open();
+  await drop(['bounce.csv', bouncing()]);
+  await fitted('bounce.csv');
+  await choose('pico');
+  assert.match(await code(), /the scene has trigger times without one: .* fires what the form Rust makes of them/);
 });
 
 test('what holds a handle is told beside it, with what would help', async () => {
@@ -333,6 +486,16 @@ test('on paper the curve is whole, with all ticks and no buttons', async () => {
   assert.deepEqual({ ...seen, right: 0 }, { buttons: 0, rows: 18, cut: [], right: 0 });
   assert.ok(seen.right <= 700);
   assert.ok((await page.pdf({ format: 'a4' })).length > 10_000);
+  const title = () => page.evaluate(() => getComputedStyle(document.querySelector('h1'), '::after').content);
+  assert.equal(await title(), '": soft"');
+  // What is in the way of a plan is told there as well, and no heading stands over nothing.
+  await page.fill('#min_gap', '0.9');
+  assert.ok(await page.isSeen('#problem'));
+  assert.equal(await page.$eval('#bar', (it) => getComputedStyle(it).position), 'static');
+  await page.fill('#min_gap', '0');
+  await page.fill('#triggers', '200');
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.ok(!(await page.isSeen('[data-panel=set-ups]')));
 });
 
 test('the table of ticks has the columns of the CSV, and fits at 1024', async () => {
@@ -369,7 +532,17 @@ test('a finger reads the graph; at 320 pixels nothing overflows, nor with large 
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
   const { x, y, width, height } = await page.box('#graph');
   await page.touchscreen.tap(x + width / 2, y + height / 3);
-  assert.match(await page.text('#readout'), /% open · .*% collected/);
+  assert.match(await page.text('#readout'), /% open · .*% collected · flash \d+: tick \d+$/);
+  // No word is cut, nor what holds a handle.
+  await page.fill('#delay', '123.5');
+  await page.fill('#min_gap', '0.55');
+  await drag('close_start', -60, 0);
+  await page.mouse.up();
+  assert.ok(await page.isSeen('#hold'));
+  const cut = await page.$$eval('#readout, #facts dd, #hold', (all) => all.filter((it) => it.scrollWidth > it.clientWidth || it.scrollHeight > it.clientHeight + 1).map((it) => it.textContent));
+  assert.deepEqual(cut, []);
+  const [box, hold] = [await page.box('#graph'), await page.box('#hold')];
+  assert.ok(hold.x >= box.x && hold.x + hold.width <= box.x + box.width && hold.y + hold.height <= box.y + box.height, JSON.stringify([box, hold]));
   await page.setViewport({ width: 640, height: 2000 });
   await page.evaluate(() => (document.documentElement.style.fontSize = '200%'));
   await wait(100);

@@ -23,10 +23,13 @@ const CAPTIONS: [(&str, &str); 9] = [
     ("trapezoid", "the slit of a focal plane"),
 ];
 
+const MEASURED: &str = "A leaf shutter as an oscilloscope recorded it, and the curve that was fitted to that \
+                        trace. Its ticks count from the camera's sync, 4.2 ms before it opens.";
+
 #[derive(Serialize)]
 struct Preset {
     name: String,
-    /// The comment above the scene.
+    /// The comment above the scene, or a story in its place.
     about: String,
     /// What is told of it below its picture.
     caption: &'static str,
@@ -39,8 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         let path = file?.path();
         let text = fs::read_to_string(&path)?;
         let comment = text.lines().map_while(|line| line.strip_prefix("# "));
-        let about = comment.collect::<Vec<_>>().join(" ");
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let about = match name.as_str() {
+            // What stands above it is the fit's report.
+            "measured" => MEASURED.into(),
+            _ => comment.collect::<Vec<_>>().join(" "),
+        };
         let caption = CAPTIONS.iter().find(|(of, _)| *of == name).map(|(_, caption)| *caption);
         let caption = caption.ok_or_else(|| format!("{name}: no caption"))?;
         let scene = scene::parse(&text).map_err(|fault| fault.locate(&name, &text))?;
