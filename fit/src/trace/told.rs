@@ -3,14 +3,14 @@
 //! Each message stands above the values that it tells: times in seconds, rates in hertz, shares of the light; lines and
 //! pulses count from 1.
 
-use strum::IntoStaticStr;
+use strum::{EnumIter, IntoStaticStr};
 use thiserror::Error;
 
 use super::samples::{CONTRAST, LARGEST};
 use crate::unit::{self, short};
 
 /// Why a trace cannot be fitted. Times are in seconds, signals in the trace's own unit; lines and frames count from 1.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, EnumIter, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
 pub enum Refusal {
@@ -60,7 +60,7 @@ pub enum Refusal {
     NoColumn { name: String, there: String },
     /// Too many rows that are no samples.
     #[error(
-        "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out: is this the file, and are \
+        "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out; is this the file, and are \
          --columns right? Read: {reading}"
     )]
     BrokenRows { count: usize, rows: usize, line: u64, reason: String, reading: String },
@@ -156,13 +156,13 @@ fn or_the_way(has_way: &bool) -> &'static str {
     if *has_way {
         ""
     } else {
-        ", or say which way light moves the signal with --light up or --light down"
+        ", or say which way light moves the signal (--light up or --light down)"
     }
 }
 
 /// What is doubtful about a trace or about what was made of it. Times are in seconds, rates in hertz, amounts shares
 /// of the light; lines and pulses count from 1.
-#[derive(Clone, Debug, Error, IntoStaticStr, PartialEq)]
+#[derive(Clone, Debug, EnumIter, Error, IntoStaticStr, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
 #[strum(serialize_all = "snake_case")]
@@ -219,7 +219,7 @@ pub enum Warning {
     Glitches { count: usize },
     /// A pulse that the trace's beginning or end cuts, or that has another right beside it.
     #[error(
-        "pulse {number} of the trace has too little dark beside it, and is left out: --frame counts those that are \
+        "pulse {number} of the trace has too little dark beside it, and is left out; --frame counts those that are \
          whole"
     )]
     PartialFrame { number: usize },
@@ -314,8 +314,8 @@ pub enum Warning {
     SharpEdges { step: f64 },
     /// There is no plateau: full light may never be reached.
     #[error(
-        "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light unless \
-         --full gives the signal of full light"
+        "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light, unless the \
+         signal of full light is given (--full)"
     )]
     NoPlateau,
     /// A large standard error, the largest, as a share of the exposure.
