@@ -178,7 +178,7 @@ impl Planned {
         Self {
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
             pulses,
-            delay: plan.from_edge(0),
+            delay: plan.delay.map(|delay| delay.ticks),
             most: Some(plan.most),
             seconds: numbers.put([closest, plan.min_gap, Facts::new(plan).half_open]),
             set_ups,
