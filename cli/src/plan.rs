@@ -129,12 +129,6 @@ impl Plan {
         f64::from(ticks) / f64::from(self.timer.hz)
     }
 
-    /// So many ticks after the start of opening, counted from the edge of the camera's sync, if the scene has a delay.
-    pub fn from_edge(&self, ticks: u32) -> Option<u32> {
-        // Checked when the delay was read: the sum is at most 2³¹.
-        self.delay.map(|delay| delay.ticks + ticks)
-    }
-
     /// From each trigger to the next, in ticks.
     pub fn gaps(&self) -> impl Iterator<Item = u32> {
         self.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks)

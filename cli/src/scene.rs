@@ -44,36 +44,7 @@ impl Number {
     }
 }
 
-/// A scene's numbers without a text, as a page in a browser has them. A number of pieces or ticks need not be whole yet.
-#[derive(Clone, Debug)]
-pub struct Values {
-    /// Of all times.
-    pub unit: Unit,
-    /// `open_start`, `open_end`, `close_start` and `close_end`.
-    pub times: [f64; 4],
-    /// As in [`Shape`].
-    pub shutteropening: Option<[f64; 8]>,
-    /// How many.
-    pub triggers: f64,
-    /// The timer's ticks in a second.
-    pub timer_hz: f64,
-    /// The bits of its count.
-    pub timer_bits: Option<f64>,
-    /// Between two triggers or pulses.
-    pub min_gap: f64,
-    /// The exposure that the shutter's maker names.
-    pub nominal: Option<f64>,
-    /// The length of equal pulses.
-    pub pulse: Option<f64>,
-    /// The part of each share in which the lamp shines.
-    pub duty: Option<f64>,
-    /// The least length of a pulse where `duty` is given.
-    pub min_pulse: Option<f64>,
-    /// From the edge of the camera's sync to `open_start`.
-    pub delay: Option<f64>,
-}
-
-/// The keys of [`Values`], as a page numbers them and as a fault's place does.
+/// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
 pub const KEYS: [&str; 14] = [
     "open_start",
     "open_end",
@@ -91,23 +62,30 @@ pub const KEYS: [&str; 14] = [
     "delay",
 ];
 
-impl Values {
-    /// So many numbers: one for each key, and eight for `shutteropening`.
+/// The place of the only key that takes more than one number.
+const EIGHT: usize = 4;
+
+impl Scene {
+    /// So many numbers: one for each of [`KEYS`], and eight for `shutteropening`.
     pub const NUMBERS: usize = KEYS.len() + 7;
 
-    /// Those of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is.
-    pub fn read(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
-        let place = |key: &str| {
-            let before = KEYS.iter().take_while(|known| **known != key);
-            before.map(|key| if *key == "shutteropening" { 8 } else { 1 }).sum::<usize>()
+    /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
+    /// ticks need not be whole yet. The place in its faults is the number of a key; [`Fault::key`] tells which.
+    pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
+        let number = |key: &str| {
+            let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
+            let x = numbers[if place > EIGHT { place + 7 } else { place }];
+            Spanned::new(place..place, Number::Any(x))
         };
-        let number = |key| numbers[place(key)];
-        let optional = |key| Some(number(key)).filter(|x| !x.is_nan());
-        let eight = || std::array::from_fn(|i| numbers[place("shutteropening") + i]);
+        let optional = |key| Some(number(key)).filter(|x| !x.get_ref().get().is_nan());
+        let eight = || numbers[EIGHT..EIGHT + 8].iter().copied().map(Number::Any).collect();
         Self {
-            unit,
-            times: ["open_start", "open_end", "close_start", "close_end"].map(number),
-            shutteropening: optional("shutteropening").map(|_| eight()),
+            unit: Some(unit),
+            open_start: number("open_start"),
+            open_end: number("open_end"),
+            close_start: number("close_start"),
+            close_end: number("close_end"),
+            shutteropening: optional(KEYS[EIGHT]).map(|first| Spanned::new(first.span(), eight())),
             triggers: number("triggers"),
             timer_hz: number("timer_hz"),
             timer_bits: optional("timer_bits"),
@@ -117,36 +95,6 @@ impl Values {
             duty: optional("duty"),
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
-        }
-    }
-}
-
-impl From<Values> for Scene {
-    /// The scene of these numbers. The place in its faults is the number of a key; [`Fault::key_of_values`] tells which.
-    fn from(values: Values) -> Self {
-        fn at<T>(key: &str, value: T) -> Spanned<T> {
-            let place = KEYS.iter().position(|known| *known == key).unwrap_or(KEYS.len());
-            Spanned::new(place..place, value)
-        }
-        let number = |key, x| at(key, Number::Any(x));
-        let [open_start, open_end, close_start, close_end] = values.times;
-        let eight = values.shutteropening.map(|eight| eight.map(Number::Any).to_vec());
-        Self {
-            unit: Some(values.unit),
-            open_start: number("open_start", open_start),
-            open_end: number("open_end", open_end),
-            close_start: number("close_start", close_start),
-            close_end: number("close_end", close_end),
-            shutteropening: eight.map(|eight| at("shutteropening", eight)),
-            triggers: number("triggers", values.triggers),
-            timer_hz: number("timer_hz", values.timer_hz),
-            timer_bits: values.timer_bits.map(|x| number("timer_bits", x)),
-            min_gap: number("min_gap", values.min_gap),
-            nominal: values.nominal.map(|x| number("nominal", x)),
-            pulse: values.pulse.map(|x| number("pulse", x)),
-            duty: values.duty.map(|x| number("duty", x)),
-            min_pulse: values.min_pulse.map(|x| number("min_pulse", x)),
-            delay: values.delay.map(|x| number("delay", x)),
         }
     }
 }
@@ -167,8 +115,8 @@ impl Fault {
         Self { at: Some(value.span().start), reason: reason.to_string(), notes: Vec::new() }
     }
 
-    /// The key that it is about, in a scene made of [`Values`].
-    pub fn key_of_values(&self) -> Option<&'static str> {
+    /// The key that it is about, in a scene of numbers.
+    pub fn key(&self) -> Option<&'static str> {
         KEYS.get(self.at?).copied()
     }
 

@@ -23,11 +23,9 @@ impl Timer {
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
     pub(crate) fn new(hz: &Spanned<Number>, bits: Option<&Spanned<Number>>) -> Result<Self, Fault> {
         let exact_hz = hz.get_ref().get();
-        if !(0.0..=f64::from(u32::MAX)).contains(&exact_hz) {
+        // From 0.5 on it is 1 when it is rounded.
+        if !(0.5..=f64::from(u32::MAX)).contains(&exact_hz) {
             return Err(Fault::at(hz, "timer_hz: a rate from 1 to 4294967295 is required"));
-        }
-        if exact_hz.round() == 0.0 {
-            return Err(Fault::at(hz, "timer_hz: the tick rate is 0"));
         }
         let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits };
         match bits.map(|bits| (bits, bits.get_ref().get())) {

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
-use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY, Values};
+use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
@@ -88,12 +88,11 @@ impl Times {
         Self::new(&scene::read(text)?)
     }
 
-    /// The triggers at these times of a scene that is made of values, counted from the start of opening at 0.
+    /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
     ///
     /// # Errors
     /// Whatever is wrong with the scene.
-    pub fn of_values(values: Values, times: &[f64]) -> Result<Self, Fault> {
-        let scene = scene::Scene::from(values);
+    pub fn of_numbers(scene: scene::Scene, times: &[f64]) -> Result<Self, Fault> {
         let place = scene.triggers.span();
         let at = |time| Spanned::new(place.clone(), Number::Any(time));
         Self::new(&Scene {

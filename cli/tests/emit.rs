@@ -550,7 +550,7 @@ fn assert_same(name: &str, plan: &Plan, rows: &[Row]) {
     for (i, (row, trigger)) in rows.iter().zip(&plan.triggers).enumerate() {
         let pulse = row.on_ticks.zip(row.off_ticks);
         let read = Trigger { u: row.u, time: row.time_s, ticks: row.ticks, pulse };
-        assert_eq!(row.from_edge_ticks, plan.from_edge(row.ticks), "{name}");
+        assert_eq!(row.from_edge_ticks, plan.delay.map(|delay| delay.ticks + row.ticks), "{name}");
         assert_eq!((row.index, read), (i, *trigger), "{name}");
     }
 }

@@ -271,7 +271,11 @@ fn what_is_wrong_with_given_times_is_refused_at_its_place() {
             "trigger_times: triggers 1 and 2 come 0 ticks apart, and 1 is required".into(),
         ),
         (with("6.1004", "3e6"), Some(5), format!("trigger_times: {far}")),
-        (with("1_000_000", "0"), Some(7), "timer_hz: the tick rate is 0".into()),
+        (
+            with("1_000_000", "0"),
+            Some(7),
+            "timer_hz: a rate from 1 to 4294967295 is required".into(),
+        ),
         (with("min_gap = 0.1", "min_gap = -1"), Some(8), "min_gap: 0 or more is required".into()),
         (added("nominal = 0"), Some(9), "nominal: more than 0 is required".into()),
         (

@@ -16,10 +16,10 @@ pub struct Wrong {
     pub ramp: Option<&'static str>,
 }
 
-/// Of a scene made of values.
+/// Of a scene of numbers.
 impl From<Fault> for Wrong {
     fn from(fault: Fault) -> Self {
-        Self { key: fault.key_of_values(), ramp: None, reason: fault.reason, notes: fault.notes }
+        Self { key: fault.key(), ramp: None, reason: fault.reason, notes: fault.notes }
     }
 }
 

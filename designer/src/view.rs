@@ -3,7 +3,7 @@
 use serde::Serialize;
 use shutter::facts::{Facts, drift};
 use shutter::plan::{MOST_TRIGGERS, Plan};
-use shutter::scene::{Scene, Values};
+use shutter::scene::Scene;
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
 use shutter::times::Times;
@@ -75,22 +75,22 @@ impl Numbers {
     }
 }
 
-/// A scene's values, and the times of its triggers in its unit where a trace tells them.
+/// A scene, and the times of its triggers in its unit where a trace tells them.
 struct Question {
-    values: Values,
+    scene: Scene,
     measured: Vec<f64>,
 }
 
 impl Question {
-    /// Of the bytes of `f64`: the unit's place among all, the values', the measured times.
+    /// Of the bytes of `f64`: the unit's place among all, the scene's numbers, the measured times.
     fn read(bytes: &[u8]) -> Result<Self, Wrong> {
         let numbers: Vec<_> =
             bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
         let short = || Wrong::from("the question is too short".to_string());
         let (unit, numbers) = numbers.split_first().ok_or_else(short)?;
-        let (values, measured) = numbers.split_first_chunk().ok_or_else(short)?;
+        let (numbers, measured) = numbers.split_first_chunk().ok_or_else(short)?;
         let unit = Unit::ALL.get(*unit as usize).copied().unwrap_or(Unit::Second);
-        Ok(Self { values: Values::read(unit, values), measured: measured.to_vec() })
+        Ok(Self { scene: Scene::of_numbers(unit, numbers), measured: measured.to_vec() })
     }
 }
 
@@ -104,7 +104,7 @@ pub fn view(question: &[u8]) -> (String, Vec<f64>) {
 /// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. Only what is `deep` is planned.
 pub fn allowed(question: &[u8], deep: bool) -> u32 {
     let scene = Question::read(question)
-        .map(|question| Scene::from(question.values))
+        .map(|question| question.scene)
         .ok()
         .filter(|scene| scene.shape().is_ok_and(|shape| shape.curve().is_ok()));
     scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
@@ -116,8 +116,7 @@ impl View {
     /// # Errors
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
     fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
-        let Question { values, measured } = question;
-        let scene = Scene::from(values.clone());
+        let Question { scene, measured } = question;
         let planned = Plan::new(&scene);
         let shape = scene.shape()?;
         let curve = match shape.curve() {
@@ -143,11 +142,11 @@ impl View {
             let n = measured.len() as f64;
             let mark =
                 |(i, t): (usize, f64)| [t, curve.openness(t as f32).into(), (i as f64 + 0.5) / n];
-            let times = measured.iter().map(|time| values.unit.seconds(*time));
+            let times = measured.iter().map(|time| scene.unit().seconds(*time));
             return Ok(Self {
                 marks: numbers.put(times.enumerate().flat_map(mark)),
-                plan: Times::of_values(values, &measured)
-                    .map(|times| Planned::of_times(times, numbers))
+                plan: Times::of_numbers(scene, &measured)
+                    .map(|times| Planned::of_times(&times, numbers))
                     .map_err(Wrong::from),
                 ..common
             });
@@ -181,7 +180,7 @@ impl Planned {
         Self {
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
             pulses,
-            delay: plan.from_edge(0),
+            delay: plan.delay.map(|delay| delay.ticks),
             most: Some(plan.most),
             seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
             set_ups,

@@ -217,7 +217,7 @@ fn pulses_that_are_left_out_are_said() {
     let said: Vec<String> = fit.warnings.iter().map(Warning::to_string).collect();
     let left_out = |number: usize| {
         format!(
-            "pulse {number} of the trace has too little dark beside it, and is left out: --frame counts those that are whole"
+            "pulse {number} of the trace has too little dark beside it, and is left out; --frame counts those that are whole"
         )
     };
     let spark = "1 small pulse left out: with less than a fifth of the light of the largest pulse";

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::samples::{CONTRAST, LARGEST, Trace, median, sampling_interval};
+use super::samples::{CONTRAST, LARGEST, Trace, median, range, sampling_interval};
 use super::told::{Refusal, Warning};
 
 /// A sample so many standard deviations of the noise outside what its neighbours span is a spike.
@@ -180,11 +180,6 @@ pub fn least_step(values: &[f64]) -> f64 {
     if 1.5 * least < high - low { least } else { 0.0 }
 }
 
-fn range(values: &[f64]) -> (f64, f64) {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)))
-}
-
 /// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is left.
 fn common_rounding(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
@@ -208,9 +203,7 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     let least = least_step(values);
     let is_spike = |i: usize| {
         let near = (i.saturating_sub(4)..i.saturating_sub(1)).chain((i + 2).min(n)..(i + 5).min(n));
-        let (low, high) = near.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| {
-            (low.min(values[k]), high.max(values[k]))
-        });
+        let (low, high) = range(near.map(|k| values[k]));
         let outside = (values[i] - high).max(low - values[i]);
         // A step of the values more is no spike.
         outside > (SPIKE * noise).max(1.5 * (high - low)) + least
@@ -222,12 +215,10 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
         return Vec::new();
     }
     let told = spikes.iter().map(|i| times[*i]).collect();
-    let mut kept = vec![true; n];
-    spikes.iter().for_each(|i| kept[*i] = false);
-    let mut keep = kept.iter();
-    times.retain(|_| *keep.next().unwrap_or(&true));
-    let mut keep = kept.iter();
-    values.retain(|_| *keep.next().unwrap_or(&true));
+    for column in [times, values] {
+        let mut places = 0..n;
+        column.retain(|_| places.next().is_some_and(|k| spikes.binary_search(&k).is_err()));
+    }
     told
 }
 
@@ -300,17 +291,12 @@ impl Smooth {
     fn check_ends(&self, light: f64, has_way: bool) -> Result<(), Refusal> {
         let (first, last) = ends(&self.values);
         // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
-        if (first - last).abs() > CUT * light {
-            return Err(if first > last {
-                Refusal::BeginsInPulse { has_way }
-            } else {
-                Refusal::EndsInPulse { has_way }
-            });
+        let is_cut = (first - last).abs() > CUT * light;
+        if is_cut && first <= last {
+            return Err(Refusal::EndsInPulse { has_way });
         }
-        if first > self.dark + SWITCH.0 * light {
-            return Err(Refusal::BeginsInPulse { has_way });
-        }
-        Ok(())
+        let is_lit = is_cut || first > self.dark + SWITCH.0 * light;
+        if is_lit { Err(Refusal::BeginsInPulse { has_way }) } else { Ok(()) }
     }
 }
 

@@ -8,7 +8,7 @@ use super::bytes::decode;
 use super::layout::{Layout, Time};
 use super::numbers::{number, short_of, split};
 use super::reading::{Recording, Samples, Told, shown};
-use super::samples::Trace;
+use super::samples::{Trace, range};
 use super::select::light_among;
 use super::table::Table;
 use super::told::{Refusal, Warning};
@@ -133,9 +133,8 @@ struct Sample {
 
 /// Puts the greatest or the least finite value in the place of what was too large for the instrument.
 fn limit(samples: &mut [Sample], warnings: &mut Vec<Warning>) {
-    let finite = || samples.iter().map(|sample| sample.value).filter(|value| value.is_finite());
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = finite().fold(ends, |(low, high), v| (low.min(v), high.max(v)));
+    let finite = samples.iter().map(|sample| sample.value).filter(|value| value.is_finite());
+    let (low, high) = range(finite);
     let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
     let mut beyond = samples.iter_mut().filter(|sample| sample.value.is_infinite()).peekable();
     let Some(line) = beyond.peek().map(|sample| sample.line) else { return };

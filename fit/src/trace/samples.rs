@@ -1,5 +1,6 @@
 //! The trace itself, and what is asked of one.
 
+use std::borrow::Borrow;
 use std::ops::Range;
 
 /// No time and no signal is larger than this: squares and sums of them stay far from the end of `f64`.
@@ -24,6 +25,12 @@ impl Trace {
             values: self.values[samples.clone()].to_vec(),
         }
     }
+}
+
+/// The least and the greatest of some values; infinite and the wrong way round of none.
+pub(super) fn range(values: impl IntoIterator<Item: Borrow<f64>>) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    values.into_iter().fold(none, |(low, high), v| (low.min(*v.borrow()), high.max(*v.borrow())))
 }
 
 /// From one sample to the next, by the median: a gap between two shots does not count.

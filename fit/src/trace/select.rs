@@ -2,7 +2,7 @@
 
 use super::pulse::{Light, pulses};
 use super::reading::Samples;
-use super::samples::Trace;
+use super::samples::{Trace, range};
 use super::told::{Refusal, Warning};
 
 /// What a column may be, the likeliest signal of light last.
@@ -26,8 +26,7 @@ fn holds(samples: &Result<Samples, Refusal>) -> Holds {
 
 /// Are all samples but one at each edge within a tenth of the highest or the lowest?
 fn is_gate(trace: &Trace) -> bool {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = trace.values.iter().fold(ends, |(low, high), v| (low.min(*v), high.max(*v)));
+    let (low, high) = range(&trace.values);
     let is_between = |v: &f64| (0.1..=0.9).contains(&((v - low) / (high - low)));
     let is_high = |v: &f64| *v > 0.5 * (low + high);
     let edges =
