@@ -29,6 +29,7 @@ pub struct Scene {
     pub(crate) duty: Option<Spanned<Number>>,
     pub(crate) min_pulse: Option<Spanned<Number>>,
     pub(crate) delay: Option<Spanned<Number>>,
+    pub(crate) delay_spread: Option<Spanned<Number>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -143,6 +144,7 @@ impl From<Values> for Scene {
             duty: values.duty.map(|x| number("duty", x)),
             min_pulse: values.min_pulse.map(|x| number("min_pulse", x)),
             delay: values.delay.map(|x| number("delay", x)),
+            delay_spread: None,
         }
     }
 }

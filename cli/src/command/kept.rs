@@ -66,7 +66,7 @@ impl Old {
                 above.extend(lines.filter(|line| !(keeps_delay && line.starts_with(NO_DELAY))));
             }
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
-            let is_asked = ["delay", "nominal"].contains(&name) && fresh.is_some();
+            let is_asked = ["delay", "delay_spread", "nominal"].contains(&name) && fresh.is_some();
             let is_measured = MEASURED.contains(&name) || is_asked;
             let item = match fresh {
                 Some((_, mut fresh)) if is_measured => {

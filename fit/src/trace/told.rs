@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::samples::{CONTRAST, LARGEST};
+use crate::delay::Doubt;
 use crate::unit;
 
 /// Why a trace cannot be fitted.
@@ -318,6 +319,8 @@ pub enum Warning {
         /// The first one's line.
         line: u64,
     },
+    /// The camera's sync.
+    Sync(Doubt),
     /// The file is a sound.
     SoundCard,
     /// The file ends before all samples that its beginning announces.
@@ -495,6 +498,7 @@ impl Warning {
             Self::Misfit { .. } => "misfit",
             Self::Untested => "untested",
             Self::ZeroMoved => "zero_moved",
+            Self::Sync(doubt) => doubt.code(),
         }
     }
 }
@@ -530,6 +534,7 @@ impl fmt::Display for Warning {
                 counted(*count, "overload"),
                 if *count == 1 { "is" } else { "are" }
             ),
+            Self::Sync(doubt) => doubt.fmt(out),
             Self::SoundCard => out.write_str(
                 "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \
                  recorder that is coupled for DC, where the exposure matters",
@@ -687,6 +692,12 @@ impl fmt::Display for Warning {
                  open, as with --zero open",
             ),
         }
+    }
+}
+
+impl From<Doubt> for Warning {
+    fn from(doubt: Doubt) -> Self {
+        Self::Sync(doubt)
     }
 }
 
