@@ -8,7 +8,7 @@ use crate::errors::Measured;
 use crate::outcome::Fit;
 use crate::signal::Signal;
 use crate::solve::Cholesky;
-use crate::trace::{Edge, Frame, Pulses, Refusal, Switch, Trace, edges, sampling_interval};
+use crate::trace::{Edge, Edges, Frame, Pulses, Refusal, Switch, Trace, edges, sampling_interval};
 use crate::unit::{Unit, count, decimals, plus_minus, short, trimmed};
 
 /// Shots whose exposures differ by no more than this share are of one speed.
@@ -179,10 +179,10 @@ pub fn measure(
             fit.delay = delay(vec![value], None, 0.0);
         }
         Some(Sync::Channel(channel)) => {
-            let found = edges(channel, &pulses.frames).map_err(refused)?;
+            let Edges { switch, starts } = edges(channel, &pulses.frames).map_err(refused)?;
             let fitted = &pulses.frames[asked];
             let is_alike = |frame: &Frame| (frame.exposure / fitted.exposure - 1.0).abs() <= ALIKE;
-            let all = pulses.frames.iter().zip(&found.starts);
+            let all = pulses.frames.iter().zip(&starts.of);
             let all: Vec<_> = all.filter(|(frame, _)| is_alike(frame)).collect();
             let (mut shots, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
             let with_edge = all.iter().filter_map(|(frame, edge)| Some((frame, edge.as_ref()?)));
@@ -206,14 +206,14 @@ pub fn measure(
                 return Err(refused(reason.into()));
             }
             let doubts = [
-                (found.bounced, Doubt::Bounced(found.bounced, pulses.frames.len())),
+                (starts.bounced, Doubt::Bounced(starts.bounced, pulses.frames.len())),
                 (all - n, Doubt::Missing(all - n, all)),
-                (found.others, Doubt::Others(found.others)),
+                (starts.others, Doubt::Others(starts.others)),
                 (late, Doubt::Late(late, n, by)),
             ];
             let told = doubts.into_iter().filter(|(count, _)| *count > 0);
             fit.warnings.extend(told.map(|(_, doubt)| doubt.into()));
-            fit.delay = delay(shots, Some(found.switch), (variance / n as f64).sqrt());
+            fit.delay = delay(shots, Some(switch), (variance / n as f64).sqrt());
         }
     }
     Ok(())

@@ -32,14 +32,25 @@ pub struct Edge {
 /// The edges before some shots.
 #[derive(Clone, Debug)]
 pub struct Edges {
-    /// Of the column.
+    /// What the sync does.
     pub switch: Switch,
+    /// Which edge starts what.
+    pub starts: Starts,
+}
+
+/// Which edges start which frames.
+#[derive(Clone, Debug)]
+pub struct Starts {
     /// Of each frame the one that starts it, if there is one.
-    pub starts: Vec<Option<Edge>>,
+    pub of: Vec<Option<Edge>>,
     /// So many frames have more than one: the first counts.
     pub bounced: usize,
     /// So many start no frame.
     pub others: usize,
+    /// So many start a frame that is half open before.
+    late: usize,
+    /// What seems to bounce goes on through two shots.
+    is_clock: bool,
 }
 
 /// The edges of a sync that start some frames.
@@ -53,48 +64,68 @@ pub fn edges(sync: &Trace, frames: &[Frame]) -> Result<Edges, String> {
     if between as f64 > BETWEEN * share.len() as f64 {
         return Err("its column has no two levels, as a switch has; is it the right one?".into());
     }
+    // In turn: the first one leaves the level at the beginning. That is the one at rest, unless the record begins in the middle of a
+    // shot: then the other one gives each shot an edge in time, and leaves none over.
     let begins_high = share[0] > 0.5;
-    let rests_high = rests_high(&share, frames.len());
-    // In turn: the first one leaves the level at the beginning.
     let all = crossings(&sync.times, &share, begins_high);
-    let first = usize::from(rests_high != begins_high);
-    let apart = |pair: &[Frame]| pair[1].crossings[1] - pair[0].crossings[1];
-    let bounce = frames.windows(2).map(|pair| 0.25 * apart(pair)).fold(BOUNCE, f64::min);
+    let [as_begun, other] = [0, 1].map(|first| Starts::new(&all[first.min(all.len())..], frames));
+    let is_other = other.faults() + other.late < as_begun.faults();
+    let (rests_high, starts) =
+        if is_other { (!begins_high, other) } else { (begins_high, as_begun) };
 
-    // Each with the edges that follow it as a bounce does.
-    let mut bursts: Vec<(Edge, usize)> = Vec::new();
-    let mut over = f64::NEG_INFINITY;
-    for (k, edge) in all.iter().enumerate().skip(first).step_by(2) {
-        match bursts.last_mut() {
-            Some(burst) if edge.time - over < bounce => burst.1 += 1,
-            _ => bursts.push((*edge, 1)),
-        }
-        over = all.get(k + 1).map_or(f64::INFINITY, |edge| edge.time);
-    }
-    let (mut starts, mut bounced, mut before) = (Vec::new(), 0, f64::NEG_INFINITY);
-    for Frame { crossings, .. } in frames {
-        let here = bursts.iter().filter(|(edge, _)| edge.time > before && edge.time < crossings[5]);
-        let last = here.clone().rfind(|(edge, _)| edge.time < crossings[1]);
-        let start = last.or(here.clone().next());
-        bounced += usize::from(start.is_some_and(|(_, count)| *count > 1));
-        starts.push(start.map(|(edge, _)| *edge));
-        before = crossings[5];
-    }
-    let started = starts.iter().flatten().count();
-    let others = bursts.len() - started;
+    let started = starts.of.iter().flatten().count();
     if started == 0 {
         return Err("no edge in its column comes before a shot".into());
     }
-    if others > started {
+    if starts.others > started || starts.is_clock {
+        let (edges, shots) = (all.len(), frames.len());
         return Err(format!(
-            "its column switches {} times, and there are {} shots; is it the right one?",
-            bursts.len(),
-            frames.len()
+            "its column switches {edges} times, and there are {shots} shots; is it the right one?"
         ));
     }
     let levels = if rests_high { [high, low] } else { [low, high] };
     let switch = Switch { levels, threshold: 0.5 * (low + high) };
-    Ok(Edges { switch, starts, bounced, others })
+    Ok(Edges { switch, starts })
+}
+
+impl Starts {
+    /// Of edges that go to a shot's level and back in turn.
+    fn new(all: &[Edge], frames: &[Frame]) -> Self {
+        let apart = |pair: &[Frame]| pair[1].crossings[1] - pair[0].crossings[1];
+        let bounce = frames.windows(2).map(|pair| 0.1 * apart(pair)).fold(BOUNCE, f64::min);
+        // Each with the last one that follows it as a bounce does.
+        let mut bursts: Vec<(Edge, Edge)> = Vec::new();
+        let mut over = f64::NEG_INFINITY;
+        for pair in all.chunks(2) {
+            match bursts.last_mut() {
+                Some(burst) if pair[0].time - over < bounce => burst.1 = pair[0],
+                _ => bursts.push((pair[0], pair[0])),
+            }
+            over = pair.get(1).map_or(f64::INFINITY, |edge| edge.time);
+        }
+        let opens = |(first, last): &(Edge, Edge)| {
+            frames.iter().filter(|it| (first.time..last.time).contains(&it.crossings[1])).count()
+        };
+        let is_clock = bursts.iter().any(|burst| opens(burst) > 1);
+        let (mut of, mut bounced, mut late) = (Vec::new(), 0, 0);
+        let mut before = f64::NEG_INFINITY;
+        for Frame { crossings, .. } in frames {
+            let is_here = |edge: &Edge| edge.time > before && edge.time < crossings[5];
+            let mut here = bursts.iter().filter(|(edge, _)| is_here(edge));
+            let last = here.clone().rfind(|(edge, _)| edge.time < crossings[1]);
+            let start = last.or(here.next());
+            late += usize::from(last.is_none() && start.is_some());
+            bounced += usize::from(start.is_some_and(|(first, last)| first != last));
+            of.push(start.map(|(edge, _)| *edge));
+            before = crossings[5];
+        }
+        let others = bursts.len() - of.iter().flatten().count();
+        Self { of, bounced, others, late, is_clock }
+    }
+
+    fn faults(&self) -> usize {
+        self.others + self.of.iter().filter(|edge| edge.is_none()).count()
+    }
 }
 
 /// The medians of the low and of the high samples. Otsu's split finds them despite spikes; where the high ones are so few that it
@@ -132,15 +163,6 @@ fn levels(values: &[f64]) -> Result<[f64; 2], String> {
             "its column never switches: its levels are {contrast:.1} times the noise apart, and {CONTRAST} are required"
         ),
     })
-}
-
-/// Is the high level the one at rest? It is the one at the beginning, unless that is in the middle of a shot before: so the end
-/// and most samples say, where there are several shots.
-fn rests_high(share: &[f64], shots: usize) -> bool {
-    let is_high = |s: f64| s > 0.5;
-    let [first, last] = [share[0], share[share.len() - 1]].map(is_high);
-    let most = 2 * share.iter().filter(|s| is_high(**s)).count() > share.len();
-    if shots > 1 && last == most { last } else { first }
 }
 
 /// When the state changes, by two thresholds: each time halfway.

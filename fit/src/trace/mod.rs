@@ -23,7 +23,7 @@ pub use asked::{Column, Options};
 pub use bytes::decode;
 pub(crate) use coupling::undone;
 pub use edges::Switch;
-pub(crate) use edges::{Edge, edges};
+pub(crate) use edges::{Edge, Edges, edges};
 pub use preview::{Preview, preview};
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
 pub(crate) use pulse::{QUARTERS, least_step};
