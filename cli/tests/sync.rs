@@ -26,6 +26,8 @@ struct Record {
     /// How long it stays switched, without a gap where its contact bounces.
     length: f64,
     bounces: bool,
+    /// How long an edge takes; its middle counts.
+    slow: f64,
     /// Shots without an edge.
     lost: Vec<usize>,
     seed: u64,
@@ -37,8 +39,8 @@ impl Record {
         let mut random = Random::new(seed);
         let delays = (0..shots).map(|_| 0.003 + 20e-6 * random.normal()).collect();
         let (levels, noise, length) = ([3.3, 0.1], 0.2, 0.004);
-        let (hertz, bounces, lost) = (2e5, false, Vec::new());
-        Self { delays, hertz, levels, noise, length, bounces, lost, seed }
+        let (hertz, bounces, slow, lost) = (2e5, false, 1e-9, Vec::new());
+        Self { delays, hertz, levels, noise, length, bounces, slow, lost, seed }
     }
 
     fn mean(&self) -> f64 {
@@ -64,8 +66,10 @@ impl Record {
             let since = t - edges[k];
             let open = openness(since - self.delays[k]);
             let bounces = self.bounces && (2e-4..5e-4).contains(&since);
-            let is_on = (0.0..self.length).contains(&since) && !bounces && !self.lost.contains(&k);
-            let level = self.levels[usize::from(is_on)];
+            let is_off = bounces || self.lost.contains(&k);
+            let on = 0.5 + since.min(self.length - since) / self.slow;
+            let on = if is_off { 0.0 } else { on.clamp(0.0, 1.0) };
+            let level = self.levels[0] + on * (self.levels[1] - self.levels[0]);
             [t, 0.1 + 2.0 * open + 0.01 * random.normal(), level + self.noise * random.normal()]
         };
         (0..samples).map(row).collect()
@@ -131,7 +135,7 @@ fn codes(json: &Value) -> Vec<&str> {
 #[test]
 fn the_spread_is_what_was_put_in() {
     let folder = Folder::new("spread");
-    for seed in 0..3 {
+    for seed in 0..2 {
         let plain = || Record::new(5, 7 + seed);
         let [up, down] = [[0.0, 5.0], [3.3, 0.1]];
         for (i, (record, doubts)) in [
@@ -199,9 +203,16 @@ fn the_spread_is_told_and_kept() {
     }
     let is_its = |line: &&str| ["sync ", "delay ", "spread "].iter().any(|it| line.starts_with(it));
     assert!(out.lines().filter(is_its).all(|line| line.chars().count() <= 80), "{out}");
+    let json = folder.json("five.csv --sync CH2");
+    assert_eq!(json["sync_falls"], true);
+    assert!((number(&json, "sync_threshold") - 1.7).abs() < 0.01);
     let scene = || fs::read_to_string(folder.0.join("leaf.toml")).unwrap();
     let first = scene();
     assert!(first.contains(&format!("\ndelay_spread = {spread}")), "{first}");
+    assert!(
+        first.contains("\n# Sync: it falls from 3.3 to 0.1; an edge counts at 1.7.\n"),
+        "{first}"
+    );
 
     let (_, out, _) = folder.run("plan leaf.toml --min-gap 100us");
     let told = out.lines().find(|line| line.starts_with("spread ")).unwrap();
@@ -353,6 +364,16 @@ fn what_is_doubtful_about_a_sync_is_told() {
     assert!(err.contains("in 3 of 3 shots, by up to 1.12 ms"), "{err}");
     let comment = "# delay = ? # From the edge of the camera's sync to open_start: the edge comes 1.1 too late.\n";
     assert!(out.contains(comment) && !out.contains("\ndelay = "), "{out}");
+
+    // One threshold would switch many times in an edge as slow as this one.
+    let slow = Record { slow: 2e-4, noise: 0.3, ..Record::new(5, 2) };
+    folder.write("a.csv", slow.csv());
+    let json = folder.json("a.csv --sync CH2");
+    let off = number(&json, "delay_s") - slow.mean();
+    assert!(
+        codes(&json).is_empty() && off.abs() < number(&json, "delay_trigger_error_s"),
+        "{json}"
+    );
 
     // Sampled so coarsely that an edge is known to 58 µs.
     let coarse = Record { hertz: 5e3, noise: 0.0, ..Record::new(8, 2) };

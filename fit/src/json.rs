@@ -16,6 +16,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         Some(Clock::Rate(hertz)) => (None, Some(hertz)),
         None => (None, None),
     };
+    let switch = fit.delay.as_ref().and_then(|delay| delay.switch);
     let of_delay = |of: fn(&Delay) -> f64| fit.delay.as_ref().map(of);
     let told = |warning: &Warning| json!({ "code": warning.code(), "text": warning.to_string() });
     json!({
@@ -32,6 +33,8 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "delay_trigger_error_s": of_delay(Delay::trigger_error),
         "delay_spread_s": fit.delay.as_ref().and_then(Delay::spread),
         "delay_worst_s": fit.delay.as_ref().and_then(Delay::worst),
+        "sync_falls": switch.map(|switch| switch.levels[1] < switch.levels[0]),
+        "sync_threshold": switch.map(|switch| switch.threshold),
         "delay_shots": fit.delay.as_ref().map(|delay| delay.shots.len()),
         "opens_s": fit.opens,
         "open_s": open_s,

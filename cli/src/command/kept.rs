@@ -19,8 +19,8 @@ const MEASURED: [&str; 7] = [
 ];
 /// How a fit's comments begin: the first one, those that follow it, and those above a key.
 const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
-const NEXT: [&str; 5] =
-    ["# This curve does not", "# `--model ", "# Read: ", "# Exposure ", "# Warning: "];
+const NEXT: [&str; 6] =
+    ["# This curve does not", "# `--model ", "# Read: ", "# Sync: ", "# Exposure ", "# Warning: "];
 const ABOVE: [&str; 2] = ["# The ramps' inner control points ", NO_DELAY];
 const NO_DELAY: &str = "# delay = ? # ";
 /// Above a delay, which may outlive a fit that measures none.
