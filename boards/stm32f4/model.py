@@ -1,4 +1,4 @@
-"""python3 model.py FIRMWARE: runs the firmware on an emulated processor (unicorn), with a model of the registers that it uses.
+"""python3 model.py FIRMWARE [falling]: runs the firmware on an emulated processor (unicorn), with a model of the registers that it uses.
 
 No emulator that we know of has this chip's capture, compare and DMA. The model is ours, by the chip's reference manual (RM0383), and
 refuses what it does not know. It judges each edge of the lamp's line, to the tick, by leaf.rs. Exits with 1 if one is wrong.
@@ -73,7 +73,7 @@ class Chip:
 
     def capture(self):
         count = self.syncs.pop(0) % WRAP
-        assert self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == 1, "channel 1 captures rising edges"
+        assert self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == CAPTURE, "channel 1 captures the other edges"
         self.reg[SR] = self.get(SR) | CC1 | (CC1OF if self.get(SR) & CC1 else 0)
         self.reg[CCR1] = count
 
@@ -175,6 +175,7 @@ number = lambda pattern, text: int(re.search(pattern, text)[1].replace("_", ""))
 TIMER_HZ, delay = (number(rf"{name}: u32 = (\w+);", leaf) for name in ("TIMER_HZ", "DELAY_TICKS"))
 ticks = [int(tick) for tick in re.search(r"TICKS: \[u32; \d+\] = \[(.*?)\];", leaf, re.S)[1].replace("\n", "").split(",")[:-1]]
 pulse = number(r"PULSE: u32 = (\w+);", (source / "main.rs").read_text())
+CAPTURE = 3 if sys.argv[2:] == ["falling"] else 1
 chip = Chip(sys.argv[1])
 second = TIMER_HZ
 # Frames: one; one whose edge comes before the counter wraps and its pulses after; one after an edge that bounced, and during which

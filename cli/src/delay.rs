@@ -13,6 +13,8 @@ pub struct Delay {
     pub seconds: f64,
     /// In ticks of the scene's timer, rounded to the nearest.
     pub ticks: u32,
+    /// Its standard deviation from shot to shot, in seconds, if the scene tells.
+    pub spread: Option<f64>,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
@@ -22,13 +24,18 @@ impl Delay {
     /// The delay that a scene has in this unit, if it has one, where the frame ends so many ticks after the shutter opens.
     ///
     /// # Errors
-    /// A delay below 0, and one after which the frame ends too late.
+    /// A delay below 0, and one after which the frame ends too late; a spread below 0, or without a delay.
     pub(crate) fn new(
-        delay: Option<&Spanned<Number>>,
+        [delay, spread]: [Option<&Spanned<Number>>; 2],
         unit: Unit,
         timer_hz: u32,
         end: f64,
     ) -> Result<Option<Self>, Fault> {
+        let of_spread = |place| Ok((place, seconds(unit, "delay_spread", place)?));
+        let spread = spread.map(of_spread).transpose()?;
+        if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
+            return Err(Fault::at(place, "delay_spread: 0 or more is required, and a delay"));
+        }
         let Some(place) = delay else { return Ok(None) };
         let seconds = seconds(unit, "delay", place)?;
         if seconds < 0.0 {
@@ -45,6 +52,7 @@ impl Delay {
             return Err(Fault::at(place, reason));
         }
         // Neither is -0.
-        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32 }))
+        let spread = spread.map(|(_, spread)| spread);
+        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32, spread }))
     }
 }

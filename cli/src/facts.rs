@@ -181,21 +181,52 @@ fn closest(gap: Option<f64>, unit: Unit) -> String {
     gap.map_or(String::new(), told)
 }
 
-/// After how many frames a delay that moves by a tick a second matters, if there is a delay and a share to compare it with.
-pub fn drift(plan: &Planned) -> Option<String> {
-    let (share, length) = match plan {
-        Planned::Curve(plan) => {
-            let exposure = f64::from(plan.curve.exposure()) * f64::from(plan.timer.hz);
-            (exposure / plan.triggers.len() as f64, plan.length())
-        }
+/// A trigger that is off by this part of its share matters.
+const MATTERS: f64 = 0.01;
+
+/// A trigger's share of the exposure, in seconds of the open shutter; without a curve, the least gap.
+fn share(plan: &Planned) -> Option<f64> {
+    match plan {
+        Planned::Curve(plan) => Some(f64::from(plan.curve.exposure()) / plan.triggers.len() as f64),
         Planned::Times(times) => {
             let gaps = times.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks);
-            (gaps.min()?.into(), times.length())
+            gaps.min().map(|ticks| f64::from(ticks) / f64::from(times.timer.hz))
         }
+    }
+}
+
+/// What the delay's spread between shots does to a frame, if the scene tells it.
+pub fn spread(plan: &Planned) -> Option<String> {
+    let (spread, share, unit) = (plan.delay()?.spread?, share(plan)?, plan.unit());
+    let gap = match plan {
+        Planned::Curve(plan) => plan.min_gap,
+        Planned::Times(times) => times.min_gap,
+    };
+    let percent = |of: f64| format!("{} %", short(100.0 * spread / of, 2));
+    let gap = if gap > 0.0 { format!(" and {} of the gap", percent(gap)) } else { String::new() };
+    let most = MATTERS * share * plan.rows().len() as f64 / spread;
+    let helps = match plan {
+        _ if spread <= MATTERS * share => "that hardly matters".into(),
+        Planned::Curve(_) if most >= 1.0 => {
+            format!("up to {} keep it to 1 % of a share", count(most as u64, "trigger"))
+        }
+        _ => "only a steadier sync keeps it to 1 % of a share".into(),
+    };
+    let (spread, of_share) = (unit.show(spread), percent(share));
+    Some(format!(
+        "{spread} from shot to shot, {of_share} of a share{gap}: a frame moves as one, so its gap holds; {helps}"
+    ))
+}
+
+/// After how many frames a delay that moves by a tick a second matters, if there is a delay and a share to compare it with.
+pub fn drift(plan: &Planned) -> Option<String> {
+    let length = match plan {
+        Planned::Curve(plan) => plan.length(),
+        Planned::Times(times) => times.length(),
     };
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
-    let frames = share / 100.0 / from_edge(Some(plan.delay()?), length);
-    let frames = short(frames, 2);
+    let ticks = share(plan)? * f64::from(plan.timer().hz);
+    let frames = short(MATTERS * ticks / from_edge(Some(plan.delay()?), length), 2);
     Some(format!("a tick a second moves the delay by 1 % of a share in {frames} frames"))
 }
 

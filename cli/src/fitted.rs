@@ -140,6 +140,9 @@ fn comments(fit: &Fit) -> String {
     if let Some(reading) = &fit.reading {
         text += &format!("# Read: {}.\n", shown(&reading.to_string()));
     }
+    if let Some(switch) = fit.delay.as_ref().and_then(|delay| delay.switch) {
+        text += &format!("# Sync: it {}.\n", delay::switch(&switch));
+    }
     text += &format!(
         "# Exposure {}, efficiency {}, standard errors behind ±.\n",
         exposure(fit),

@@ -82,7 +82,12 @@ impl Plan {
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let end = (end * f64::from(timer_hz)).round();
-        let delay = Delay::new(scene.delay.as_ref(), scene.unit(), timer_hz, end)?;
+        let delay = Delay::new(
+            [scene.delay.as_ref(), scene.delay_spread.as_ref()],
+            scene.unit(),
+            timer_hz,
+            end,
+        )?;
         timer.holds(
             delay.map_or(0.0, |delay| delay.ticks.into()) + end,
             scene.timer_bits.as_ref(),

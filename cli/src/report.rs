@@ -38,8 +38,10 @@ fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> 
     for (name, fact) in facts::lines(name, planned) {
         writeln!(out, "{name:11}  {fact}")?;
     }
-    if let Some(drift) = facts::drift(planned) {
-        writeln!(out, "{:11}  {drift}", "drift")?;
+    for (name, fact) in [("spread", facts::spread(planned)), ("drift", facts::drift(planned))] {
+        if let Some(fact) = fact {
+            writeln!(out, "{name:11}  {fact}")?;
+        }
     }
     match planned {
         Planned::Curve(plan) => write_curve(out, plan, cells)?,

@@ -29,6 +29,7 @@ pub struct Scene {
     pub(crate) duty: Option<Spanned<Number>>,
     pub(crate) min_pulse: Option<Spanned<Number>>,
     pub(crate) delay: Option<Spanned<Number>>,
+    pub(crate) delay_spread: Option<Spanned<Number>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -95,6 +96,7 @@ impl Scene {
             duty: optional("duty"),
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
+            delay_spread: None,
         }
     }
 }

@@ -23,6 +23,7 @@ struct Scene {
     min_gap: Spanned<Number>,
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
+    delay_spread: Option<Spanned<Number>>,
 }
 
 /// A trigger that was measured.
@@ -104,6 +105,7 @@ impl Times {
             min_gap: scene.min_gap,
             nominal: scene.nominal,
             delay: scene.delay,
+            delay_spread: None,
         })
     }
 
@@ -117,7 +119,8 @@ impl Times {
         let triggers =
             triggers(scene, unit, open_start, timer.hz, whole_ticks(min_gap, timer.hz).max(1))?;
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
-        let delay = Delay::new(scene.delay.as_ref(), unit, timer.hz, end)?;
+        let delay =
+            Delay::new([scene.delay.as_ref(), scene.delay_spread.as_ref()], unit, timer.hz, end)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
         Ok(Self { open_start, timer, delay, min_gap, nominal, triggers, unit: scene.unit })
     }

@@ -16,7 +16,7 @@ use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
 use shutter_fit::trace::{self, Column, Light, Refusal, Trace, Warning};
 use shutter_fit::unit::Unit;
-use shutter_fit::{Fit, Kind, Options, Tolerance, fit};
+use shutter_fit::{Fit, Kind, Options, Sync, Tolerance, fit};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     fit(trace, options, &mut |_| ())
@@ -689,7 +689,7 @@ fn from_a_trace_to_the_firmwares_module() {
     }
     // Its oscilloscope was triggered by the camera's sync.
     let (trace, _) = trace::read(&read("traces/leaf.csv"), &trace::Options::default()).unwrap();
-    let options = Options { sync: Some(0.0), ..Options::default() };
+    let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
     let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
     let synced =
         Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace, None).unwrap().text).unwrap();
@@ -739,8 +739,8 @@ fn the_delay_from_the_sync_is_measured() {
     // What is not known is not made up.
     assert!(run(&[&csv]).out.contains("\n# delay = ? # "));
     for (args, reason) in [
-        (["--sync", "5"], "write a time as in 0, 1.5ms"),
-        (["--sync", "infs"], "write a time as in 0, 1.5ms"),
+        (["--sync", "5"], "--sync: there is no column '5'; there are 2: time_s, v;"),
+        (["--sync", "infs"], "a time has a unit, as in 1.5ms"),
         (["--sync", "1s"], "--sync: the shutter opens "),
     ] {
         let run = run(&[&[csv.as_str()], args.as_slice()].concat());

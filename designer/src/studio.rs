@@ -161,7 +161,8 @@ fn measured(
     }
     let preview = trace::preview(&bytes, ROWS).unwrap_or(Preview { names: vec![], rows: vec![] });
     let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
-    let options = trace::Options { unit: asked.unit, columns, rate: asked.rate };
+    let options =
+        trace::Options { unit: asked.unit, columns, rate: asked.rate, ..Default::default() };
     let recording = trace::open(&bytes, &options);
     drop(bytes);
     let read = recording.as_ref().ok().map(|recording| Read::new(&recording.reading));

@@ -146,7 +146,7 @@ impl View {
             return Ok(Self {
                 marks: numbers.put(times.enumerate().flat_map(mark)),
                 plan: Times::of_numbers(scene, &measured)
-                    .map(|times| Planned::of_times(&times, numbers))
+                    .map(|times| Planned::of_times(times, numbers))
                     .map_err(Wrong::from),
                 ..common
             });

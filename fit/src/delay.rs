@@ -1,77 +1,269 @@
-//! From the edge of the camera's sync to the start of opening, as a trace shows it.
+//! From the edge of the camera's sync to the start of opening: of each shot, and how far it differs from shot to shot.
 
+use crate::bins;
+use crate::curve::Exposure;
 use crate::errors::Measured;
 use crate::outcome::Fit;
-use crate::trace::{Frame, Refusal};
-use crate::unit::{Unit, plus_minus, short, trimmed};
+use crate::signal::Signal;
+use crate::solve::Cholesky;
+use crate::trace::{
+    Edge, Edges, Frame, Pulses, Refusal, Switch, Trace, Warning, edges, sampling_interval,
+};
+use crate::unit::{Unit, decimals, plus_minus, short, trimmed};
 
-/// The delay of a frame that starts to open at `start`, where the time of the `sync`'s edge is known. `before` are the frames
-/// that come before it.
+/// Shots whose exposures differ by no more than this share are of one speed.
+const ALIKE: f64 = 0.1;
+
+/// From where the edge is known.
+#[derive(Clone, Debug)]
+pub enum Sync {
+    /// It comes at this time, in seconds of the trace.
+    Edge(f64),
+    /// It was recorded beside the light.
+    Channel(Trace),
+}
+
+/// The delays of the shots of one speed.
+#[derive(Clone, Debug)]
+pub struct Delay {
+    /// From the edge to the start of opening, in seconds, of each shot.
+    pub shots: Vec<f64>,
+    /// What the sync does, where it was recorded.
+    pub switch: Option<Switch>,
+    /// The standard deviation that the samples of edge and opening alone give a shot.
+    pub measuring: f64,
+    /// How well one fit knows the start of opening, and the trigger that it knows least.
+    start: f64,
+    trigger: f64,
+    /// From the start of opening to the half-open shutter, which differs less between fits.
+    half: f64,
+}
+
+impl Delay {
+    /// The mean.
+    pub fn mean(&self) -> f64 {
+        self.shots.iter().sum::<f64>() / self.shots.len() as f64
+    }
+
+    /// The standard deviation between shots, where there are several.
+    pub fn spread(&self) -> Option<f64> {
+        let n = self.shots.len() as f64;
+        let squares: f64 = self.shots.iter().map(|shot| (shot - self.mean()).powi(2)).sum();
+        (n > 1.0).then(|| (squares / (n - 1.0)).sqrt())
+    }
+
+    /// By how much a shot is off the mean at most, where there are several.
+    pub fn worst(&self) -> Option<f64> {
+        let off = |shot: &f64| (shot - self.mean()).abs();
+        (self.shots.len() > 1).then(|| self.shots.iter().map(off).fold(0.0, f64::max))
+    }
+
+    /// The standard error of a shot's delay: what shots differ by, the samples, and what one fit leaves open.
+    pub fn error(&self) -> f64 {
+        self.shot().hypot(self.start)
+    }
+
+    /// The standard error of the time from the edge to any trigger, which a ramp's hidden start does not touch.
+    pub fn trigger_error(&self) -> f64 {
+        self.shot().hypot(self.trigger)
+    }
+
+    fn shot(&self) -> f64 {
+        self.spread().unwrap_or(0.0).hypot(self.measuring)
+    }
+}
+
+/// Takes the shots of traces of one speed together, each counted to the opening of the trace's own fit.
+pub fn pool(fits: &mut [Fit]) {
+    let of = |fit: &Fit| fit.delay.clone().map(|delay| (fit.exposure.value, delay));
+    let all: Vec<(f64, Delay)> = fits.iter().filter_map(of).collect();
+    for fit in fits {
+        let (exposure, Some(own)) = (fit.exposure.value, &mut fit.delay) else { continue };
+        let same = || all.iter().filter(|(other, _)| (other / exposure - 1.0).abs() <= ALIKE);
+        own.shots = same()
+            .flat_map(|(_, it)| it.shots.iter().map(|shot| shot + (it.half - own.half)))
+            .collect();
+        own.measuring = same().map(|(_, it)| it.measuring).fold(0.0, f64::max);
+    }
+}
+
+/// Adds the delay to a fit of the frame `asked`, which starts to open at `start`, and what is doubtful about it.
 ///
 /// # Errors
-/// An edge after the start of opening, and one that another frame follows first.
-pub fn delay(
-    sync: Option<f64>,
+/// An edge of a given time after the start of opening, or before another frame; a channel that does not tell the edges.
+pub fn measure(
+    fit: &mut Fit,
+    sync: Option<&Sync>,
     start: Measured,
-    before: &[Frame],
-) -> Result<Option<Measured>, Refusal> {
-    let Some(sync) = sync else { return Ok(None) };
-    let refused = |reason: String| Err(Refusal::NoDelay { reason });
-    if let Some(i) = before.iter().position(|frame| frame.crossings[1] > sync) {
-        return refused(format!(
-            "the edge of the sync is followed by pulse {0} first: --frame {0}",
-            i + 1
-        ));
-    }
-    let value = start.value - sync;
-    if value < 0.0 {
-        let late = Unit::fit(-value).show(-value);
-        return refused(format!("the shutter opens {late} before the edge of the sync"));
-    }
-    Ok(Some(Measured { value, error: start.error }))
-}
-
-/// The delay, and how well a trigger's time from the edge is known, which a ramp's hidden start does not touch.
-struct Told {
-    value: f64,
-    error: f64,
-    of_triggers: f64,
-}
-
-impl Told {
-    fn new(fit: &Fit, unit: Unit) -> Option<Self> {
-        let Measured { value, error } = fit.delay?;
-        let of_triggers = fit.triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max);
-        Some(Self {
-            value: unit.of(value),
-            error: unit.of(error),
-            of_triggers: unit.of(of_triggers),
-        })
-    }
-}
-
-/// The delay with its standard errors, for a report.
-pub fn told(fit: &Fit) -> String {
-    let unit = fit.unit();
-    let Some(Told { value, error, of_triggers }) = Told::new(fit, unit) else {
-        return "unknown: --sync TIME says when the edge of the camera's sync comes".into();
+    pulses: &Pulses,
+    asked: usize,
+) -> Result<(), Refusal> {
+    let curve = fit.best().signal.curve;
+    let half = curve.start + Exposure::new(&curve).feet(0.5)[0] - start.value;
+    let trigger = fit.triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max);
+    let delay = |shots, switch, measuring| {
+        Some(Delay { shots, switch, measuring, start: start.error, trigger, half })
     };
-    let delay = plus_minus(value, error, unit.name());
-    format!("{delay} to the opening, ± {} to any trigger", digits(of_triggers))
+    let refused = |reason: String| Refusal::NoDelay { reason };
+    match sync {
+        None => (),
+        Some(Sync::Edge(edge)) => {
+            let before = |frame: &Frame| frame.crossings[1] > *edge;
+            if let Some(i) = pulses.frames[..asked].iter().position(before) {
+                return Err(refused(format!(
+                    "the edge of the sync is followed by pulse {0} first: --frame {0}",
+                    i + 1
+                )));
+            }
+            let value = start.value - edge;
+            if value < 0.0 {
+                let late = shown(-value);
+                let reason = format!("the shutter opens {late} before the edge of the sync");
+                return Err(refused(reason));
+            }
+            fit.delay = delay(vec![value], None, 0.0);
+        }
+        Some(Sync::Channel(channel)) => {
+            let Edges { switch, starts } = edges(channel, &pulses.frames).map_err(refused)?;
+            let fitted = &pulses.frames[asked];
+            let is_alike = |frame: &Frame| (frame.exposure / fitted.exposure - 1.0).abs() <= ALIKE;
+            let all = pulses.frames.iter().zip(&starts.of);
+            let all: Vec<_> = all.filter(|(frame, _)| is_alike(frame)).collect();
+            let (mut shots, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
+            let with_edge = all.iter().filter_map(|(frame, edge)| Some((frame, edge.as_ref()?)));
+            for (frame, Edge { time, error }) in with_edge {
+                let later = later(&fit.best().signal, pulses, frame, fitted);
+                shots.push(start.value + later.value - time);
+                edges_variance += error.powi(2);
+                variance += error.powi(2) + later.error.powi(2);
+            }
+            if shots.is_empty() {
+                let reason = "no shot of the fitted speed has an edge before it (--frame)";
+                return Err(refused(reason.into()));
+            }
+            let late = shots.iter().filter(|shot| **shot < 0.0);
+            let by = late.clone().fold(0.0, |most, shot| f64::max(most, -shot));
+            let (late, n, all) = (late.count(), shots.len(), all.len());
+            let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
+            let step = sampling_interval(&channel.times);
+            if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
+                let reason = "its column changes after the opening, and as slowly as light does; is it the light's?";
+                return Err(refused(reason.into()));
+            }
+            let (bounced, edges) = (starts.bounced, starts.others);
+            let doubts = [
+                (bounced, Warning::SyncBounced { few: bounced, all: pulses.frames.len() }),
+                (all - n, Warning::SyncMissing { few: all - n, all }),
+                (edges, Warning::SyncOthers { edges }),
+                (late, Warning::SyncLate { few: late, all: n, by }),
+            ];
+            let told = doubts.into_iter().filter(|(count, _)| *count > 0);
+            fit.warnings.extend(told.map(|(_, doubt)| doubt));
+            fit.delay = delay(shots, Some(switch), (variance / n as f64).sqrt());
+        }
+    }
+    Ok(())
 }
 
-/// The delay as a line of a scene in this unit, with so many decimals.
+/// By how much a frame opens later in its edge's time than the fitted one does: the fitted curve, shifted along the opening ramp, with
+/// levels of its own, by least squares.
+fn later(fitted: &Signal, pulses: &Pulses, frame: &Frame, like: &Frame) -> Measured {
+    let rise = |frame: &Frame| frame.crossings[..3].iter().sum::<f64>() / 3.0;
+    let first = rise(frame) - rise(like);
+    let exposure = Exposure::new(&fitted.curve);
+    let part = pulses.trace.part(&frame.samples);
+    let step = sampling_interval(&part.times);
+    let middle = 0.5 * (frame.crossings[2] + frame.crossings[3]);
+    let mut samples = bins::each(&part);
+    samples.retain(|bin| bin.to < middle);
+    let (mut shift, mut error) = (first, step);
+    for _ in 0..10 {
+        let mut normal = vec![vec![0.0; 3]; 3];
+        let mut right = [0.0; 3];
+        for bin in &samples {
+            let (from, to) = (bin.from - shift, bin.to - shift);
+            let slope = (exposure.openness(to) - exposure.openness(from)) / (to - from);
+            let row = [-fitted.gain * slope, 1.0, exposure.mean(from, to)];
+            let missed = bin.mean - fitted.dark - fitted.gain * row[2];
+            for (i, x) in row.iter().enumerate() {
+                right[i] += x * missed;
+                normal[i].iter_mut().zip(row).for_each(|(sum, y)| *sum += x * y);
+            }
+        }
+        let Some(factor) = Cholesky::new(normal) else { break };
+        let by = factor.solve(&right)[0];
+        shift += by;
+        error = pulses.noise * factor.solve(&[1.0, 0.0, 0.0])[0].max(0.0).sqrt();
+        if by.abs() < 1e-4 * step {
+            break;
+        }
+    }
+    let is_near = (shift - first).abs() <= step.max(0.5 * fitted.curve.opening);
+    let sharp = if fitted.curve.opening < 2.0 * step { step / 12f64.sqrt() } else { 0.0 };
+    Measured { value: if is_near { shift } else { first }, error: error.hypot(sharp) }
+}
+
+/// The delay with its standard errors, and how shots differ, for a report.
+pub fn told(fit: &Fit) -> String {
+    let (unit, Some(delay)) = (fit.unit(), &fit.delay) else {
+        return "unknown: --sync says when the edge comes, or in which column".into();
+    };
+    let value = plus_minus(unit.of(delay.mean()), unit.of(delay.error()), unit.name());
+    let trigger = digits(unit.of(delay.trigger_error()));
+    let mut told = format!("{value} to the opening, ± {trigger} to any trigger\nspread       ");
+    let (Some(spread), Some(worst)) = (delay.spread(), delay.worst()) else {
+        return told + "unknown: one shot does not tell how shots differ";
+    };
+    let n = delay.shots.len();
+    // The standard error of a standard deviation.
+    let error = spread / (2.0 * (n - 1) as f64).sqrt();
+    let spread_told = plus_minus(unit.of(spread), unit.of(error), unit.name());
+    told += &format!("{spread_told} between {n} shots, the worst {} off", digits(unit.of(worst)));
+    if 2.0 * delay.measuring > spread {
+        told += &format!(
+            "\n             each is measured to ± {} only: coarse samples or a slow edge",
+            digits(unit.of(delay.measuring)),
+        );
+    }
+    told
+}
+
+/// What a sync does, for a report.
+pub fn switch(Switch { levels: [rest, on], threshold }: &Switch) -> String {
+    let way = if on < rest { "falls" } else { "rises" };
+    let places = decimals(on - rest, 3);
+    let [rest, on, threshold] = [rest, on, threshold].map(|level| trimmed(*level, places));
+    format!("{way} from {rest} to {on}; an edge counts at {threshold}")
+}
+
+/// The delay as lines of a scene in this unit, with so many decimals.
 pub fn line(fit: &Fit, unit: Unit, places: usize) -> String {
     const WHAT: &str = "From the edge of the camera's sync to open_start";
-    match Told::new(fit, unit) {
-        Some(Told { value, error, of_triggers }) => format!(
-            "# {WHAT}, ± {}; from the edge to any trigger, ± {}\ndelay = {}\n",
-            digits(error),
-            digits(of_triggers),
-            trimmed(value, places),
-        ),
-        None => format!("# delay = ? # {WHAT}, which fit --sync TIME measures.\n"),
+    let Some(delay) = &fit.delay else {
+        return format!("# delay = ? # {WHAT}, which fit --sync measures.\n");
+    };
+    let (mean, digits) = (delay.mean(), |seconds| digits(unit.of(seconds)));
+    if mean < 0.0 {
+        return format!("# delay = ? # {WHAT}: the edge comes {} too late.\n", digits(-mean));
     }
+    let (error, trigger) = (digits(delay.error()), digits(delay.trigger_error()));
+    let text = format!("# {WHAT}, ± {error}; from the edge to any trigger, ± {trigger}");
+    let value = trimmed(unit.of(mean), places);
+    match (delay.spread(), delay.worst()) {
+        (Some(spread), Some(worst)) => format!(
+            "{text}; of {} shots the worst is {} off\ndelay = {value}\ndelay_spread = {}\n",
+            delay.shots.len(),
+            digits(worst),
+            digits(spread),
+        ),
+        _ => format!("{text}; one shot tells no spread\ndelay = {value}\n"),
+    }
+}
+
+/// A time in the unit that suits it.
+fn shown(seconds: f64) -> String {
+    let unit = Unit::fit(seconds);
+    format!("{} {}", short(unit.of(seconds), 3), unit.name())
 }
 
 /// The two digits that an error has.

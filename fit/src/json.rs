@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::delay::Delay;
 use crate::errors::Measured;
 use crate::outcome::{Fit, From};
 use crate::trace::{Clock, Reading, Warning};
@@ -15,6 +16,8 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         Some(Clock::Rate(hertz)) => (None, Some(hertz)),
         None => (None, None),
     };
+    let switch = fit.delay.as_ref().and_then(|delay| delay.switch);
+    let of_delay = |of: fn(&Delay) -> f64| fit.delay.as_ref().map(of);
     let told = |warning: &Warning| json!({ "code": warning.code(), "text": warning.to_string() });
     json!({
         "trace": name,
@@ -25,8 +28,14 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "efficiency": fit.efficiency.value,
         "efficiency_error": fit.efficiency.error,
         "nominal_s": fit.nominal,
-        "delay_s": fit.delay.map(|delay| delay.value),
-        "delay_error_s": fit.delay.map(|delay| delay.error),
+        "delay_s": of_delay(Delay::mean),
+        "delay_error_s": of_delay(Delay::error),
+        "delay_trigger_error_s": of_delay(Delay::trigger_error),
+        "delay_spread_s": fit.delay.as_ref().and_then(Delay::spread),
+        "delay_worst_s": fit.delay.as_ref().and_then(Delay::worst),
+        "sync_falls": switch.map(|switch| switch.levels[1] < switch.levels[0]),
+        "sync_threshold": switch.map(|switch| switch.threshold),
+        "delay_shots": fit.delay.as_ref().map(|delay| delay.shots.len()),
         "opens_s": fit.opens,
         "open_s": open_s,
         "closes_s": closes_s,
@@ -60,12 +69,14 @@ fn triggers(of: &[Measured]) -> Value {
     of.iter().map(|m| json!({ "time_s": m.value, "error_s": m.error })).collect()
 }
 
-fn columns(Reading { columns, time, signal, .. }: &Reading) -> Value {
+fn columns(Reading { columns, time, signal, sync, .. }: &Reading) -> Value {
     json!({
         "count": columns,
         "time": time.as_ref().map(|time| time.0),
         "time_name": time.as_ref().map(|time| &time.1),
         "signal": signal.0,
         "signal_name": signal.1,
+        "sync": sync.as_ref().map(|sync| sync.0),
+        "sync_name": sync.as_ref().map(|sync| &sync.1),
     })
 }

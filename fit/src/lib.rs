@@ -49,6 +49,7 @@ use std::iter::once;
 
 use crate::trace::{Light, Pulses, Refusal, Trace, Warning, pulses, undone};
 pub use curve::Curve;
+pub use delay::{Delay, Sync};
 pub use errors::Measured;
 use frame::FrameFits;
 pub use json::json;
@@ -98,7 +99,7 @@ pub fn fit(
         exposure: results.exposure,
         efficiency: results.efficiency,
         opens: results.start.value,
-        delay: delay::delay(options.sync, results.start, &pulses.frames[..asked])?,
+        delay: None,
         triggers: results.triggers,
         from,
         model_exposure: model.exposure,
@@ -114,6 +115,7 @@ pub fn fit(
         middle: fits.units.seconds(0.0),
     };
     fit.warnings.extend(gap);
+    delay::measure(&mut fit, options.sync.as_ref(), results.start, &pulses, asked)?;
     if differ {
         fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
     }

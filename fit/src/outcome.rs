@@ -1,6 +1,7 @@
 //! What a fit is asked for, and what comes out.
 
 use crate::curve::Exposure;
+use crate::delay::{Delay, Sync};
 use crate::errors::Measured;
 use crate::signal::{Kind, Signal};
 use crate::trace::{Frame, Light, Pulses, Reading, Refusal, Trace, Warning};
@@ -32,8 +33,8 @@ pub struct Options {
     pub triggers: u32,
     /// The mains' frequency in hertz, where that is known: a hum has it.
     pub mains: Option<f64>,
-    /// When the edge of the camera's sync comes, in seconds of the trace, where that is known.
-    pub sync: Option<f64>,
+    /// The edge of the camera's sync, where that is known.
+    pub sync: Option<Sync>,
 }
 
 impl Options {
@@ -174,8 +175,8 @@ pub struct Fit {
     pub efficiency: Measured,
     /// When the shutter starts to open, in seconds: with the curve, or with light that comes before it.
     pub opens: f64,
-    /// From the edge of the camera's sync to the start of opening, in seconds, where the edge's time was given.
-    pub delay: Option<Measured>,
+    /// From the edge of the camera's sync to the start of opening, where the edge is known.
+    pub delay: Option<Delay>,
     /// The times in seconds by which (i + 1/2)/n of the exposure is collected.
     pub triggers: Vec<Measured>,
     /// What these are taken from.

@@ -39,6 +39,12 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     if let Some(reading) = &fit.reading {
         writeln!(out, "signal       {}", reading.signal())?;
         writeln!(out, "times        {}", reading.times())?;
+        if let Some(sync) = &reading.sync {
+            writeln!(out, "sync         {}", reading.among(sync))?;
+        }
+    }
+    if let Some(switch) = fit.delay.as_ref().and_then(|delay| delay.switch) {
+        writeln!(out, "             {}", delay::switch(&switch))?;
     }
     write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
     if fit.frames.count > 1 {

@@ -373,7 +373,7 @@ fn each_export_is_read_right_or_doubted_or_refused() {
 /// What is asked beside the file: columns, a unit, a rate.
 fn asked(columns: &str, unit: Option<Unit>, rate: Option<f64>) -> trace::Options {
     let columns = columns.split(',').filter(|name| !name.is_empty()).map(Column::parse).collect();
-    trace::Options { unit, columns, rate }
+    trace::Options { unit, columns, rate, ..Default::default() }
 }
 
 #[test]

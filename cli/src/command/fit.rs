@@ -1,5 +1,6 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
+use std::convert::Infallible;
 use std::io::Write;
 use std::iter::once;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::unit::{Unit, count};
-use shutter_fit::{Fit, Kind, Options, Tolerance};
+use shutter_fit::{Fit, Kind, Options, Sync, Tolerance, delay};
 
 use super::fit_many::{self, Speed};
 use super::input::{self, file_name, shown, stem};
@@ -80,9 +81,10 @@ pub struct Args {
     /// The mains' frequency in hertz: a hum in the trace has it
     #[arg(long, value_name = "50|60", value_parser = mains)]
     mains: Option<f64>,
-    /// When the edge of the camera's sync comes, in the trace: 0, 1.5ms; the scene has the delay from there to the opening
-    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
-    sync: Option<f64>,
+    /// The column of the camera's sync, by number or name, or the time of its edge in the trace: CH2, 3, 0, 1.5ms; the scene has
+    /// the delay from the edge to the opening, and how it differs between shots
+    #[arg(long, value_name = "COLUMN|TIME", value_parser = sync, allow_hyphen_values = true)]
+    sync: Option<Asked>,
     /// The report's form; `json` is an object, or an array of those of several traces, whose names stay as they are
     #[arg(long, default_value = "text")]
     report: Report,
@@ -98,6 +100,17 @@ enum Report {
     Text,
     /// For a program
     Json,
+}
+
+/// What is told of the sync.
+#[derive(Clone)]
+enum Asked {
+    Time(f64),
+    Column(Column),
+}
+
+fn sync(text: &str) -> Result<Asked, Infallible> {
+    Ok(time(text).map_or_else(|_| Asked::Column(Column::parse(text)), Asked::Time))
 }
 
 fn mains(text: &str) -> Result<f64, String> {
@@ -132,14 +145,22 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
     let mut outputs = Outputs::new(&traces, &to, args.force)?;
 
-    let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
+    let (mut fits, mut beside) = (Vec::new(), Vec::new());
     for (i, path) in traces.iter().enumerate() {
-        let file = scenes.get(i);
-        let old = file.map_or(Ok(None), |file| old(&mut outputs, file))?;
+        let old = scenes.get(i).map_or(Ok(None), |file| old(&mut outputs, file))?;
         let triggers = args.triggers.or(old.as_ref().and_then(Old::triggers));
         let refused = |reason: String| format!("{}: {reason}", shown(path));
-        let (mut fit, mut warnings) = measure(args, path, triggers).map_err(refused)?;
+        let (mut fit, warnings) = measure(args, path, triggers).map_err(refused)?;
         fit.nominal = args.nominal.get(i).copied();
+        fits.push(fit);
+        beside.push((old, warnings));
+    }
+    delay::pool(&mut fits);
+
+    let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
+    for (i, (fit, (old, mut warnings))) in fits.into_iter().zip(beside).enumerate() {
+        let (path, file) = (traces[i], scenes.get(i));
+        let refused = |reason: String| format!("{}: {reason}", shown(path));
         let name = file_name(path);
         let scene = fitted::scene(&fit, &name, args.zero, old.as_ref().map(Old::unit))
             .map_err(|refusal| refused(refusal.to_string()))?;
@@ -221,9 +242,14 @@ fn json(speeds: &[Speed]) -> String {
 /// The fit of a trace, and what is doubtful about it.
 fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<Warning>), String> {
     let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
-    let options = trace::Options { unit: args.unit, columns, rate: args.rate };
+    let (edge, sync) = match &args.sync {
+        Some(Asked::Time(time)) => (Some(Sync::Edge(*time)), None),
+        Some(Asked::Column(column)) => (None, Some(column.clone())),
+        None => (None, None),
+    };
+    let options = trace::Options { unit: args.unit, columns, rate: args.rate, sync };
     let told = |refusal: Refusal| refusal.to_string();
-    let Recording { trace, reading, mut warnings } =
+    let Recording { trace, sync, reading, mut warnings } =
         trace::open(&input::read(path)?, &options).map_err(told)?;
     let options = Options {
         model: args.model,
@@ -233,7 +259,7 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
         light: args.light,
         triggers: triggers.unwrap_or(Options::TRIGGERS),
         mains: args.mains,
-        sync: args.sync,
+        sync: edge.or(sync.map(Sync::Channel)),
     };
     let mut fit =
         fitted(&trace, &options).map_err(|refusal| format!("{refusal}; read: {reading}"))?;

@@ -20,6 +20,37 @@ pub fn table(speeds: &[Speed]) -> String {
     rows.extend(speeds.iter().map(row));
     columns(&rows)
         + "measured: TV, fully open for as much light, ± one standard error; spread: how much the pulses of a trace differ\n"
+        + &delays(speeds)
+}
+
+/// From the edge of the sync to the opening, as a table, if one is known.
+fn delays(speeds: &[Speed]) -> String {
+    let row = |Speed { name, fit, .. }: &Speed| {
+        let (unit, delay) = (fit.unit(), fit.delay.as_ref()?);
+        let digits = |seconds: f64| short(unit.of(seconds), 2);
+        let optional = |seconds: Option<f64>| seconds.map_or("-".into(), digits);
+        Some([
+            printable(name),
+            plus_minus(unit.of(delay.mean()), unit.of(delay.error()), unit.name()),
+            format!("± {}", digits(delay.trigger_error())),
+            delay.shots.len().to_string(),
+            optional(delay.spread()),
+            optional(delay.worst()),
+        ])
+    };
+    let header = ["trace", "delay", "to any trigger", "shots", "spread", "worst"];
+    let mut rows = vec![header.map(String::from)];
+    rows.extend(speeds.iter().filter_map(row));
+    if rows.len() == 1 {
+        return String::new();
+    }
+    let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: how far one \
+                is off their mean; shots of one speed, to 10 %, count together\n";
+    format!("\n{}{told}", columns(&rows))
+}
+
+fn printable(name: &str) -> String {
+    name.chars().filter(|c| !c.is_control()).collect()
 }
 
 fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {
@@ -35,7 +66,7 @@ fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {
         _ => format!("{} %", short(100.0 * fit.frames.scatter, 2)),
     };
     [
-        name.chars().filter(|c| !c.is_control()).collect(),
+        printable(name),
         nominal.map_or("-".into(), |nominal| unit.show(nominal)),
         plus_minus(unit.of(value), unit.of(error), unit.name()),
         nominal.map_or("-".into(), delta),

@@ -19,8 +19,8 @@ const MEASURED: [&str; 7] = [
 ];
 /// How a fit's comments begin: the first one, those that follow it, and those above a key.
 const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
-const NEXT: [&str; 5] =
-    ["# This curve does not", "# `--model ", "# Read: ", "# Exposure ", "# Warning: "];
+const NEXT: [&str; 6] =
+    ["# This curve does not", "# `--model ", "# Read: ", "# Sync: ", "# Exposure ", "# Warning: "];
 const ABOVE: [&str; 2] = ["# The ramps' inner control points ", NO_DELAY];
 const NO_DELAY: &str = "# delay = ? # ";
 /// Above a delay, which may outlive a fit that measures none.
@@ -66,7 +66,7 @@ impl Old {
                 above.extend(lines.filter(|line| !(keeps_delay && line.starts_with(NO_DELAY))));
             }
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
-            let is_asked = ["delay", "nominal"].contains(&name) && fresh.is_some();
+            let is_asked = ["delay", "delay_spread", "nominal"].contains(&name) && fresh.is_some();
             let is_measured = MEASURED.contains(&name) || is_asked;
             let item = match fresh {
                 Some((_, mut fresh)) if is_measured => {

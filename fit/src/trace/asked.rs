@@ -41,4 +41,6 @@ pub struct Options {
     pub columns: Vec<Column>,
     /// The samples in a second, where the file holds no times.
     pub rate: Option<f64>,
+    /// The column of the camera's sync, which holds no light.
+    pub sync: Option<Column>,
 }

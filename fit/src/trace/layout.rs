@@ -1,6 +1,6 @@
 //! Which columns of a table are the time and the signals, and in which unit or at which rate.
 
-use super::asked::Options;
+use super::asked::{Column, Options};
 use super::names::{Said, is_axis, is_count, is_time, unit_in};
 use super::numbers::{number, short_of};
 use super::reading::{Clock, Reading, Told};
@@ -18,6 +18,8 @@ pub struct Layout {
     times: Vec<usize>,
     /// The columns that may hold a signal, of which there is one at least.
     pub signals: Vec<usize>,
+    /// The column of the camera's sync, which is none of these.
+    pub sync: Option<usize>,
     pub told: Told,
 }
 
@@ -60,23 +62,27 @@ impl Layout {
             asked.push(k);
         }
         let settings = table.settings();
+        let sync = options.sync.as_ref().map(|sync| columns.sync(sync, &asked)).transpose()?;
         if let Some(rate) = options.rate {
             // The times of the file do not count then, so those that are asked for are signals.
-            let signals = columns.signals(&asked, None);
+            let signals = columns.signals(&asked, None, sync)?;
             let time = Time::Steps { column: None, start: 0.0, step: 1.0 / rate };
-            return Ok(Self { time, times: Vec::new(), signals, told: Told::Asked });
+            return Ok(Self { time, times: Vec::new(), signals, sync, told: Told::Asked });
         }
         let (time, asked) = match asked.as_slice() {
             [time, signals @ ..] if !signals.is_empty() => (Some(*time), signals),
-            asked => (columns.time(asked, &settings, options.unit)?, asked),
+            asked => {
+                let others = [asked, sync.as_slice()].concat();
+                (columns.time(&others, &settings, options.unit)?, asked)
+            }
         };
-        let signals = columns.signals(asked, time);
+        let signals = columns.signals(asked, time, sync)?;
         let (time, told) = columns.clock(time, &settings, options.unit)?;
         let times = match time {
             Time::Column(column, _) if options.columns.len() < 2 => columns.named_alike(column),
             _ => Vec::new(),
         };
-        Ok(Self { time, times, signals, told })
+        Ok(Self { time, times, signals, sync, told })
     }
 
     /// Where the times of a signal are: of several columns of times, the next one to its left.
@@ -101,6 +107,7 @@ impl Layout {
             columns: table.width,
             time,
             signal: named(signal),
+            sync: self.sync.map(named),
             clock,
             told: self.told.clone(),
         }
@@ -165,17 +172,40 @@ impl Columns<'_> {
         runs(&self.table.spread[k])
     }
 
+    /// The sync's column, which is not asked for as another.
+    fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
+        let refused = |reason: String| Err(Refusal::NoDelay { reason });
+        match self.table.column(column) {
+            Err(refusal) => refused(format!("{refusal}; a time has a unit, as in 1.5ms")),
+            Ok(k) if self.runs(k) => refused(format!("column {} holds times", self.name(k))),
+            Ok(k) if asked.contains(&k) => {
+                refused(format!("column {} is the signal's", self.name(k)))
+            }
+            Ok(k) => Ok(k),
+        }
+    }
+
     /// The signals: those that are asked for, or all columns that are neither times nor counts, if there are others.
-    fn signals(&self, asked: &[usize], time: Option<usize>) -> Vec<usize> {
+    fn signals(
+        &self,
+        asked: &[usize],
+        time: Option<usize>,
+        sync: Option<usize>,
+    ) -> Result<Vec<usize>, Refusal> {
         if !asked.is_empty() {
-            return asked.to_vec();
+            return Ok(asked.to_vec());
         }
         let columns = &self.table.columns;
-        let others: Vec<usize> = columns.iter().copied().filter(|k| Some(*k) != time).collect();
+        let is_other = |k: &usize| Some(*k) != time && Some(*k) != sync;
+        let others: Vec<usize> = columns.iter().copied().filter(is_other).collect();
+        if let (Some(sync), true) = (sync, others.is_empty()) {
+            let reason = format!("beside column {} no other holds a signal", self.name(sync));
+            return Err(Refusal::NoDelay { reason });
+        }
         let is_signal = |k: &usize| !(self.counts(*k) || self.is_time(*k) && self.runs(*k));
         let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
         let found = [signals, others].into_iter().find(|found| !found.is_empty());
-        found.unwrap_or_else(|| columns.clone())
+        Ok(found.unwrap_or_else(|| columns.clone()))
     }
 
     /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is known.

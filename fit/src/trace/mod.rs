@@ -4,6 +4,7 @@
 mod asked;
 mod bytes;
 mod coupling;
+mod edges;
 mod layout;
 mod names;
 mod numbers;
@@ -21,6 +22,8 @@ mod wav;
 pub use asked::{Column, Options};
 pub use bytes::decode;
 pub(crate) use coupling::undone;
+pub use edges::Switch;
+pub(crate) use edges::{Edge, Edges, edges};
 pub use preview::{Preview, preview};
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
 pub(crate) use pulse::{QUARTERS, least_step};

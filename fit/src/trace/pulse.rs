@@ -167,7 +167,7 @@ fn check(trace: &Trace) -> Result<(), Refusal> {
 
 /// The noise, by the median of what neighbours differ by: edges and hum hardly count in it. At least what rounding to
 /// the least step of the values makes.
-fn noise(values: &[f64]) -> f64 {
+pub(super) fn noise(values: &[f64]) -> f64 {
     let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     (median(steps) / 0.6745 / 2f64.sqrt()).max(least_step(values) / 12f64.sqrt())
 }

@@ -43,7 +43,9 @@ fn recording(text: &str, options: &Options) -> Result<Recording, Refusal> {
     if layout.told == Told::Assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let read = samples(&table, &layout)?;
+    let mut read = samples(&table, &layout)?;
+    // It was read last.
+    let sync = layout.sync.and_then(|_| read.pop()).transpose()?;
     let (signal, samples) = match <[_; 1]>::try_from(read) {
         Ok([only]) => (layout.signals[0], only?),
         Err(all) => {
@@ -56,12 +58,14 @@ fn recording(text: &str, options: &Options) -> Result<Recording, Refusal> {
         }
     };
     warnings.extend(samples.warnings);
-    Ok(Recording { trace: samples.trace, reading: layout.reading(&table, signal), warnings })
+    let (trace, sync) = (samples.trace, sync.map(|sync| sync.trace));
+    Ok(Recording { trace, sync, reading: layout.reading(&table, signal), warnings })
 }
 
-/// The samples of each signal. Each line is read once, since there may be thousands of columns.
+/// The samples of each signal, and of the sync. Each line is read once, since there may be thousands of columns.
 fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
-    let mut columns: Vec<Column> = layout.signals.iter().map(|_| Column::default()).collect();
+    let signals: Vec<usize> = layout.signals.iter().copied().chain(layout.sync).collect();
+    let mut columns: Vec<Column> = signals.iter().map(|_| Column::default()).collect();
     let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
     let (mut fields, mut rows) = (Vec::new(), 0);
     let mut between: Option<(u64, &str)> = None;
@@ -72,7 +76,7 @@ fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal
         let is_word = row.starts_with(char::is_alphabetic)
             && number(fields[0], table.decimal_comma).is_none();
         let mut is_read = false;
-        for (signal, column) in layout.signals.iter().zip(&mut columns).filter(|_| !is_remark) {
+        for (signal, column) in signals.iter().zip(&mut columns).filter(|_| !is_remark) {
             match layout.sample(rows, &fields, *signal, table.decimal_comma) {
                 Ok((time, value)) => {
                     is_read = true;
@@ -97,7 +101,7 @@ fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal
     let read = |(signal, column): (&usize, Column)| {
         column.read(|| layout.reading(table, *signal).to_string())
     };
-    Ok(layout.signals.iter().zip(columns).map(read).collect())
+    Ok(signals.iter().zip(columns).map(read).collect())
 }
 
 /// What was read of a column.

@@ -18,6 +18,8 @@ pub struct Reading {
     pub time: Option<Named>,
     /// The signal's.
     pub signal: Named,
+    /// The sync's, if one was asked for.
+    pub sync: Option<Named>,
     /// How a row's time is known.
     pub clock: Clock,
     /// Who tells that.
@@ -55,6 +57,8 @@ pub enum Told {
 pub struct Recording {
     /// The samples.
     pub trace: Trace,
+    /// Those of the camera's sync, if its column was asked for.
+    pub sync: Option<Trace>,
     /// What was read.
     pub reading: Reading,
     /// What is doubtful.
@@ -76,7 +80,11 @@ pub fn shown((number, name): &Named) -> String {
 impl Reading {
     /// The signal and its place among all columns.
     pub fn signal(&self) -> String {
-        let (number, name) = &self.signal;
+        self.among(&self.signal)
+    }
+
+    /// The same of a sync.
+    pub fn among(&self, (number, name): &Named) -> String {
         let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
         format!("column {number} of {}{name}", self.columns)
     }

@@ -198,6 +198,30 @@ pub enum Warning {
         are(.count)
     )]
     Overload { count: usize, line: u64 },
+    /// An edge of the sync was followed by others, as if a contact bounced, before so many of all shots.
+    #[error(
+        "the sync switches more than once before {few} of {}: its contact may bounce; the first edge counts, so let the \
+         firmware take the first alone",
+        counted(.all, "shot")
+    )]
+    SyncBounced { few: usize, all: usize },
+    /// So many of all shots have no edge before them.
+    #[error(
+        "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay",
+        counted(.all, "shot")
+    )]
+    SyncMissing { few: usize, all: usize },
+    /// So many edges start no shot.
+    #[error("{} of the sync {} no whole shot of the trace", counted(.edges, "edge"), if *.edges == 1 { "starts" } else { "start" })]
+    SyncOthers { edges: usize },
+    /// The edge comes after the opening in so many of all shots, by so much at most.
+    #[error(
+        "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: it cannot trigger what comes \
+         before it",
+        counted(.all, "shot"),
+        time(.by)
+    )]
+    SyncLate { few: usize, all: usize, by: f64 },
     /// The file is a sound.
     #[error(
         "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \

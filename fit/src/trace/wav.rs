@@ -59,13 +59,22 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         }
     };
     let mut asked = options.columns.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    let no_delay = |reason: String| Refusal::NoDelay { reason };
+    let sync = options.sync.as_ref().map(place).transpose();
+    let sync = sync.map_err(|refusal| no_delay(refusal.to_string()))?;
     if asked.is_empty() {
-        asked.extend(0..channels);
+        asked.extend((0..channels).filter(|k| Some(*k) != sync));
+    }
+    if asked.is_empty() || sync.is_some_and(|sync| asked.contains(&sync)) {
+        return Err(no_delay(
+            "its channel is the signal's; record the sync on one of its own".into(),
+        ));
     }
     let named = |k: usize| (k + 1, None);
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let clock = Clock::Rate(rate);
-    let mut reading = Reading { columns: channels, time: None, signal: named(0), clock, told };
+    let (columns, signal, of_sync) = (channels, named(0), sync.map(named));
+    let mut reading = Reading { columns, time: None, signal, sync: of_sync, clock, told };
     let mut warnings = vec![Warning::SoundCard];
     if there < announced && is_said {
         warnings.push(Warning::CutOff { samples: there, announced });
@@ -74,5 +83,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let all = asked.into_iter().map(|k| (k, channel(k))).collect();
     let (signal, samples) = light_among(all, name, None, &mut warnings)?;
     reading.signal = named(signal);
-    Ok(Recording { trace: samples.trace, reading, warnings })
+    let sync: Result<_, Refusal> = sync.map(channel).transpose();
+    let sync = sync?.map(|sync: Samples| sync.trace);
+    Ok(Recording { trace: samples.trace, sync, reading, warnings })
 }

@@ -5,7 +5,7 @@ use shutter::emit::{Form, emit};
 use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
 use shutter_fit::trace;
-use shutter_fit::{Options, fit};
+use shutter_fit::{Options, Sync, fit};
 use strobe::TICK_HZ;
 
 use crate::frame::Frame;
@@ -15,7 +15,7 @@ use crate::step::step;
 pub fn steps() -> Vec<Value> {
     let text = include_str!("../../../../cli/traces/leaf.csv");
     let (trace, _) = trace::read(text, &trace::Options::default()).unwrap();
-    let options = Options { sync: Some(0.0), ..Options::default() };
+    let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
     let fit = fit(&trace, &options, &mut |_| ()).unwrap();
     let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     let plan = Plan::parse(&scene).unwrap();
