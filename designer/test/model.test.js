@@ -131,7 +131,7 @@ test('a misfit without triggers of its own takes nothing away, until a person in
   };
   await isDoubted();
   const text = await page.$eval('#trace', (it) => it.innerText);
-  assert.match(text, /the curve's, and off by more than their errors say/);
+  assert.match(text, /the model's, and off by more than their errors say/);
   assert.doesNotMatch(text, /by the curve\n/);
   await wait(200);
   const address = await page.evaluate(() => location.hash);
