@@ -303,7 +303,7 @@ fn an_unknown_key_is_named() {
     let err = error_of(&empty_dir("unknown"), &with("colour", "3"));
     assert!(
         err.contains("bad.toml:9: unknown field `colour`, expected one of `unit`, `open_start`")
-            && err.contains("`delay`, or `trigger_times` in place of a curve\n"),
+            && err.contains("`delay_spread`, or `trigger_times` in place of a curve\n"),
         "{err}"
     );
 }

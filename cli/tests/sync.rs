@@ -361,7 +361,7 @@ fn what_is_doubtful_about_a_sync_is_told() {
     assert_eq!(codes(&json), ["sync_late"]);
     assert!((number(&json, "delay_s") - late.mean()).abs() < 3e-6);
     let (_, out, err) = folder.run("fit a.csv --sync CH2");
-    assert!(err.contains("in 3 of 3 shots, by up to 1.12 ms"), "{err}");
+    assert!(err.contains("in 3 of 3 shots, by up to 1.1 ms"), "{err}");
     let comment = "# delay = ? # From the edge of the camera's sync to open_start: the edge comes 1.1 too late.\n";
     assert!(out.contains(comment) && !out.contains("\ndelay = "), "{out}");
 

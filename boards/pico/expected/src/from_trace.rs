@@ -23,7 +23,7 @@ pub fn steps() -> Vec<Value> {
     // Whatever the answers are: all of them are `ok`, and the last one counts.
     let mut send = serde_json::json!({ "send": lines.as_bytes(), "answers": vec!["ok"; lines.lines().count()] });
     send["oneByOne"] = true.into();
-    let delay = (fit.delay.unwrap().value * f64::from(TICK_HZ)).round() as u32;
+    let delay = (fit.delay.unwrap().mean() * f64::from(TICK_HZ)).round() as u32;
     let armed = Frame { delay, ..Frame::new(&plan.curve, 16, 0, 250) };
     // The one that was armed before comes first.
     vec![send, serde_json::json!({ "spend": true, "send": [], "answers": [] }), step(armed, &[])]
