@@ -4,7 +4,7 @@
 use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
 use crate::hum;
-use crate::missed::{Missed, least_open};
+use crate::missed::least_open;
 use crate::signal::{Hum, Kind};
 use crate::solve::Cholesky;
 use crate::units::Units;
@@ -114,14 +114,22 @@ impl Results {
         }
         self
     }
-}
 
-impl Results {
-    /// With structure that the test does not see, of this share of the exposure.
-    pub fn with_unseen(mut self, share: f64) -> Self {
-        let by = 0.5 * share * self.exposure.value;
+    /// With structure of this share of the exposure, which the test does not tell.
+    pub fn with_hidden(mut self, share: f64) -> Self {
+        let by = share * self.exposure.value;
         for result in self.triggers.iter_mut().chain([&mut self.exposure]) {
             result.error = result.error.hypot(by);
+        }
+        self
+    }
+
+    /// A model's that do not explain the samples: how far they lie from the samples' own belongs to their errors.
+    pub fn apart_from(mut self, samples: &Self) -> Self {
+        let of_samples = samples.triggers.iter().chain([&samples.exposure]);
+        for (result, other) in self.triggers.iter_mut().chain([&mut self.exposure]).zip(of_samples)
+        {
+            result.error = result.error.hypot(result.value - other.value);
         }
         self
     }
@@ -159,10 +167,9 @@ impl<'a> OfKind<'a> {
     }
 
     fn results(&self, n: u32) -> Results {
-        let (triggers, by_shape) = self.triggers(n);
-        let exposure = self.exposure(by_shape);
+        let exposure = self.exposure();
         let efficiency = self.efficiency(exposure);
-        Results { exposure, efficiency, start: self.start(), triggers }
+        Results { exposure, efficiency, start: self.start(), triggers: self.triggers(n) }
     }
 
     /// The light that each foot may hold or not.
@@ -170,10 +177,10 @@ impl<'a> OfKind<'a> {
         self.feet.map(|time| FOOT * time)
     }
 
-    fn exposure(&self, by_shape: f64) -> Measured {
+    fn exposure(&self) -> Measured {
         let linear = self.covariance.error(&self.integral.whole().moves);
         let noise = if self.is_peak { self.searched(Whole::Area, linear) } else { linear };
-        let error = self.unseen().into_iter().fold(noise.hypot(by_shape), f64::hypot);
+        let error = self.unseen().into_iter().fold(noise, f64::hypot);
         Measured { value: self.integral.area(), error }
     }
 
@@ -211,22 +218,16 @@ impl<'a> OfKind<'a> {
         Measured { value, error: hidden.hypot(linear.min(length)).hypot(self.feet[0]) }
     }
 
-    /// With what the model's shape puts them off by.
-    fn triggers(&self, n: u32) -> (Vec<Measured>, f64) {
-        let by_noise = |u: f64| {
-            let (value, moves) = self.integral.trigger(u);
-            Measured { value, error: self.covariance.error(&moves) }
-        };
-        let mut triggers: Vec<Measured> = fractions(n).map(by_noise).collect();
-        let by_shape = misfit(self.fits, self.kind, &triggers);
+    fn triggers(&self, n: u32) -> Vec<Measured> {
         let [first, last] = self.unseen();
-        for (u, trigger) in fractions(n).zip(&mut triggers) {
+        let trigger = |u: f64| {
+            let (value, moves) = self.integral.trigger(u);
             // More light in the first foot makes a trigger earlier, more in the last one makes it later.
             let light = ((1.0 - u) * first).hypot(u * last);
-            let by_feet = light / least_open(&self.integral, trigger.value);
-            trigger.error = trigger.error.hypot(by_shape).hypot(by_feet);
-        }
-        (triggers, by_shape)
+            let by_feet = light / least_open(&self.integral, value);
+            Measured { value, error: self.covariance.error(&moves).hypot(by_feet) }
+        };
+        fractions(n).map(trigger).collect()
     }
 
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
@@ -312,24 +313,4 @@ fn searched_error(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, varia
         by
     };
     side(1.0).max(side(-1.0)) / SIDE
-}
-
-/// What the model's shape itself is wrong by, as the samples show it: the standard deviation of the triggers' times beyond
-/// what noise makes of them.
-///
-/// The residuals add up to what the model's integral misses. By that each trigger is off, and noise alone would put it off
-/// by a random walk whose ends are tied. The fit has followed as much of that walk as the triggers' errors say; only the rest
-/// shows.
-fn misfit(fits: &FrameFits, kind: Kind, triggers: &[Measured]) -> f64 {
-    let fitted = fits.of(kind);
-    let [start, _, _, end] = fitted.solution.signal.curve.times();
-    let variance = fitted.variance() * fits.correlation * fits.step;
-    let missed = Missed::new(fits, kind);
-    let excess = fractions(triggers.len() as u32).zip(triggers).map(|(u, trigger)| {
-        let t = trigger.value;
-        let (off, slope) = (missed.off(u, t), missed.slope(t));
-        let walk = variance * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start));
-        off * off - (walk / (slope * slope) - trigger.error * trigger.error).max(0.0)
-    });
-    (excess.sum::<f64>() / triggers.len() as f64).max(0.0).sqrt()
 }

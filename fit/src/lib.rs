@@ -83,13 +83,18 @@ pub fn fit(
     let candidates = choice::candidates(fits, shots.as_ref(), n);
     let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
     let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
-    let test = judged(fits, chosen, reason);
-    let hidden = if test.unseen > structure::UNSEEN { test.unseen } else { 0.0 };
-    let model = errors::results(fits, chosen, n).with_unseen(hidden).outside(&fits.units, peak);
+    let (test, hidden) = judged(fits, chosen, reason);
+    let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
     let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
-    let results = from_trace.map(|results| results.outside(&fits.units, peak));
-    let results = results.unwrap_or_else(|| model.clone());
+    let results = match from_trace {
+        Some(results) => {
+            model = model.apart_from(&results);
+            results
+        }
+        None => model.clone(),
+    };
+    let [model, results] = [model, results].map(|results| results.outside(&fits.units, peak));
 
     let frame = &pulses.frames[asked];
     let mut fit = Fit {
@@ -137,9 +142,9 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     Ok(pulses)
 }
 
-/// Does the chosen kind explain the trace? A kind that was taken for a tolerance, or for shots that differ, need not follow
+/// Does the chosen kind explain the trace, and what may that hide? A kind that was taken for a tolerance, or for shots that differ, need not follow
 /// every sample: there the freest is asked.
-fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> Test {
+fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, f64) {
     let kind = match reason {
         Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,
         _ => chosen,
@@ -147,14 +152,15 @@ fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> Test {
     let found = structure::structure(fits, kind);
     let explained = found.explained && !matches!(reason, Reason::NoKind { .. });
     let at = fits.units.seconds(found.at);
-    Test {
+    let test = Test {
         explained,
         tested: found.tested,
         sigma: found.sigma,
         unseen: found.unseen,
         share: found.share,
         at,
-    }
+    };
+    (test, found.hidden())
 }
 
 /// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.

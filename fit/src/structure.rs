@@ -26,6 +26,8 @@ pub const UNSEEN: f64 = 0.0035;
 pub const FIFTH: f64 = 0.2;
 /// What is missed matters from this share of the exposure on; below, cubic ramps are taken for what they stand for.
 const MATTERS: f64 = 4e-4;
+/// And by so much of the exposure they are off for real blades.
+const CUBIC: f64 = 5e-5;
 
 /// What a test says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub struct Structure {
     beyond: f64,
     /// Structure that moves the triggers by less than this share of the exposure would not be seen.
     pub unseen: f64,
+    /// The triggers move by this share of the exposure with the tail that shows, though it may be chance.
+    tail: f64,
     /// The greatest structure, as a share of the light, and when, in the frame's unit.
     pub share: f64,
     pub at: f64,
@@ -62,6 +66,7 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
         sigma: 0.0,
         beyond: BEYOND,
         unseen: light.unseen(),
+        tail: 0.0,
         share: 0.0,
         at: 0.0,
     };
@@ -87,6 +92,7 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     }
     if let Some(Tail { sigma, moves, unseen, share, at }) = tail::tail(fits, kind) {
         found.unseen = found.unseen.max(unseen);
+        found.tail = if sigma > 1.0 { moves } else { 0.0 };
         if moves > tail::MATTERS {
             found.take(sigma, tail::BEYOND, (share, at));
         }
@@ -95,6 +101,12 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
 }
 
 impl Structure {
+    /// What a trace that is explained may hide nevertheless, as a share of the exposure: it belongs to the errors.
+    pub fn hidden(&self) -> f64 {
+        let unseen = if self.unseen > UNSEEN { 0.5 * self.unseen } else { 0.0 };
+        CUBIC.hypot(self.tail).hypot(unseen)
+    }
+
     fn take(&mut self, sigma: f64, beyond: f64, (share, at): (f64, f64)) {
         self.explained &= sigma <= beyond;
         if sigma / beyond > self.sigma / self.beyond {

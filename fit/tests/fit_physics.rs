@@ -17,7 +17,7 @@ use std::fmt::Debug;
 use std::str::FromStr;
 
 use generator::physics::{FAMILIES, Family, Measured, measured};
-use generator::unseen::{self, INSTRUMENTS, Instrument, MECHANICS, Mechanics};
+use generator::unseen::{self, INSTRUMENTS, Instrument, LATER, MECHANICS, Mechanics};
 use generator::{Disturbance, Random, SHUTTERS, case, each};
 use shutter_fit::trace::{Trace, Warning};
 use shutter_fit::{From, Options, fit};
@@ -169,6 +169,16 @@ fn table() {
 #[test]
 #[ignore = "some minutes: the table of unseen traces, for docs/internals/fit.md"]
 fn unseen_mechanics() {
+    unseen_table(&MECHANICS);
+}
+
+#[test]
+#[ignore = "some minutes: the table of later traces, for docs/internals/fit.md"]
+fn later_mechanics() {
+    unseen_table(&LATER);
+}
+
+fn unseen_table(mechanics: &[Mechanics]) {
     let (count, seed) = (asked("EACH", 4), asked("SEED", 1));
     let made = |what: Mechanics, by: Instrument| {
         each(count, |k| {
@@ -186,11 +196,11 @@ fn unseen_mechanics() {
     println!("\n{HEAD}");
     let mut told = Vec::new();
     for by in INSTRUMENTS {
-        let rows: Vec<Row> = MECHANICS.into_iter().flat_map(|what| made(what, by)).collect();
+        let rows: Vec<Row> = mechanics.iter().flat_map(|what| made(*what, by)).collect();
         print(&format!("{by:?}"), &rows);
         told.extend(rows.into_iter().filter(|_| by != Instrument::Clipped));
     }
-    for what in MECHANICS {
+    for &what in mechanics {
         print(
             &format!("{what:?}, clean"),
             &[made(what, Instrument::Clean), made(what, Instrument::Jitter)].concat(),

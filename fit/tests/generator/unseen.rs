@@ -27,7 +27,16 @@ pub enum Mechanics {
     Polariser,
     /// Blades that turn back before they are open.
     TurnsBack,
+    /// Leaves on a cam of the fifth order, around a star.
+    CamLeaf,
+    /// A blade that sticks until a spring tears it off, against a damper, up to a stop.
+    Sticks,
+    /// A hole in a turning disc before a smaller round beam.
+    Disc,
 }
+
+/// Made after the others had been looked at.
+pub const LATER: [Mechanics; 3] = [Mechanics::CamLeaf, Mechanics::Sticks, Mechanics::Disc];
 
 pub const MECHANICS: [Mechanics; 10] = [
     Mechanics::Curtains,
@@ -90,6 +99,32 @@ fn solenoid(lag: f64, rebound: f64) -> impl Fn(f64) -> f64 {
     move |t| places[((t.max(0.0) * STEPS as f64) as usize).min(3 * STEPS)]
 }
 
+/// The place of a mass on a damped spring that is let go, which stays where it has come to the stop.
+fn spring(damping: f64) -> impl Fn(f64) -> f64 {
+    const STEPS: usize = 4000;
+    let (mut x, mut v, mut places) = (0.0, 0.0, vec![0.0]);
+    for _ in 0..3 * STEPS {
+        v += (9.0 * (1.05 - x) - 6.0 * damping * v) / STEPS as f64;
+        x = f64::min(x + v / STEPS as f64, 1.0);
+        places.push(x);
+    }
+    move |t| places[((t.max(0.0) * STEPS as f64) as usize).min(3 * STEPS)]
+}
+
+/// The share of a disc of radius 1 that a larger one covers, so far away.
+fn overlap(radius: f64, apart: f64) -> f64 {
+    if apart <= radius - 1.0 {
+        return 1.0;
+    }
+    if apart >= radius + 1.0 {
+        return 0.0;
+    }
+    let (d, r) = (apart, radius);
+    let alpha = ((d * d + 1.0 - r * r) / (2.0 * d)).clamp(-1.0, 1.0).acos();
+    let beta = ((d * d + r * r - 1.0) / (2.0 * d * r)).clamp(-1.0, 1.0).acos();
+    (alpha - 0.5 * (2.0 * alpha).sin() + r * r * (beta - 0.5 * (2.0 * beta).sin())) / PI
+}
+
 fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
     let (start, length) = (random.within(0.27, 0.34), random.within(0.25, 0.38));
     let end = start + length;
@@ -148,6 +183,22 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
         Mechanics::TurnsBack => Openness::new(move |t| {
             let z = ((t - start) / length).clamp(0.0, 1.0);
             (0.2 + 0.5 * u) * circle((2.0 * z.min(1.0 - z)).powf(1.0 + v))
+        }),
+        Mechanics::CamLeaf => Openness::new(move |t| {
+            let place = |z: f64| z.powi(3) * (10.0 - 15.0 * z + 6.0 * z * z);
+            place(up(t)).powf(1.3 + 0.7 * u).min(place(down(t)).powf(1.3 + 0.7 * v))
+        }),
+        Mechanics::Sticks => {
+            let (opens, closes) = (spring(0.2 + 0.7 * u), spring(0.2 + 0.7 * v));
+            Openness::new(move |t| {
+                circle(opens((t - start) / a).min(1.0 - closes((t - end + b) / b)))
+            })
+        }
+        Mechanics::Disc => Openness::new(move |t| {
+            // The hole's radius, and how far it is from the beam, whose radius is 1.
+            let hole = 1.2 + 1.5 * u;
+            let apart = (t - start - 0.5 * length).abs() * 2.0 * (hole + 1.0) / length;
+            overlap(hole, apart)
         }),
     }
 }
