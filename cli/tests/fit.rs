@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use generator::{Disturbance, Random, Shutter, Truth, each, traced, truth};
 use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
-use shutter_fit::trace::{self, Column, Light, Refusal, Trace, Warning};
+use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, Kind, Options, Sync, Tolerance, fit};
 
@@ -39,9 +39,9 @@ fn rows(trace: &Trace, row: impl Fn(f64, f64) -> String) -> String {
     trace.times.iter().zip(&trace.values).map(|(t, v)| row(*t, *v) + "\n").collect()
 }
 
-/// Reads a text and fits it.
-fn through(text: &str, options: &trace::Options) -> (Fit, Vec<Warning>) {
-    let (trace, warnings) = trace::read(text, options).unwrap();
+/// Reads a file and fits it.
+fn through(file: impl AsRef<[u8]>, options: &trace::Options) -> (Fit, Vec<Warning>) {
+    let Recording { trace, warnings, .. } = trace::open(file.as_ref(), options).unwrap();
     (fitted(&trace, &Options::default()).unwrap(), warnings)
 }
 
@@ -87,7 +87,7 @@ fn other_encodings_are_read() {
     };
     let marked = [&[0xef, 0xbb, 0xbf], text.as_bytes()].concat();
     for bytes in [latin, wide(u16::to_le_bytes), wide(u16::to_be_bytes), marked] {
-        let (fit, warnings) = through(&trace::decode(&bytes).unwrap(), &trace::Options::default());
+        let (fit, warnings) = through(&bytes, &trace::Options::default());
         assert_eq!(warnings, []);
         is_the_trapezoid(&fit);
     }
@@ -523,11 +523,11 @@ fn a_late_trace_moves_time_0_to_the_opening() {
 #[test]
 fn hostile_texts_are_refused_or_fitted_and_never_more() {
     let options = trace::Options::default();
-    let refused = |bytes: &[u8]| match trace::decode(bytes)
-        .and_then(|text| trace::read(&text, &options))
-    {
+    let refused = |bytes: &[u8]| match trace::open(bytes, &options) {
         Err(refusal) => refusal.to_string(),
-        Ok((trace, _)) => fitted(&trace, &Options::default()).err().expect("a refusal").to_string(),
+        Ok(Recording { trace, .. }) => {
+            fitted(&trace, &Options::default()).err().expect("a refusal").to_string()
+        }
     };
     assert!(refused(b"").contains("empty"));
     assert!(refused(b" \n\n").contains("empty"));
@@ -549,7 +549,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
     refused(huge.as_bytes());
     let tiny: String =
         (0..100).map(|i| format!("{i}e-300,{}e-300\n", i32::from(i > 30 && i < 70))).collect();
-    let (trace, _) = trace::read(&tiny, &options).unwrap();
+    let trace = trace::open(tiny.as_bytes(), &options).unwrap().trace;
     let _ = fitted(&trace, &Options::default());
     // Whatever a few characters of the alphabet of numbers make.
     let alphabet: Vec<char> = "0123456789.,;\t \n\n\n-+eE\"NaN#t=µ".chars().collect();
@@ -559,8 +559,8 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
         let text: String = (0..length)
             .map(|_| alphabet[random.within(0.0, alphabet.len() as f64) as usize])
             .collect();
-        let Ok((trace, _)) = trace::read(&text, &options) else { continue };
-        let _ = fitted(&trace, &Options::default());
+        let Ok(read) = trace::open(text.as_bytes(), &options) else { continue };
+        let _ = fitted(&read.trace, &Options::default());
     }
     // Whatever a signal does.
     for seed in 0..200 {
@@ -688,7 +688,8 @@ fn from_a_trace_to_the_firmwares_module() {
         assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value as f32);
     }
     // Its oscilloscope was triggered by the camera's sync.
-    let (trace, _) = trace::read(&read("traces/leaf.csv"), &trace::Options::default()).unwrap();
+    let leaf = read("traces/leaf.csv");
+    let trace = trace::open(leaf.as_bytes(), &trace::Options::default()).unwrap().trace;
     let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
     let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
     let synced =

@@ -5,10 +5,13 @@
 #[allow(dead_code)]
 mod generator;
 
+use std::collections::BTreeSet;
+
 use generator::Random;
 use shutter_fit::trace::{self, Column, Recording, Warning, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Options, fit};
+use strum::IntoEnumIterator;
 
 /// Opens from 2 to 4 ms and closes from 7 to 9: an exposure of 5 ms. The times in seconds, the light from 0 to 1.
 fn trace() -> Vec<(f64, f64)> {
@@ -31,6 +34,18 @@ fn read(bytes: &[u8], options: &trace::Options) -> Result<(Recording, f64), Stri
     let fit = fit(&recording.trace, &Options::default(), &mut |_| ());
     let exposure = fit.map_err(|refusal| refusal.to_string())?.exposure.value;
     Ok((recording, exposure))
+}
+
+/// A program may ask for them, so they stay.
+#[test]
+fn the_codes_of_warnings_are_the_documented_ones() {
+    let pages = include_str!("../../docs/measuring.md");
+    let (_, list) = pages.split_once("\n## What is warned of\n").unwrap();
+    let before_colons = list.lines().filter_map(|line| line.strip_prefix("- ")?.split_once(':'));
+    let codes =
+        before_colons.flat_map(|(codes, _)| codes.split(", ").map(|it| it.trim_matches('`')));
+    let told = Warning::iter().map(|warning| warning.code());
+    assert_eq!(codes.collect::<BTreeSet<_>>(), told.collect());
 }
 
 /// A drive's gate that opens before the light and ends after it, 5 V high.

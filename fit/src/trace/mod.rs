@@ -20,14 +20,13 @@ mod told;
 mod wav;
 
 pub use asked::{Column, Options};
-pub use bytes::decode;
 pub(crate) use coupling::undone;
 pub use edges::Switch;
 pub(crate) use edges::{Edge, Edges, edges};
 pub use preview::{Preview, preview};
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
 pub(crate) use pulse::{QUARTERS, least_step};
-pub use read::{open, read};
+pub use read::open;
 pub use reading::{Clock, Reading, Recording, Told};
 pub use samples::Trace;
 pub(crate) use samples::{median, sampling_interval};

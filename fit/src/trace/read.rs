@@ -25,19 +25,8 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if wav::is_wav(bytes) {
         return wav::open(bytes, options);
     }
-    recording(&decode(bytes)?, options)
-}
-
-/// The trace in a file's text, and what is doubtful about it.
-///
-/// # Errors
-/// What is no table of numbers, a column that is not there, too many broken rows.
-pub fn read(text: &str, options: &Options) -> Result<(Trace, Vec<Warning>), Refusal> {
-    recording(text, options).map(|recording| (recording.trace, recording.warnings))
-}
-
-fn recording(text: &str, options: &Options) -> Result<Recording, Refusal> {
-    let table = Table::new(text)?;
+    let text = decode(bytes)?;
+    let table = Table::new(&text)?;
     let layout = Layout::new(&table, options)?;
     let mut warnings = Vec::new();
     if layout.told == Told::Assumed {

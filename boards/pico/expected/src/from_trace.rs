@@ -14,7 +14,7 @@ use crate::step::step;
 /// Sends the lines of the scene, and starts a frame by the edge.
 pub fn steps() -> Vec<Value> {
     let text = include_str!("../../../../cli/traces/leaf.csv");
-    let (trace, _) = trace::read(text, &trace::Options::default()).unwrap();
+    let trace = trace::open(text.as_bytes(), &trace::Options::default()).unwrap().trace;
     let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
     let fit = fit(&trace, &options, &mut |_| ()).unwrap();
     let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
