@@ -90,9 +90,9 @@ impl Exposure {
         self.plateau.hi > 0.0
     }
 
-    /// The moment at which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. It is within
-    /// `error · a`; or within `INVERSE_ERROR · a`, if the last step of the search is at most 2⁻²³ of the place. At the
-    /// cap of a search there is no bound.
+    /// The moment by which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. What is collected
+    /// then differs from `a` by at most `error · a`; or by `INVERSE_ERROR · a`, if the search's last step is at most
+    /// 2⁻²³ of the place. Where a search reaches its limit of evaluations there is no bound.
     #[inline(always)]
     pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
         let near = self.ramp(side).share;

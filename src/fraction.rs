@@ -61,9 +61,9 @@ pub(crate) struct Fraction {
 }
 
 impl Fraction {
-    /// `(odd + more) / 2n`, from 0 to 1, of `n` triggers. For a trigger `more` is 0, and this is the nearest `f32`. For
-    /// an end of a pulse it is ±duty, and this is within one and a half ulp (proofs/ticks.py). Half is counted from the
-    /// start.
+    /// `(odd + more) / 2n`, from 0 to 1, where `odd` is `2i + 1` for item `i` of `n`. For a trigger `more` is 0, and
+    /// this is the nearest `f32`. For an end of a pulse it is ±duty, and this is within one and a half ulp
+    /// (proofs/ticks.py). Half is counted from the start.
     #[inline(always)]
     pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
         let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);

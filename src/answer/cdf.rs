@@ -57,7 +57,7 @@ impl Exposure {
     /// The fraction of the exposure collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        // Asked again: the grid may have moved a time onto a join, which belongs to the section beside it.
+        // Asked again: `on_grid` may move a time onto a join, and `at` may count that to the plateau or other ramp.
         let t = match self.at(t) {
             At::Ramp(ramp) => self.ramp(ramp).on_grid(t),
             _ => t,
@@ -89,15 +89,16 @@ impl Exposure {
         self.nearest(t, mass, |side| point.noise(side))
     }
 
-    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, times
-    /// before the middle's get the lesser `f32`, all others the greater one. (A subnormal answer is rounded once more.)
+    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, the
+    /// inverse's time of it decides: the lesser `f32` for a `t` before that, else the greater. (A subnormal answer is
+    /// rounded once more.)
     ///
     /// `noise` bounds the errors of a measurement on a ramp and of an inverse there, given the side from which the
-    /// inverse counts. To it come 2⁻⁴⁰ for the search, and as much for sums of pairs.
+    /// inverse counts. Added here are 2⁻⁴⁰ of the mass for the search, and as much for sums of pairs.
     #[inline(always)]
     fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
         let nearest = mass.rounded();
-        // 0 as an `f32`. The inverse of so little would bisect.
+        // 0 as an `f32`, and no inverse is asked: its search would bisect for so little.
         if nearest < DARK {
             return 0.0;
         }
@@ -120,7 +121,7 @@ impl Exposure {
         if cdf < WHOLE { cdf / WHOLE } else { 1.0 }
     }
 
-    /// The time by which a mass, in [`WHOLE`], has been collected, counted from a side.
+    /// The time by which a mass from the start, in [`WHOLE`], has been collected. The inverse counts from `side`.
     #[cold]
     #[inline(never)]
     fn time_of(&self, side: Side, mass: Pair) -> f32 {

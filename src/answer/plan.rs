@@ -3,19 +3,19 @@
 //! The steps of [`Plan::inverse_cdf`], with the file of each:
 //!
 //! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
-//! 2. Else the fraction is counted from the nearer end of the curve, its *side*: `a = min(u, 1 - u)`.
+//! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
 //! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
 //! 4. Else a search begins: `a` becomes a pair of `f32` ([`pair`](crate::number::pair)).
 //! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
 //! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
 //! 7. The search starts from the nearest of four places on it, the *anchors*.
-//! 8. A root of the term that reaches the target first is the first guess ([`guess`](crate::search::guess)).
-//! 9. Halley's steps, what they miss in pairs, and a last step with a bound of its error ([`solve`](crate::search)).
+//! 8. The first guess: the least distance at which one term of the mass is enough ([`guess`](crate::search::guess)).
+//! 9. Halley's steps; what they leave, measured in pairs; a last step with a bounded error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
 //! A greater `u` never has an earlier time. Errors are less than half of the distance between neighbours, or a quarter
-//! for a search (docs/internals/proofs.md, "An octave's certificate", 7); on the line `A u` is rounded down, which keeps
-//! the order.
+//! for a search (docs/internals/proofs.md, "An octave's certificate", 7); on the line `A u` is rounded down, which
+//! keeps the order.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::{Exposure, INVERSE_ERROR};
@@ -42,7 +42,7 @@ pub(crate) struct Plan<const OCTAVES: usize> {
     /// without a line.
     on_line_count: [u32; 2],
     /// The line in units: its time continued to `u = 0`, and its slope. It is the plateau's, whose slope is the area;
-    /// or, where the join of the ramps counts as 1/2 but lies below it, the time of 1/2 alone, with a slope of 0.
+    /// or, where a join below 1/2 counts as 1/2 ([`Exposure::joins`]), the time of 1/2 alone, with a slope of 0.
     base: i64,
     slope: i64,
     /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so
@@ -57,7 +57,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
         opening: &CubicBezier,
         closing: &CubicBezier,
     ) -> Result<Self, CurveError> {
-        // A fraction of 0 has no octave: its exponent's bits are 0, and those of the least top, 2⁻²⁸, are 99.
+        // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
         let unit = time_unit(exposure.end(Start), exposure.end(End));
@@ -79,9 +79,9 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // From 2⁴⁰ units of area on, a few units are less than 2⁻⁶ ulp of the least `u` on the line. A curve with
-            // less is far from time 0, or dark for its length. All of it is searched: without a line, a fraction on
-            // the plateau would be looked up in a ramp's octave.
+            // The line is off by a few units: from 2⁴⁰ units of area on, by less than 2⁻⁶ ulp of the least `u` on it. A
+            // curve with less is far from time 0, or dark for its length. It gets no octaves either, as without a line
+            // fractions on the plateau would be looked up in them.
             if plan.slope >> 40 == 0 {
                 return Ok(plan);
             }
@@ -126,8 +126,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
     /// (docs/internals/tried.md).
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
-        // `u` is on the line if until_far < on_line_count. Beyond, on the far ramp, it has wrapped: bit 31 is set.
-        // Where there is a line, u < 0 and NaN make it at least 2²⁹, more than any on_line_count.
+        // On the line, until_far < on_line_count. On the ramp at the end it has wrapped, and its bit 31 is set: that
+        // tells the ramp below. Where there is a line, u < 0 and NaN make it at least 2²⁹, more than any on_line_count.
         let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
         if until_far < self.on_line_count[0] {
             let time = self.on_line(in_words(u.to_bits()));

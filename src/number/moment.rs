@@ -9,7 +9,7 @@ use crate::number::units::{fixed, power_of_two};
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
-    // first second = ±2^unit, which may not be a normal number itself.
+    // first · second = ±2^unit, which may not be a normal number itself.
     let half = unit >> 1;
     let (first, second) = (power_of_two(unit - half), power_of_two(half));
     let second = if back { -second } else { second };
@@ -33,7 +33,7 @@ pub(crate) const fn rounded((x, unit): (Pair, i32)) -> f32 {
     if is_small { rounded_sum(0.0, x, unit, false) } else { value.rounded() }
 }
 
-/// `base + way first second`, rounded once where [`rounded_sum`] might round twice.
+/// `base + way · first · second`, rounded once where [`rounded_sum`] might round twice.
 // proofs/rounding.py: careful_sum
 #[cold]
 #[inline(never)]
@@ -73,7 +73,7 @@ pub(crate) struct Moment {
     /// At least 0, in units of `2^unit`.
     pub(crate) way: Pair,
     pub(crate) unit: i32,
-    /// The end of the section, which no answer passes.
+    /// The other end of the ramp or the plateau, which no answer passes.
     pub(crate) until: f32,
     /// Polynomial evaluations that the search took.
     pub(crate) evaluations: u32,

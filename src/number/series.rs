@@ -34,8 +34,8 @@ impl Series<'_> {
         }
     }
 
-    /// The value at a place, within 2⁻⁴⁰ Σ |c_k| |x|^k. Of `S(hi + lo) = S(hi) + S'(hi) lo` the second term is at most
-    /// N · 2⁻²⁴ of that sum, so single precision is enough for it.
+    /// The value at a place, `S(hi + lo) = S(hi) + S'(hi) lo`. The second term is at most N · 2⁻²⁴ of Σ |c_k| |x|^k, so
+    /// single precision is enough for it: the value is within 2⁻⁴⁰ of that sum.
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at_pair(self, place: Pair) -> Pair {

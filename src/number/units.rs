@@ -30,8 +30,8 @@ pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 /// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`plan`](crate::answer::plan)).
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
-/// The bits of 2⁻²⁸, the least top of an octave; a fraction of 0 is below all octaves. One more octave would never get
-/// a polynomial: [`JOIN_OFF`](crate::octave::certificate::JOIN_OFF) alone would use up its error.
+/// The bits of 2⁻²⁸, the least top of an octave; a fraction of 0 is below all octaves. One that begins below 2⁻²⁹ would
+/// never get a polynomial: [`JOIN_OFF`](crate::octave::certificate::JOIN_OFF) alone would use up its error.
 pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// The bits of tops are multiples of this, eight to a power of two, so that each top fits a `u8`.
 pub(crate) const TOP_STEP: u32 = 1 << 20;

@@ -1,8 +1,8 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
 //! certificate", 1 to 4).
 //!
-//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
-//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q`
+//! and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
 //!
 //! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
 //!
@@ -29,7 +29,7 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
     }
     cosines
 };
-/// The place 1: the place of a sample, an `s`, counts 2⁻³⁰.
+/// `s = 1` as a place. (In this file a place is the `s` of a sample, in 2⁻³⁰, not a parameter of the Bezier.)
 const PLACE: f32 = (1 << 30) as f32;
 
 /// An ellipse around [-1, 1], with half axes `(ρ ± 1/ρ) / 2`.
@@ -56,7 +56,7 @@ const fn ellipse(rho: f32) -> Ellipse {
 const HALF_DEGREE: usize = 6;
 const DEGREES: usize = 7;
 
-/// More than the 181 roundings of an `f32` that make a bound too small at most, and 27 for samples off their points.
+/// More than what may make a bound too small: 181 roundings of an `f32`, and 27 more for samples off their points.
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
@@ -111,8 +111,8 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
     value
 }
 
-/// What the greatest errors along a stretch are at least, by every `stride`-th point, and at most; in the unit of the
-/// coefficients. `x` is the offset in widths. Samples are off by at most `noise`.
+/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point; in the
+/// unit of the coefficients. `x` is the offset in widths. Samples are off by at most `noise`.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -186,8 +186,8 @@ const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], stri
     least
 }
 
-/// `Σ |c_k| (Y^k - Y₁^k)` from `k = 2` on, where `Y₁ = |x₀| + |x₁| A` and `Y = Y₁ + Σ |x_k| A^k`. On the ellipse, `R`
-/// is within this of a polynomial of a degree below 12.
+/// `Σ |c_k| (Y^k - Y₁^k)` from `k = 2` on, where `Y₁ = |x₀| + |x₁| B` and `Y = Y₁ + Σ |x_k| B^k`, with the `axis` as
+/// `B`. On the ellipse, `R` is within this of a polynomial of a degree below 12.
 #[inline(never)]
 const fn off_line(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
     let linear = x0.abs() + x1.abs() * axis;

@@ -61,8 +61,8 @@ impl View<'_> {
         let range = range(self.exposure, self.side, self.ramp);
         if range[0] >= range[1] {
             // No octaves, so a search has to answer. A far ramp without any is never looked up. A near one is, by
-            // fractions up to FINE, its own and the plateau's (see `range`). Its top is at or above all of these: so
-            // their index is behind the far ramp's octaves, where all are NONE.
+            // fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of these, each
+            // has an index behind the far ramp's octaves, where all are NONE.
             let far = self.exposure.joins(self.side)[1];
             return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
         }
@@ -93,8 +93,8 @@ impl View<'_> {
             let top = below(first, index);
             if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
                 // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
-                // ramp's `a` there would find the near ramp's first octave. An example, all times LEAST_TOP: the join
-                // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8 is below 7/8: on the far ramp.
+                // ramp's `a` there would find the near ramp's first octave. An example in units of LEAST_TOP: the join
+                // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8, below 7/8, is on that ramp.
                 count = index + 1;
             }
             if let Some(span) = Span::new(range, top) {

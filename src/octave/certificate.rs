@@ -192,7 +192,7 @@ impl Limits {
         let slowest =
             if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;
-        // `error` has passed after `way`, from any `s`: a way `d` takes at least `d slowest`, and `t3 d³ / 4`.
+        // Anywhere, a way `d` takes at least `d slowest` and `t3 d³ / 4`: so `way` takes `error`, or is all there is.
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;

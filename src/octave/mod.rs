@@ -17,9 +17,9 @@
 //! serves        near ramp, up to 0.09             far ramp, from 0.2
 //! stored top    0.09375 · 2² = 0.375              0.5
 //!
-//! octave (0.1875, 0.375], power 0.25:       bits          position      (a - power) / power
-//!               a = 0.3125  = 1.25 · 2⁻²    0x3EA0_0000   0x4000_0000    1/4
-//!               a = 0.21875 = 1.75 · 2⁻³    0x3E60_0000   0xE000_0000   -1/8
+//! index 2, top 0.09375, power 0.0625:         bits          position      (a - power) / power
+//!               a = 0.078125  = 1.25 · 2⁻⁴    0x3DA0_0000   0x4000_0000    1/4
+//!               a = 0.0546875 = 1.75 · 2⁻⁵    0x3D60_0000   0xE000_0000   -1/8
 //! ```
 
 pub(crate) mod bound;
@@ -68,8 +68,7 @@ impl Octave {
         self.factor != 0
     }
 
-    /// The offset of a position. It fits the word although both may wrap: a span leaves room for that (`FILLED` in
-    /// [`span`]).
+    /// The offset of a position. It fits the word, though position and center may wrap (`FILLED` in [`span`]).
     #[inline(always)]
     pub(crate) const fn offset(&self, position: i32) -> i32 {
         position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK)

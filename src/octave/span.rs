@@ -4,9 +4,9 @@ use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::SHIFT_MASK;
 use crate::octave::path::{Path, scale};
 
-/// `width` is halved while `half <= FILLED * width`, so it ends with `half <= 0.48 width`. (If it is never halved, too:
-/// a top is at most 15/8 of the power, and `half` a quarter of the top.) A word of offsets ends at 0.5 width. Of the
-/// 0.02 between, the center's error takes 0.009: 2⁸ for a rounded middle and 31 for the shift, both times 2¹⁷ at most.
+/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. (Unhalved, too: a
+/// top is at most 15/8 of the power, and `half` a quarter of the top.) A word of offsets ends at 0.5 width. Of the 0.02
+/// between, the center's error takes 0.009: 2⁸ positions by rounding, 31 by the shift, each at most 2¹⁷ offsets.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;

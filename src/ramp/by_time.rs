@@ -92,7 +92,7 @@ impl Ramp {
         let c @ [c1, c2, c3] = [series.c[0].hi, series.c[1].hi, series.last.hi];
         let mut anchor = Anchor::end(c, target.hi);
         // From where `t' = c1 + 2 c2 x + 3 c3 x²` is least, if it is below SLOW there, and the target nearer than from
-        // the end. It is least at `-c2 / 3 c3`, by `c1 - c2² / 3 c3`.
+        // the end. The least `t'` is `c1 - c2² / (3 c3)`, at `x = -c2 / (3 c3)`.
         let thrice = 3.0 * c3;
         if c2 < 0.0 && -c2 < thrice * LAST_PLACE && (c1 - SLOW) * thrice < c2 * c2 {
             let slowest = -c2 / thrice;
@@ -148,8 +148,8 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// How far [`mass`](Self::mass) and an inverse near here may disagree. Measuring the mass loses at most 2⁻³⁹ of the
-    /// terms from the start. A search from `side` for nearly this mass ends within 2⁻³⁹ of the terms from that side.
+    /// How far [`mass`](Self::mass) and an inverse near here may disagree. Measuring loses at most 2⁻³⁹ of the terms
+    /// `Σ |c_k| x^k` from the start. A search from `side` for nearly this mass ends within 2⁻³⁹ of those from there.
     // proofs/cdf.py
     pub(crate) fn noise(&self, side: Side) -> f32 {
         let place_from_start = self.place_from_start().hi;

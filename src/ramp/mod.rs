@@ -1,13 +1,13 @@
 //! A ramp: one Bezier, and the time by which a mass has been collected on it.
 //!
-//! From either end of the ramp, time and mass are polynomials of the place without a constant term. The place counts
-//! from 0 there to [`LAST_PLACE`] at the other end, so both tails keep their relative accuracy. A side sees every ramp
-//! from the end that faces it: [`Side::Start`] from the earlier end, [`Side::End`] from the later one, back in time.
+//! From either end of the ramp, time and mass are polynomials, without a constant term, of the *place*: the Bezier's
+//! parameter, from 0 there to [`LAST_PLACE`] at the other end. So both tails keep their relative accuracy. A side sees
+//! every ramp from the end that faces it: [`Side::Start`] from the earlier, [`Side::End`] from the later, back in time.
 //!
 //! A search starts from one of four *anchors*, the one whose mass is nearest: the two ends and the two *flat places*,
 //! the minima of `f` (a cubic) and of `t'` (a parabola) if they lie inside. There the density `f t'` may nearly vanish,
-//! so Newton's method needs a good first guess. The root of one term of the series there is one. All count away from
-//! the nearer end, as here two flat places at 0.3 and 0.8 of a ramp:
+//! so Newton's method needs a good first guess: one term of the series around the anchor gives it. Places and powers
+//! count away from the nearer end, as here with two flat places at 0.3 and 0.8 of a ramp:
 //!
 //! ```text
 //! place           0              0.3                 0.8       1
@@ -243,7 +243,7 @@ impl Ramp {
         let (base, powers_sign) = if flat.side().is(side) { (0.0, 0) } else { (LAST_PLACE, BACK) };
         let place = Pair::sum(base, flipped(from_end, powers_sign));
         let sign = sought.to_bits() & BACK;
-        // Mirrored if the powers count away from the target: with x for -x, and the mass negated, 3x + 2x² + x³ becomes
+        // Mirrored if the powers count away from the target: with -x for x, and the mass negated, 3x + 2x² + x³ becomes
         // 3x - 2x² + x³.
         let mirror = powers_sign ^ sign;
         let c = [c1, flipped(c2, mirror), c3, flipped(c4, mirror), c5, flipped(c6, mirror)];

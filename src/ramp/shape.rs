@@ -25,8 +25,8 @@ pub(crate) const fn check_finite(curve: &CubicBezier, part: Part) -> Result<(), 
 
 /// Does time run forward, and does the openness stay in [0, 1]?
 ///
-/// A curve that touches its bound rarely has control values that are `f32` (such as -1/3). So both may pass their bound
-/// by [`GRAZE`] of the ramp's length, or of the greatest |f|.
+/// The control values of a curve that touches its bound, such as -1/3, are rarely `f32`. So time's slope may pass its
+/// bound by [`GRAZE`] of the ramp's length, and the openness by as much of the greatest |f|.
 pub(crate) const fn check_ramp(curve: &CubicBezier, part: Part) -> Result<(), CurveError> {
     let t = widened(curve.times());
     // Time may leave the ramp by GRAZE²/4 of its length. Rounding may turn t = p² (inner control times 0 and 1/3) into

@@ -9,8 +9,8 @@
 /// A logarithm has 20 fraction bits, so that the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// A logarithm is 0 to 0.086 above the linear one. A root is lowered by the middle of that: so it is as often too small
-/// as too great.
+/// A logarithm is 0 to 0.086 above its [`rough_log`]. A root is lowered by the middle of that: so it is as often too
+/// small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.

@@ -42,8 +42,8 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 // proofs/solve.py
 pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 
-/// A place that is rounded by less than this share of its distance keeps the slopes from before. For a last step of
-/// about 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 0.75 · 2⁻²⁶.
+/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. For a last step
+/// of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 0.75 · 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Neighbouring `f32` are at most this far apart, relative to them.
@@ -209,7 +209,7 @@ pub(crate) const fn left<const N: usize>(
 }
 
 /// The place where `series` reaches `target`. The last step leaves at most 3/4 of what it may; the last quarter is for
-/// measuring. At the cap there is no bound.
+/// measuring. At the limit of evaluations there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,

@@ -87,9 +87,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
-    /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve a change of
-    /// `(2i + 1) / 2n` by one ulp or less brings the exact time within 0.52 tick. (Of an ulp of the fraction and one of
-    /// its rest to 1, the lesser counts.)
+    /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
+    /// within 0.52 tick of the exact time of some fraction within one ulp of `(2i + 1) / 2n`. (An ulp of the fraction,
+    /// or of its rest to 1 if that is less.)
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.

@@ -128,9 +128,9 @@ impl TickScale {
     #[inline(always)]
     pub(crate) const fn tick(&self, time: i64) -> u32 {
         let delay = time.wrapping_sub(self.start);
-        // A time's last units may be wrong, and place it before the start. No time is beyond the end. A polynomial's
-        // would be off by all of `1 - u` in exposure, and its certificate allows half an ulp of that. The plateau's
-        // line is rounded down. `Moment::in_units` stops searches.
+        // A time's last units may be wrong, and place it before the start. But no time is beyond the end: for a
+        // polynomial's that would be an error in exposure of all of `1 - u`, and its certificate allows half an ulp of
+        // that; the plateau's line is rounded down; `Moment::in_units` stops a search's there.
         let delay = if delay > 0 { delay as u64 } else { 0 };
         // Most curves need no shift. `up` is never 1 (see `new`).
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
