@@ -88,8 +88,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
     /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
-    /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`, the lesser of an ulp of
-    /// `u` and one of `1 - u`.
+    /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`. That is an ulp of `u`
+    /// or of `1 - u`, whichever is less.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
