@@ -154,7 +154,7 @@ pub enum ScheduleError {
         /// The ticks that are required.
         min_gap: u32,
     },
-    /// A duty that is not above 0 and at most 1.
+    /// The duty is 0 or less, above 1, or NaN.
     DutyOutOfRange,
     /// A pulse would be shorter than asked for.
     PulseTooShort {

@@ -26,7 +26,7 @@
 //! | you want | call |
 //! |---|---|
 //! | a shutter: by two [`CubicBezier`]s, straight ramps, RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
-//! | a constant curve, whose fault stops the build | [`valid`] |
+//! | a constant curve; a fault in it stops the build | [`valid`] |
 //! | a smaller curve that needs more searches, or a larger one that needs fewer | [`with_octaves`] |
 //! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |

@@ -18,11 +18,13 @@ use crate::ramp::bezier::CubicBezier;
 /// or end at 1 (a jump).
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
-/// another number than 8. Fractions count from the nearer end. The first polynomial of a ramp answers its largest
-/// fraction down to half of that, the next one down to a quarter, and so on. A search answers the rest, and wherever
-/// the curve is too difficult for a polynomial: with 8 at most one `u` in 256 of a typical curve, with 0 all `u` on the
-/// ramps. The promised accuracy is the same for every number. A curve takes 488 bytes, and 96 more for each of
+/// another number than 8. The promised accuracy is the same for every number. With 8 at most one `u` in 256 of a
+/// typical curve needs a search, with 0 every `u` on the ramps does. A curve takes 488 bytes, and 96 more for each of
 /// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
+///
+/// Fractions count from the nearer end. Down to half of a ramp's largest fraction the first polynomial answers, down to
+/// a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a polynomial, a
+/// search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) plan: Plan<OCTAVES>,
@@ -50,7 +52,7 @@ impl ShutterCurve {
     }
 
     /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from `close_start` to
-    /// `close_end`, times in any unit: a trapezoid; a box where the ramps have no length, a triangle where the plateau
+    /// `close_end`, times in any unit. It is a trapezoid; a box if the ramps have no length; a triangle if the plateau
     /// has none.
     ///
     /// ```
@@ -151,8 +153,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Errors
     /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
     /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below 2⁻¹²⁶.
-    /// Rounded control points are forgiven: the openness may pass 0 or 1, and the slope of time 0, by up to 2⁻²². But
-    /// time may pass its ramp's ends by at most 2⁻⁴⁶ of the ramp.
+    /// Rounded control points are forgiven. The openness may rise above 1 by up to 2⁻²², and fall below 0 by up to 2⁻²²
+    /// of its largest value. The slope of time may fall below 0 by up to 2⁻²² of the ramp's length. But time may leave
+    /// the ramp by at most 2⁻⁴⁶ of its length.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -224,7 +227,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
-    /// // An exposure of 4 ms: fully open, a quarter of it is collected in each ms.
+    /// // In ms. The exposure is 4 ms, so the fully open shutter collects a quarter of it in each ms.
     /// let curve = ShutterCurve::linear(0.0, 2.0, 4.0, 6.0)?;
     /// assert_eq!([1.0, 3.0].map(|t| curve.pdf(t)), [0.125, 0.25]);
     /// # Ok::<(), shutter_curve::CurveError>(())

@@ -45,8 +45,8 @@ impl CubicBezier {
         ])
     }
 
-    /// The curve with its openness, or density, times `factor`: exactly, if that is a power of two and no number
-    /// becomes subnormal or infinite.
+    /// The curve with its openness, or density, times `factor`. The product is exact if `factor` is a power of two and
+    /// no number becomes subnormal or infinite.
     ///
     /// ```
     /// use shutter_curve::CubicBezier;

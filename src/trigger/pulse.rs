@@ -19,9 +19,8 @@ pub struct Pulse {
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
-    /// the same dose through the shutter, `duty · A / n`. A pulse lights the middle of its share of the exposure, as
-    /// much of it as `duty` says (above 0, at most 1): from `F⁻¹((i + 1/2 - duty/2) / n)` to
-    /// `F⁻¹((i + 1/2 + duty/2) / n)`.
+    /// the same dose through the shutter, `duty · A / n`. A pulse lights the middle of its share of the exposure, the
+    /// part `duty` of it (above 0, at most 1): from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
     ///
     /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse that is
     /// shorter than a tick may go on and off at the same one. Ticks are counted and rounded as
@@ -38,7 +37,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A duty that is not above 0 and at most 1, and those of [`trigger_ticks`](Self::trigger_ticks).
+    /// A duty of 0 or less, above 1, or NaN; and those of [`trigger_ticks`](Self::trigger_ticks).
     pub const fn pulse_ticks(
         &self,
         n: u32,
@@ -100,7 +99,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 }
 
-/// A frame's pulses, of [`ShutterCurve::pulse_ticks`]: any of them in constant time, from either end.
+/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`]. It goes from either end, and to any pulse at
+/// once.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     frame: Pulses<'a, OCTAVES>,

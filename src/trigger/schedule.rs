@@ -30,9 +30,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
     }
 
-    /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. So
-    /// each costs at most the worst direct answer, which the README gives in cycles. This holds for
-    /// [`trigger_times`](Self::trigger_times) and [`trigger_ticks`](Self::trigger_ticks).
+    /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
+    /// README says how many cycles such a tick costs at most. This holds for [`trigger_times`](Self::trigger_times) and
+    /// [`trigger_ticks`](Self::trigger_ticks).
     ///
     /// It is 255 or more for most shutters with 8 octaves, doubles with each octave more, and is at most 2²². It is 0
     /// on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the
@@ -46,7 +46,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
-    /// Ramps on which time nearly stands still need searches, and do not compile:
+    /// Ramps on which time nearly stands still need searches, so this does not compile:
     ///
     /// ```compile_fail,E0080
     /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
@@ -88,8 +88,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
     /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
-    /// within 0.52 tick of the exact time of some fraction within one ulp of `(2i + 1) / 2n`. (An ulp of the fraction,
-    /// or of its rest to 1 if that is less.)
+    /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`. That is an ulp of `u`
+    /// or of `1 - u`, whichever is less.
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
@@ -145,8 +145,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(())
     }
 
-    /// [`schedule_into`](Self::schedule_into) an array, which it returns. In a constant these are the ticks of a frame
-    /// that never changes, checked by the compiler.
+    /// The schedule of [`schedule_into`](Self::schedule_into), as an array. In a constant, for a frame that never
+    /// changes, the compiler checks it.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -170,8 +170,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// [`schedule_into`](Self::schedule_into) a vector, which it returns, of `n` triggers; with the feature
-    /// `heapless-v0_9`.
+    /// The schedule of [`schedule_into`](Self::schedule_into) for `n` triggers, as a `heapless::Vec`. It takes the
+    /// feature `heapless-v0_9`.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -199,11 +199,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(schedule)
     }
 
-    /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If fewer than `wanted`, then one more than the
-    /// answer breaks the gap. The answer is at least 1, unless none are wanted.
+    /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If the answer is less than `wanted`, one more
+    /// breaks the gap. The answer is at least 1, unless none are wanted.
     ///
-    /// It tries frames, each up to the first gap that is too small: a few at best, `2 log2(wanted)` at worst, and none
-    /// for a gap of 0.
+    /// It places one frame after another, each up to the first gap that is too small: usually a few frames, at most
+    /// `2 log2(wanted)`. For a gap of 0 it places none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -248,16 +248,19 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 }
 
-/// The times of a frame's triggers, from [`ShutterCurve::trigger_times`]: any in constant time, from either end.
+/// An iterator over the times of a frame's triggers, from [`ShutterCurve::trigger_times`]. It goes from either end, and
+/// to any trigger at once.
 #[derive(Clone)]
 pub struct TriggerTimes<'a, const OCTAVES: usize = 8> {
     frame: Times<'a, OCTAVES>,
     left: Range<u32>,
 }
 
-/// The ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`]: any in constant time, from either end.
+/// An iterator over the ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`]. It goes from either end, and
+/// to any trigger at once.
 ///
-/// Of a `static` curve it can be kept in a `static`, too, where an interrupt handler takes one tick after the other:
+/// If the curve is a `static`, a `static` can hold the iterator, too. An interrupt handler takes one tick after the
+/// other from it:
 ///
 /// ```
 /// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
