@@ -719,7 +719,7 @@ test('broken and huge traces get a message, and the page goes on', async () => {
     ['', /empty/],
     ['\0\u0001\u0002PNG', /binary/],
     ['<html><body>not found</body></html>', /no CSV/],
-    ['time,volt\n0,1\n1,1\n', /sample/],
+    ['time,volt\n0,1\n1,1\n', /gives a rate/],
     ['t,v\n' + 'nan,nan\n'.repeat(1000), /./],
     ['t,v\n' + '1e308,-1e308\n'.repeat(1000), /./],
     ['t,v\n' + Array.from({ length: 2000 }, (_, i) => `${i}e-5,1`).join('\n'), /no pulse|sample/],
