@@ -450,7 +450,7 @@ fn leaf(z: f64) -> f64 {
 #[test]
 fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
     let truth = Truth::new(Box::new(leaf), Box::new(leaf), [0.004, 0.008, 0.013, 0.019]);
-    let (fit, _) = through(&photodiode(|t| truth.openness(t)), &trace::Options::default());
+    let (fit, _) = through(photodiode(|t| truth.openness(t)), &trace::Options::default());
     let exposure = truth.exposure();
     assert!((fit.exposure.value / exposure - 1.0).abs() < 0.001, "{:?}", fit.exposure);
     for (i, trigger) in fit.triggers.iter().enumerate() {
@@ -675,7 +675,7 @@ fn what_the_program_refuses_leaves_nothing_behind() {
 fn from_a_trace_to_the_firmwares_module() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
-    let (fit, warnings) = through(&read("traces/leaf.csv"), &trace::Options::default());
+    let (fit, warnings) = through(read("traces/leaf.csv"), &trace::Options::default());
     assert!(warnings.is_empty(), "{warnings:?}");
     // Its oscilloscope was triggered by the sync.
     let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
@@ -820,8 +820,8 @@ fn several_traces_are_a_table() {
 /// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's share.
 #[test]
 fn the_firmwares_pulses_split_the_light_of_the_trace() {
-    let (trace, _) =
-        trace::read(include_str!("../traces/leaf.csv"), &trace::Options::default()).unwrap();
+    let leaf = include_bytes!("../traces/leaf.csv");
+    let trace = trace::open(leaf, &trace::Options::default()).unwrap().trace;
     let samples = || trace.times.iter().zip(&trace.values);
     let dark = |t: f64| !(0.004..0.0145).contains(&t);
     let (sum, count) = samples()
