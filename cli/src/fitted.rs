@@ -100,7 +100,7 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
         text += "# The ramps' inner control points t1 y1 t2 y2, t5 y5 t6 y6: times as fractions of the interval.\n";
         text += &format!("shutteropening = [{numbers}]\n");
     }
-    text += &delay::line(fit, unit, places);
+    text += &delay::line(fit.delay.as_ref(), unit, places);
     text += &format!("triggers = {}\n", fit.triggers.len());
     text + &timer(fit, unit, fit.exposure.value / fit.peak / fit.triggers.len() as f64)
 }
@@ -129,7 +129,7 @@ fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
         text += &format!("    {},\n", few.join(", "));
     }
     text += "]\n";
-    text += &delay::line(fit, unit, places);
+    text += &delay::line(fit.delay.as_ref(), unit, places);
     let gap = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     text + &timer(fit, unit, gap.min(curve.length()))
 }

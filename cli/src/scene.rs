@@ -46,7 +46,7 @@ impl Number {
 }
 
 /// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
-pub const KEYS: [&str; 14] = [
+pub const KEYS: [&str; 15] = [
     "open_start",
     "open_end",
     "close_start",
@@ -61,6 +61,7 @@ pub const KEYS: [&str; 14] = [
     "duty",
     "min_pulse",
     "delay",
+    "delay_spread",
 ];
 
 /// The place of the only key that takes more than one number.
@@ -96,7 +97,7 @@ impl Scene {
             duty: optional("duty"),
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
-            delay_spread: None,
+            delay_spread: optional("delay_spread"),
         }
     }
 }

@@ -105,7 +105,7 @@ impl Times {
             min_gap: scene.min_gap,
             nominal: scene.nominal,
             delay: scene.delay,
-            delay_spread: None,
+            delay_spread: scene.delay_spread,
         })
     }
 

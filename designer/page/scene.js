@@ -6,11 +6,11 @@ export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
 /** The numbers that a person writes, in the order of the engine's question. */
 export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER : key));
-export const OPTIONAL = ['timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay'];
+export const OPTIONAL = ['timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay', 'delay_spread'];
 export const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
 export const LAMP = ['pulse', 'duty', 'min_pulse'];
 /** The numbers that are times, beside those of the curve. */
-export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay'];
+export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay', 'delay_spread'];
 /** What a person has given who gives a whole scene. */
 export const GIVEN = ['name', 'unit', 'triggers', 'timer_hz', 'timer_bits', 'min_gap', 'lamp'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];

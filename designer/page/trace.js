@@ -91,7 +91,7 @@ function withFit(scene, name, fit, isSame) {
   const { given } = scene;
   const unit = given.includes('unit') ? scene.unit : found.unit;
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
-  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'delay', 'name'] : [])].filter((key) => given.includes(key));
+  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'delay', 'delay_spread', 'name'] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
   Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
   if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };

@@ -207,6 +207,16 @@ test('after how many frames a delay that moves matters is told as the program te
   assert.match(told, /in \d+ frames$/);
 });
 
+test('the spread of a scene’s delay is kept, in the unit that is shown', async () => {
+  await open();
+  await preset('measured');
+  await drop(['jitters.toml', `${await copied('toml')}delay_spread = 0.02\n`]);
+  await page.until(() => document.getElementById('name').value === 'jitters');
+  assert.equal(await page.value('#delay_spread'), '0.02');
+  await page.fill('#unit', 'µs');
+  assert.match(await copied('toml'), /^delay_spread = 20$/m);
+});
+
 test('what is told of a preset is not told of another curve, and no dose covers the next', async () => {
   await open();
   assert.ok(await page.isSeen('#story'));

@@ -3,7 +3,6 @@
 use crate::bins;
 use crate::curve::Exposure;
 use crate::errors::Measured;
-use crate::outcome::Fit;
 use crate::signal::Signal;
 use crate::solve::Cholesky;
 use crate::trace::{
@@ -73,41 +72,48 @@ impl Delay {
     }
 }
 
-/// Takes the shots of traces of one speed together, each counted to the opening of the trace's own fit.
-pub fn pool(fits: &mut [Fit]) {
-    let of = |fit: &Fit| fit.delay.clone().map(|delay| (fit.exposure.value, delay));
-    let all: Vec<(f64, Delay)> = fits.iter().filter_map(of).collect();
-    for fit in fits {
-        let (exposure, Some(own)) = (fit.exposure.value, &mut fit.delay) else { continue };
-        let same = || all.iter().filter(|(other, _)| (other / exposure - 1.0).abs() <= ALIKE);
-        own.shots = same()
-            .flat_map(|(_, it)| it.shots.iter().map(|shot| shot + (it.half - own.half)))
-            .collect();
+/// Takes the shots of traces of one speed together, each counted to the opening of the trace's own fit. Each delay comes with
+/// its trace's exposure.
+pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
+    let mut delays: Vec<_> = delays.collect();
+    let all: Vec<_> =
+        delays.iter().map(|(exposure, delay)| (*exposure, (*delay).clone())).collect();
+    for (exposure, own) in &mut delays {
+        let same = || all.iter().filter(|(other, _)| (other / *exposure - 1.0).abs() <= ALIKE);
+        let shifted = |it: &Delay, shot: f64| shot + (it.half - own.half);
+        let shots = same().flat_map(|(_, it)| it.shots.iter().map(move |shot| shifted(it, *shot)));
+        own.shots = shots.collect();
         own.measuring = same().map(|(_, it)| it.measuring).fold(0.0, f64::max);
     }
 }
 
-/// Adds the delay to a fit of the frame `asked`, which starts to open at `start`, and what is doubtful about it.
+/// The delay where the frame `asked` has this signal, starts to open at `start`, and has these triggers; and what is doubtful
+/// about it.
 ///
 /// # Errors
 /// An edge of a given time after the start of opening, or before another frame; a channel that does not tell the edges.
 pub fn measure(
-    fit: &mut Fit,
-    sync: Option<&Sync>,
+    sync: &Sync,
+    signal: &Signal,
     start: Measured,
+    triggers: &[Measured],
     pulses: &Pulses,
     asked: usize,
-) -> Result<(), Refusal> {
-    let curve = fit.best().signal.curve;
+) -> Result<(Delay, Vec<Warning>), Refusal> {
+    let curve = signal.curve;
     let half = curve.start + Exposure::new(&curve).feet(0.5)[0] - start.value;
-    let trigger = fit.triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max);
-    let delay = |shots, switch, measuring| {
-        Some(Delay { shots, switch, measuring, start: start.error, trigger, half })
+    let trigger = triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max);
+    let delay = |shots, switch, measuring| Delay {
+        shots,
+        switch,
+        measuring,
+        start: start.error,
+        trigger,
+        half,
     };
     let refused = |reason: String| Refusal::NoDelay { reason };
     match sync {
-        None => (),
-        Some(Sync::Edge(edge)) => {
+        Sync::Edge(edge) => {
             let before = |frame: &Frame| frame.crossings[1] > *edge;
             if let Some(i) = pulses.frames[..asked].iter().position(before) {
                 return Err(refused(format!(
@@ -121,9 +127,9 @@ pub fn measure(
                 let reason = format!("the shutter opens {late} before the edge of the sync");
                 return Err(refused(reason));
             }
-            fit.delay = delay(vec![value], None, 0.0);
+            Ok((delay(vec![value], None, 0.0), Vec::new()))
         }
-        Some(Sync::Channel(channel)) => {
+        Sync::Channel(channel) => {
             let Edges { switch, starts } = edges(channel, &pulses.frames).map_err(refused)?;
             let fitted = &pulses.frames[asked];
             let is_alike = |frame: &Frame| (frame.exposure / fitted.exposure - 1.0).abs() <= ALIKE;
@@ -132,7 +138,7 @@ pub fn measure(
             let (mut shots, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
             let with_edge = all.iter().filter_map(|(frame, edge)| Some((frame, edge.as_ref()?)));
             for (frame, Edge { time, error }) in with_edge {
-                let later = later(&fit.best().signal, pulses, frame, fitted);
+                let later = later(signal, pulses, frame, fitted);
                 shots.push(start.value + later.value - time);
                 edges_variance += error.powi(2);
                 variance += error.powi(2) + later.error.powi(2);
@@ -158,15 +164,14 @@ pub fn measure(
                 (late, Warning::SyncLate { few: late, all: n, by }),
             ];
             let told = doubts.into_iter().filter(|(count, _)| *count > 0);
-            fit.warnings.extend(told.map(|(_, doubt)| doubt));
-            fit.delay = delay(shots, Some(switch), (variance / n as f64).sqrt());
+            let delay = delay(shots, Some(switch), (variance / n as f64).sqrt());
+            Ok((delay, told.map(|(_, doubt)| doubt).collect()))
         }
     }
-    Ok(())
 }
 
-/// By how much a frame opens later in its edge's time than the fitted one does: the fitted curve, shifted along the opening ramp, with
-/// levels of its own, by least squares.
+/// By how much a frame opens later than the fitted one: by least squares, the fitted curve is shifted along the frame's opening
+/// ramp, with levels of its own. Where that leads away, the crossings tell, to half of the ramp.
 fn later(fitted: &Signal, pulses: &Pulses, frame: &Frame, like: &Frame) -> Measured {
     let rise = |frame: &Frame| frame.crossings[..3].iter().sum::<f64>() / 3.0;
     let first = rise(frame) - rise(like);
@@ -198,14 +203,18 @@ fn later(fitted: &Signal, pulses: &Pulses, frame: &Frame, like: &Frame) -> Measu
             break;
         }
     }
-    let is_near = (shift - first).abs() <= step.max(0.5 * fitted.curve.opening);
-    let sharp = if fitted.curve.opening < 2.0 * step { step / 12f64.sqrt() } else { 0.0 };
-    Measured { value: if is_near { shift } else { first }, error: error.hypot(sharp) }
+    let near = step.max(0.5 * fitted.curve.opening);
+    // A NaN is not near.
+    if (shift - first).abs() <= near {
+        let sharp = if fitted.curve.opening < 2.0 * step { step / 12f64.sqrt() } else { 0.0 };
+        return Measured { value: shift, error: error.hypot(sharp) };
+    }
+    Measured { value: first, error: near }
 }
 
 /// The delay with its standard errors, and how shots differ, for a report.
-pub fn told(fit: &Fit) -> String {
-    let (unit, Some(delay)) = (fit.unit(), &fit.delay) else {
+pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
+    let Some(delay) = delay else {
         return "unknown: --sync says when the edge comes, or in which column".into();
     };
     let value = plus_minus(unit.of(delay.mean()), unit.of(delay.error()), unit.name());
@@ -237,9 +246,9 @@ pub fn switch(Switch { levels: [rest, on], threshold }: &Switch) -> String {
 }
 
 /// The delay as lines of a scene in this unit, with so many decimals.
-pub fn line(fit: &Fit, unit: Unit, places: usize) -> String {
+pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
     const WHAT: &str = "From the edge of the camera's sync to open_start";
-    let Some(delay) = &fit.delay else {
+    let Some(delay) = delay else {
         return format!("# delay = ? # {WHAT}, which fit --sync measures.\n");
     };
     let (mean, digits) = (delay.mean(), |seconds| digits(unit.of(seconds)));

@@ -120,7 +120,13 @@ pub fn fit(
         middle: fits.units.seconds(0.0),
     };
     fit.warnings.extend(gap);
-    delay::measure(&mut fit, options.sync.as_ref(), results.start, &pulses, asked)?;
+    if let Some(sync) = &options.sync {
+        let signal = fit.best().signal;
+        let (delay, doubts) =
+            delay::measure(sync, &signal, results.start, &fit.triggers, &pulses, asked)?;
+        fit.delay = Some(delay);
+        fit.warnings.extend(doubts);
+    }
     if differ {
         fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
     }
@@ -142,8 +148,8 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     Ok(pulses)
 }
 
-/// Does the chosen kind explain the trace, and what may that hide? A kind that was taken for a tolerance, or for shots that differ, need not follow
-/// every sample: there the freest is asked.
+/// Does the chosen kind explain the trace, and by what share of the exposure may it be off nevertheless? A kind that was taken
+/// for a tolerance, or for shots that differ, need not follow every sample: there the freest is asked.
 fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, f64) {
     let kind = match reason {
         Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,

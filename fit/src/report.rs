@@ -107,7 +107,7 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
     let unit = unit.name();
     writeln!(out, "opens        from {start} to {open_end} {unit}")?;
     writeln!(out, "closes       from {close_start} to {end} {unit}")?;
-    writeln!(out, "delay        {}", delay::told(fit))?;
+    writeln!(out, "delay        {}", delay::told(fit.delay.as_ref(), fit.unit()))?;
     if fit.chosen > Kind::Trapezoid {
         let [o, c] = curve.controls.map(|controls| controls.map(|x| trimmed(x, 3)).join(" "));
         writeln!(out, "ramps        x1 y1 x2 y2: {o} opening, {c} closing")?;

@@ -26,7 +26,7 @@ pub const UNSEEN: f64 = 0.0035;
 pub const FIFTH: f64 = 0.2;
 /// What is missed matters from this share of the exposure on; below, cubic ramps are taken for what they stand for.
 const MATTERS: f64 = 4e-4;
-/// And by so much of the exposure they are off for real blades.
+/// Real blades are no cubics: by this share of the exposure their triggers are off, on top of all that shows.
 const CUBIC: f64 = 5e-5;
 
 /// What a test says.

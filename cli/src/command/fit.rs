@@ -155,7 +155,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         fits.push(fit);
         beside.push((old, warnings));
     }
-    delay::pool(&mut fits);
+    delay::pool(fits.iter_mut().filter_map(|fit| Some((fit.exposure.value, fit.delay.as_mut()?))));
 
     let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
     for (i, (fit, (old, mut warnings))) in fits.into_iter().zip(beside).enumerate() {

@@ -64,8 +64,8 @@ pub fn edges(sync: &Trace, frames: &[Frame]) -> Result<Edges, String> {
     if between as f64 > BETWEEN * share.len() as f64 {
         return Err("its column has no two levels, as a switch has; is it the right one?".into());
     }
-    // In turn: the first one leaves the level at the beginning. That is the one at rest, unless the record begins in the middle of a
-    // shot: then the other one gives each shot an edge in time, and leaves none over.
+    // Edges take turns, and the first one leaves the level of the beginning. That is the level at rest, unless the record begins
+    // in the middle of a shot: then the other level gives each shot an edge in time, and leaves none over.
     let begins_high = share[0] > 0.5;
     let all = crossings(&sync.times, &share, begins_high);
     let [as_begun, other] = [0, 1].map(|first| Starts::new(&all[first.min(all.len())..], frames));

@@ -78,12 +78,12 @@ pub fn shown((number, name): &Named) -> String {
 }
 
 impl Reading {
-    /// The signal and its place among all columns.
+    /// The signal, and its place among all columns.
     pub fn signal(&self) -> String {
         self.among(&self.signal)
     }
 
-    /// The same of a sync.
+    /// A column, and its place among all.
     pub fn among(&self, (number, name): &Named) -> String {
         let name = name.as_ref().map_or(String::new(), |name| format!(", \"{name}\""));
         format!("column {number} of {}{name}", self.columns)

@@ -1,7 +1,7 @@
 //! Why a trace is refused, and what is doubtful about one that is not: the reason, and what to do.
 //!
-//! Each message stands above the values that it tells: times in seconds, rates in hertz, shares of the light; lines and
-//! pulses count from 1.
+//! Each message stands above the values that it tells: times in seconds, rates in hertz, signals in the trace's own unit,
+//! amounts as shares of the light. Lines, frames and pulses count from 1.
 
 use strum::{EnumIter, IntoStaticStr};
 use thiserror::Error;
@@ -9,7 +9,7 @@ use thiserror::Error;
 use super::samples::{CONTRAST, LARGEST};
 use crate::unit::{self, short};
 
-/// Why a trace cannot be fitted. Times are in seconds, signals in the trace's own unit; lines and frames count from 1.
+/// Why a trace cannot be fitted.
 #[derive(Clone, Debug, EnumIter, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
@@ -160,8 +160,7 @@ fn or_the_way(has_way: &bool) -> &'static str {
     }
 }
 
-/// What is doubtful about a trace or about what was made of it. Times are in seconds, rates in hertz, amounts shares
-/// of the light; lines and pulses count from 1.
+/// What is doubtful about a trace or about what was made of it.
 #[derive(Clone, Debug, EnumIter, Error, IntoStaticStr, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
