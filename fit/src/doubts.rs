@@ -8,7 +8,7 @@ use crate::lag;
 use crate::missed::{Parts, missed};
 use crate::outcome::{Fit, From, Test};
 use crate::signal::Kind;
-use crate::structure::{FIFTH, UNSEEN, Walk};
+use crate::structure::{UNSEEN, Walk};
 use crate::trace::{Frame, Warning, least_step};
 
 /// A capacitor that is taken for a drift of this share of the light moves the triggers by a per mille.
@@ -138,7 +138,9 @@ fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let noise = fitted.variance() * fits.correlation;
     let charge = lag::charge(&fitted.solution, fits.bins());
     let (charge, line) = lag::falls(&fitted.solution, fits.bins(), &charge)?;
-    if amount.abs() > LARGE && charge > line - 4.0 * noise {
+    // Slow noise drifts as well.
+    let is_large = amount.abs() > LARGE.max(3.0 * fit.best().rms);
+    if is_large && charge > line - 4.0 * noise {
         return Some(Warning::DriftOrCapacitor { amount });
     }
     Some(Warning::Drift { amount })
@@ -181,7 +183,7 @@ fn no_plateau(fit: &Fit) -> Option<Warning> {
 fn unseen(fit: &Fit) -> Option<Warning> {
     let Test { tested, unseen, .. } = fit.test;
     (tested && fit.from == From::Model && unseen > UNSEEN)
-        .then_some(Warning::Unseen { share: unseen / FIFTH })
+        .then_some(Warning::Unseen { share: unseen })
 }
 
 /// Errors beyond which a result is of no use to most.

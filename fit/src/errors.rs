@@ -12,10 +12,6 @@ use crate::units::Units;
 /// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
 /// of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
-/// Blades may start more softly than a cubic does: this share of the time below this openness, beyond a straight ramp's, may be
-/// missing before it.
-const SOFTER: f64 = 0.4;
-const SOFT: f64 = 0.02;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
 const PEAK: f64 = 0.1;
 
@@ -115,12 +111,13 @@ impl Results {
         self
     }
 
-    /// With structure of this share of the exposure, which the test does not tell.
-    pub fn with_hidden(mut self, share: f64) -> Self {
-        let by = share * self.exposure.value;
-        for result in self.triggers.iter_mut().chain([&mut self.exposure]) {
-            result.error = result.error.hypot(by);
+    /// With structure that the tests do not tell, which moves triggers and exposure by these shares of the exposure.
+    pub fn with_hidden(mut self, [triggers, exposure]: [f64; 2]) -> Self {
+        let of = self.exposure.value;
+        for trigger in &mut self.triggers {
+            trigger.error = trigger.error.hypot(triggers * of);
         }
+        self.exposure.error = self.exposure.error.hypot(exposure * of);
         self
     }
 
@@ -196,10 +193,7 @@ impl<'a> OfKind<'a> {
         }
         let linear = self.covariance.error(&Curve::LENGTH);
         let noise = if self.is_straight { linear } else { self.searched(Whole::Length, linear) };
-        let straight = [self.curve.opening, self.curve.closing].map(|ramp| SOFT * ramp);
-        let ends = (self.integral.feet(SOFT).into_iter().zip(straight).zip(self.feet))
-            .map(|((time, straight), foot)| foot.max(SOFTER * (time - straight)))
-            .fold(noise, f64::hypot);
+        let ends = self.feet.into_iter().fold(noise, f64::hypot);
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 

@@ -7,7 +7,7 @@
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `shots`, `choice`: the kinds compared, and one chosen;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
-//! - `structure`, `tail` (by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
+//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
@@ -29,6 +29,7 @@ mod lag;
 mod missed;
 mod noise;
 mod outcome;
+mod patterns;
 mod ramp;
 pub mod report;
 pub mod rows;
@@ -40,7 +41,6 @@ mod solve;
 mod speed;
 mod starts;
 mod structure;
-mod tail;
 pub mod trace;
 pub mod unit;
 mod units;
@@ -148,9 +148,9 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     Ok(pulses)
 }
 
-/// Does the chosen kind explain the trace, and by what share of the exposure may it be off nevertheless? A kind that was taken
+/// Does the chosen kind explain the trace, and by what shares of the exposure may triggers and exposure be off nevertheless? A kind that was taken
 /// for a tolerance, or for shots that differ, need not follow every sample: there the freest is asked.
-fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, f64) {
+fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, [f64; 2]) {
     let kind = match reason {
         Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,
         _ => chosen,
@@ -166,7 +166,7 @@ fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, f64) {
         share: found.share,
         at,
     };
-    (test, found.hidden())
+    (test, found.hidden)
 }
 
 /// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.

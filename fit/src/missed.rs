@@ -1,9 +1,10 @@
-//! A frame's samples in the pulse and in the dark, and what a kind's curve misses of them; added up along the pulse, its trigger times
-//! are off by that.
+//! A frame's samples in the pulse and in the dark, and what a kind's curve misses of them; and by how much trigger times move with
+//! light that comes beside a curve.
 
 use std::ops::Range;
 
-use crate::curve::Exposure;
+use crate::bins::Bin;
+use crate::curve::{Exposure, fractions};
 use crate::frame::FrameFits;
 use crate::signal::Kind;
 
@@ -39,48 +40,47 @@ pub fn missed(fits: &FrameFits, kind: Kind) -> Vec<f64> {
         .collect()
 }
 
-/// The light that a kind's curve misses.
-pub struct Missed {
-    pub exposure: Exposure,
-    gain: f64,
-    /// Up to each time, in the signal's unit by the time's.
+/// Light that comes beside a curve, added up along the pulse.
+pub struct Beside {
+    curve: Exposure,
+    /// What has come up to each time, in full light by time.
     sums: Vec<(f64, f64)>,
 }
 
-impl Missed {
-    pub fn new(fits: &FrameFits, kind: Kind) -> Self {
-        Self::around(fits, kind, 0.0)
-    }
-
-    /// With what is missed so long before and after the curve.
-    pub fn around(fits: &FrameFits, kind: Kind, room: f64) -> Self {
-        let fitted = fits.of(kind);
-        let signal = fitted.solution.signal;
-        let [start, _, _, end] = signal.curve.times();
-        let inside = fits.samples.iter().zip(&fitted.residuals);
-        let inside = inside.filter(|(bin, _)| bin.to > start - room && bin.from < end + room);
+impl Beside {
+    /// By the mean of it in each bin, as a share of full light.
+    pub fn new(curve: Exposure, bins: &[Bin], light: impl Iterator<Item = f64>) -> Self {
         let mut sum = 0.0;
-        let sums = inside
-            .map(|(bin, residual)| {
-                sum += residual * (bin.to - bin.from);
-                (bin.to, sum)
-            })
-            .collect();
-        Self { exposure: Exposure::new(&signal.curve), gain: signal.gain, sums }
+        let more = |(bin, light): (&Bin, f64)| {
+            sum += light * (bin.to - bin.from);
+            (bin.to, sum)
+        };
+        Self { curve, sums: bins.iter().zip(light).map(more).collect() }
     }
 
-    /// The openness times the light at a time, not too near to 0.
-    pub fn slope(&self, t: f64) -> f64 {
-        least_open(&self.exposure, t) * self.gain
-    }
-
-    /// By how much later than the curve, which says `t`, the samples put the time at which `u` is collected: `u` of all that is
-    /// missed has to come as well, and what is missed up to `t` has come.
-    pub fn off(&self, u: f64, t: f64) -> f64 {
+    /// When the curve has collected `u`, and by how much later that is with this light: `u` of all of it has to come as well, and
+    /// what there is of it up to then has come.
+    pub fn trigger(&self, u: f64) -> (f64, f64) {
+        let t = self.curve.trigger(u).0;
         let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];
         let here = until.last().map_or(0.0, |(_, sum)| *sum);
-        let whole = self.sums.last().map_or(0.0, |(_, sum)| *sum);
-        (u * whole - here) / self.slope(t)
+        (t, (u * self.whole() - here) / least_open(&self.curve, t))
+    }
+
+    /// By how much triggers move with it, the root of their mean square, as a share of the exposure.
+    pub fn triggers(&self) -> f64 {
+        const TRIGGERS: u32 = 16;
+        let squares = fractions(TRIGGERS).map(|u| self.trigger(u).1.powi(2)).sum::<f64>();
+        (squares / f64::from(TRIGGERS)).sqrt() / self.curve.area()
+    }
+
+    /// By how much the exposure changes with it, as a share.
+    pub fn exposure(&self) -> f64 {
+        self.whole() / self.curve.area()
+    }
+
+    fn whole(&self) -> f64 {
+        self.sums.last().map_or(0.0, |(_, sum)| *sum)
     }
 }
 

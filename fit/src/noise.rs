@@ -53,6 +53,12 @@ pub fn slow_correlation(residuals: &[f64]) -> f64 {
     correlation(residuals).max((slow / mean_square(residuals).max(f64::MIN_POSITIVE)).min(most))
 }
 
+/// By how much each is above their mean.
+pub fn from_mean(values: &[f64]) -> Vec<f64> {
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    values.iter().map(|v| v - mean).collect()
+}
+
 /// The mean of the squares.
 pub fn mean_square(values: &[f64]) -> f64 {
     values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64

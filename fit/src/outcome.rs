@@ -153,7 +153,7 @@ pub struct Test {
     pub tested: bool,
     /// By how many standard deviations the most telling of the tests is off.
     pub sigma: f64,
-    /// Structure that moves the triggers by less than this share of the exposure would not be seen.
+    /// A dip, a slope or a tail below this share of the light would not be seen.
     pub unseen: f64,
     /// The greatest structure that is left, as a share of the light.
     pub share: f64,
@@ -171,7 +171,7 @@ pub struct Fit {
     pub reason: Reason,
     /// In seconds; of full light where that was given.
     pub exposure: Measured,
-    /// The exposure by the time from the start of opening to the end of closing.
+    /// The exposure by the time from the start of opening to the end of closing, as far as the curve shows that.
     pub efficiency: Measured,
     /// When the shutter starts to open, in seconds: with the curve, or with light that comes before it.
     pub opens: f64,
@@ -209,6 +209,14 @@ impl Fit {
     /// The chosen candidate.
     pub fn best(&self) -> &Candidate {
         &self.candidates[self.chosen as usize]
+    }
+
+    /// The most that the efficiency may be, in 39 of 40 traces: blades may start more softly than any curve shows. None for straight
+    /// ramps that explain the trace, which have no soft start.
+    pub fn most_efficiency(&self) -> Option<f64> {
+        let is_straight = self.chosen <= Kind::Trapezoid && self.test.explained;
+        let Measured { value, error } = self.efficiency;
+        (!is_straight).then_some((value + 1.96 * error).min(1.0))
     }
 
     /// Is every result a number, and each error one that says something?

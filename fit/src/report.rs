@@ -118,7 +118,8 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
     if let Some(speed) = speed::speed(fit) {
         writeln!(out, "speed        {speed}")?;
     }
-    writeln!(out, "efficiency   {}", efficiency(fit))?;
+    let why = fit.most_efficiency().map_or("", |_| ": a soft start or end does not show");
+    writeln!(out, "efficiency   {}{why}", efficiency(fit))?;
     if fit.peak < 1.0 {
         writeln!(out, "peak         {} % of full light", short(100.0 * fit.peak, 4))?;
     }
@@ -195,10 +196,13 @@ pub fn exposure(fit: &Fit) -> String {
     plus_minus(fit.unit().of(value), fit.unit().of(error), fit.unit().name())
 }
 
-/// The efficiency and its standard error.
+/// The efficiency and its standard error, or the most that it may be.
 pub fn efficiency(fit: &Fit) -> String {
     let Measured { value, error } = fit.efficiency;
-    plus_minus(100.0 * value, 100.0 * error, "%")
+    match fit.most_efficiency() {
+        Some(most) => format!("at most {} %", short(100.0 * most, 3)),
+        None => plus_minus(100.0 * value, 100.0 * error, "%"),
+    }
 }
 
 /// Why the model was chosen.

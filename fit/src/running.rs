@@ -7,15 +7,15 @@ use crate::errors::{Measured, Results};
 use crate::frame::FrameFits;
 use crate::missed::{Parts, least_open, missed};
 use crate::noise::mean_square;
+use crate::patterns::tail_end;
 use crate::signal::Kind;
 use crate::structure::Walk;
-use crate::tail;
 use crate::trace::median;
 
 /// Full light is looked for in a stretch of so many pulses, cut into parts.
 const FLAT: f64 = 0.2;
 const MOST_PARTS: usize = 8;
-/// Stretches that scatter so many times as much as the flattest are flat as well.
+/// Stretches that scatter so many times as much as the flattest, or as the noise does, are flat as well.
 const ALIKE: f64 = 2.0;
 /// The noise is known by a dozen of blocks: a standard error from it is so much larger than from all of it.
 const KNOWN: f64 = 1.2;
@@ -98,7 +98,7 @@ impl Running {
         let last = starts(parts.after.clone()).rfind(|k| lit(*k));
         to = last.map_or(to, |k| (k + length).min(missed.len()).max(to));
         // A tail is light as well, though none of its blocks stands out.
-        let tail = tail::end(fits, kind);
+        let tail = tail_end(fits, kind);
         to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
 
         let opened = fits.opened(kind);
@@ -152,17 +152,17 @@ impl Running {
         let count = ((1.0 - FLAT) / (0.5 * part)) as usize;
         let stretches: Vec<(f64, f64)> = (0..=count).filter_map(stretch).collect();
         let least = stretches.iter().map(|(scatter, _)| *scatter).fold(f64::INFINITY, f64::min);
-        // Which of those that are nearly as flat is the flattest is chance: their mean counts, and is known no better than they
-        // agree.
-        let alike: Vec<f64> =
-            stretches.iter().filter(|s| s.0 <= ALIKE * least).map(|(_, level)| *level).collect();
+        // Which of those that are nearly as flat, or as flat as the noise lets them be, is the flattest is chance: their mean
+        // counts, and is known no better than they agree.
+        let usual = walk / part * (parts - 1) as f64;
+        let alike = stretches.iter().filter(|s| s.0 <= ALIKE * least.max(usual));
+        let alike: Vec<f64> = alike.map(|(_, level)| *level).collect();
         let middle = mean(-0.25, 0.25)?;
         let (scatter, value) = match alike.len() {
             0 => (0.0, middle),
             n => (least, alike.iter().sum::<f64>() / n as f64),
         };
         let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
-        let usual = walk / part * (parts - 1) as f64;
         // Where even that is not flat, it is no rest.
         let uneven = ((scatter - usual).max(0.0) / parts as f64).sqrt();
         let noise = (walk / FLAT).sqrt().hypot(fits.rounding);

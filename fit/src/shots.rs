@@ -1,9 +1,10 @@
 //! Several shots in a trace: which of them are fitted, and how well a kind that is fitted to one meets the others, which it
 //! has not seen.
 
+use crate::bins::Bin;
 use crate::curve::fractions;
 use crate::frame::FrameFits;
-use crate::missed::Missed;
+use crate::missed::Beside;
 use crate::signal::Kind;
 use crate::trace::{Frame, Refusal};
 
@@ -84,12 +85,15 @@ impl Shots {
 
 /// The trigger times as the samples have them: those of the freest kind, put right by what it misses.
 fn measured_triggers(fits: &FrameFits, n: u32) -> Vec<f64> {
-    let missed = Missed::new(fits, Kind::Free);
-    let put_right = |u: f64| {
-        let t = missed.exposure.trigger(u).0;
-        t + missed.off(u, t)
-    };
-    fractions(n).map(put_right).collect()
+    let free = fits.of(Kind::Free);
+    let curve = fits.exposure(Kind::Free);
+    let [start, _, _, end] = curve.curve.times();
+    let is_inside = |bin: &Bin| bin.to > start && bin.from < end;
+    let missed = fits.samples.iter().zip(&free.residuals);
+    let missed =
+        missed.map(|(bin, r)| if is_inside(bin) { r / free.solution.signal.gain } else { 0.0 });
+    let beside = Beside::new(curve, &fits.samples, missed);
+    fractions(n).map(|u| beside.trigger(u)).map(|(t, later)| t + later).collect()
 }
 
 /// The root of the mean square of what the times of one shot differ by from those of each other one.

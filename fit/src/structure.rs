@@ -2,30 +2,28 @@
 //!
 //! Means over blocks of neighbours show structure, differences of neighbours the noise alone; the ratio of the two in the pulse
 //! is compared with the same ratio in the dark (an F test), so that a noise of any colour and of any size is none. A block in the
-//! dark that stands out is structure as well, and so are trigger times that the samples put elsewhere.
+//! dark that stands out is structure as well, and so are [`patterns`](crate::patterns) of what shutters do.
 
 use std::ops::Range;
 
-use crate::curve::fractions;
 use crate::frame::FrameFits;
-use crate::missed::{Missed, Parts, least_open, missed};
-use crate::noise::{correlation, fast, mean_square, normal_of, ratio_of};
+use crate::missed::{Parts, missed};
+use crate::noise::{correlation, fast, from_mean, mean_square, normal_of, slow_correlation};
+use crate::patterns::{MATTERS, Pattern, Shape, patterns};
 use crate::signal::Kind;
-use crate::tail::{self, Tail};
 
-/// So many standard deviations are beyond chance: a normal number is there once in 30 000 times. With some ten tests, a
-/// curve that explains the samples fails once in 3000 times.
+/// So many standard deviations are beyond chance: a normal number is there once in 30 000 times.
 const BEYOND: f64 = 4.0;
-/// Light that a curve leaves out lies so near to it, in pulses.
-const AROUND: f64 = 0.3;
+/// 1/f noise looks like structure: where so many samples of the dark stand for an independent one, on both sides of the pulse, a
+/// test has to be so many times further off.
+const WANDERS: f64 = 4.0;
+const STRICT: f64 = 1.35;
 /// Of blocks in the dark, by their own median: that is known less well.
 const STANDS_OUT: f64 = 7.0;
-/// A test that misses so much of the exposure has too little power.
-pub const UNSEEN: f64 = 0.0035;
-/// Of the light for a fifth of the pulse, that is as much.
-pub const FIFTH: f64 = 0.2;
-/// What is missed matters from this share of the exposure on; below, cubic ramps are taken for what they stand for.
-const MATTERS: f64 = 4e-4;
+/// A test that misses so much of the light has too little power.
+pub const UNSEEN: f64 = 0.01;
+/// So much of what would be missed is a standard error: nine times in ten it holds a dip of a fifth of the pulse.
+const OF_UNSEEN: f64 = 0.3;
 /// Real blades are no cubics: by this share of the exposure their triggers are off, on top of all that shows.
 const CUBIC: f64 = 5e-5;
 
@@ -34,16 +32,20 @@ const CUBIC: f64 = 5e-5;
 pub struct Structure {
     /// Does the model explain the trace?
     pub explained: bool,
+    /// So many times as many standard deviations as usual are beyond chance.
+    strict: f64,
     /// Was there enough dark to know the noise by?
     pub tested: bool,
     /// By how many standard deviations the most telling of the tests is off.
     pub sigma: f64,
     /// And by how many that test may be.
     beyond: f64,
-    /// Structure that moves the triggers by less than this share of the exposure would not be seen.
+    /// A pattern below this share of the light may not be seen.
     pub unseen: f64,
-    /// The triggers move by this share of the exposure with the tail that shows, though it may be chance.
-    tail: f64,
+    /// By how much that moves the triggers, and the exposure, as shares of the exposure.
+    unseen_moves: [f64; 2],
+    /// By how much these may be off, though the model explains the trace: it belongs to their errors.
+    pub hidden: [f64; 2],
     /// The greatest structure, as a share of the light, and when, in the frame's unit.
     pub share: f64,
     pub at: f64,
@@ -60,19 +62,28 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     let missed = missed(fits, kind);
     let light = Light { fits, kind, parts: &parts, missed: &missed };
     let tested = Walk::new(light.missed, &parts, fits.step).is_some();
+    let sides = [&parts.before, &parts.after];
+    let longer = parts.before.len().max(parts.after.len());
+    let sides = sides.into_iter().filter(|side| 3 * side.len() >= longer);
+    let wander = sides
+        .map(|side| slow_correlation(&from_mean(light.of(side))))
+        .fold(f64::INFINITY, f64::min);
+    let strict = if wander > WANDERS { STRICT } else { 1.0 };
     let mut found = Structure {
         explained: true,
+        strict,
         tested,
         sigma: 0.0,
         beyond: BEYOND,
-        unseen: light.unseen(),
-        tail: 0.0,
+        unseen: 0.0,
+        unseen_moves: [0.0; 2],
+        hidden: [CUBIC; 2],
         share: 0.0,
         at: 0.0,
     };
     let mut length = 2;
     while parts.pulse.len() / length >= 6 {
-        for sigma in [light.in_pulse(length), light.after(length)].into_iter().flatten() {
+        if let Some(sigma) = light.in_pulse(length) {
             found.take(sigma, BEYOND, light.greatest(length));
         }
         if let Some((ratio, at)) = light.in_dark(length) {
@@ -80,34 +91,39 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
         }
         length *= 2;
     }
-    for part in [&parts.before, &parts.after] {
-        if let Some((sigma, at)) = light.trend(part) {
-            found.take(sigma, BEYOND, at);
-        }
+    for pattern in patterns(fits, kind) {
+        found.look_at(&pattern);
     }
-    for room in [0.0, AROUND] {
-        if let Some((sigma, t, share)) = light.of_triggers(room) {
-            found.take(sigma, BEYOND, (share, t));
-        }
-    }
-    if let Some(Tail { sigma, moves, unseen, share, at }) = tail::tail(fits, kind) {
-        found.unseen = found.unseen.max(unseen);
-        found.tail = if sigma > 1.0 { moves } else { 0.0 };
-        if moves > tail::MATTERS {
-            found.take(sigma, tail::BEYOND, (share, at));
-        }
-    }
+    let [triggers, exposure] = found.unseen_moves.map(|moves| OF_UNSEEN * moves);
+    found.hide(triggers, exposure);
     found
 }
 
 impl Structure {
-    /// What a trace that is explained may hide nevertheless, as a share of the exposure: it belongs to the errors.
-    pub fn hidden(&self) -> f64 {
-        let unseen = if self.unseen > UNSEEN { 0.5 * self.unseen } else { 0.0 };
-        CUBIC.hypot(self.tail).hypot(unseen)
+    fn look_at(&mut self, pattern: &Pattern) {
+        if pattern.matters() {
+            self.take(pattern.sigma, pattern.shape.beyond(), (pattern.share, pattern.at));
+        }
+        let Pattern { shape, sigma, triggers, exposure, least, .. } = *pattern;
+        // One of many dips is always beyond a standard deviation.
+        if sigma > 1.5 && !matches!(shape, Shape::Dip(_)) {
+            self.hide(triggers, exposure);
+        }
+        let unseen = pattern.unseen();
+        self.unseen = self.unseen.max(unseen);
+        if unseen > UNSEEN {
+            let [of_triggers, of_exposure] = self.unseen_moves;
+            self.unseen_moves =
+                [of_triggers.max(least * triggers), of_exposure.max(least * exposure.abs())];
+        }
+    }
+
+    fn hide(&mut self, triggers: f64, exposure: f64) {
+        self.hidden = [self.hidden[0].hypot(triggers), self.hidden[1].hypot(exposure)];
     }
 
     fn take(&mut self, sigma: f64, beyond: f64, (share, at): (f64, f64)) {
+        let sigma = sigma / self.strict;
         self.explained &= sigma <= beyond;
         if sigma / beyond > self.sigma / self.beyond {
             (self.sigma, self.beyond, self.share, self.at) = (sigma, beyond, share, at);
@@ -131,13 +147,19 @@ impl Walk {
         if length == 0 {
             return None;
         }
-        let pairs = |part: &[f64]| {
-            let means = blocks(part, length);
-            means.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>()
+        let by = |length: usize| {
+            let pairs = |part: &[f64]| {
+                let means = blocks(part, length);
+                means.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>()
+            };
+            let differ = dark.map(pairs).concat();
+            let power = 0.5 * mean_square(&differ) * length as f64 * step + 1e-10 * step;
+            Self { power, blocks: differ.len() }
         };
-        let differ = dark.map(pairs).concat();
-        let power = 0.5 * mean_square(&differ) * length as f64 * step + 1e-10 * step;
-        (differ.len() >= 6).then_some(Self { power, blocks: differ.len() })
+        // 1/f noise has more in blocks of twice the length.
+        let (walk, longer) = (by(length), by(2 * length));
+        let power = walk.power.max(longer.power);
+        (walk.blocks >= 6).then_some(Self { power, ..walk })
     }
 }
 
@@ -178,34 +200,6 @@ impl Light<'_> {
         matters.then(|| normal_of(slow / usual, counts))
     }
 
-    /// The dark after against the dark before.
-    fn after(&self, length: usize) -> Option<f64> {
-        let (before, after) = (self.of(&self.parts.before), self.of(&self.parts.after));
-        let [early, late] = [before, after].map(|part| blocks(part, length));
-        if early.len() < 4 || late.len() < 2 {
-            return None;
-        }
-        let usual = mean_square(&early) + self.rounding() + 1e-12;
-        let matters = self.worth(mean_square(&late).sqrt(), late.len(), length);
-        let alike = correlation(&early);
-        let counts = (late.len() as f64 / alike, early.len() as f64 / alike);
-        matters.then(|| normal_of(mean_square(&late) / usual, counts))
-    }
-
-    /// Does the dark before, or after, run off by itself, in standard deviations?
-    fn trend(&self, part: &Range<usize>) -> Option<(f64, (f64, f64))> {
-        let Walk { power, blocks: known } = Walk::new(self.missed, self.parts, self.fits.step)?;
-        let halves = blocks(self.of(part), part.len() / 2 + usize::from(part.len() < 2));
-        let [early, late, ..] = halves[..] else { return None };
-        let by = late - early;
-        let usual =
-            (4.0 * power / (part.len() as f64 * self.fits.step)).sqrt() + self.fits.rounding;
-        // A drift that the dark has not changes the pulse by as much as half of it.
-        let matters = by.abs() > 0.5 * MATTERS * self.fits.exposure(self.kind).area();
-        let at = self.fits.samples[part.start].from;
-        matters.then(|| (normal_of((by / usual).powi(2), (1.0, known as f64)), (by, at)))
-    }
-
     /// Is light of this size over so many blocks enough to matter?
     fn worth(&self, size: f64, blocks: usize, length: usize) -> bool {
         // Blocks of either sign cancel, but for the root of their number.
@@ -239,42 +233,5 @@ impl Light<'_> {
         let means = blocks(&self.missed[from..], length).into_iter().enumerate();
         let (k, mean) = means.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or((0, 0.0));
         (mean, self.fits.samples[(from + k * length + length / 2).min(self.missed.len() - 1)].from)
-    }
-
-    /// Structure that moves the triggers by less, the root of their mean square, as a share of the exposure, passes.
-    fn unseen(&self) -> f64 {
-        let Some(walk) = Walk::new(self.missed, self.parts, self.fits.step) else { return 0.0 };
-        let missed = Missed::new(self.fits, self.kind);
-        let [start, _, _, end] = missed.exposure.curve.times();
-        let area = missed.exposure.area();
-        let squares = fractions(16).map(|u| {
-            let t = missed.exposure.trigger(u).0;
-            let spread =
-                walk.power * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start)).max(0.0);
-            spread / (least_open(&missed.exposure, t) * area).powi(2)
-        });
-        (squares.sum::<f64>() / 16.0 * ratio_of(BEYOND, (1.0, walk.blocks as f64))).sqrt()
-    }
-
-    /// By how many standard deviations the samples put a trigger elsewhere, the greatest; when, and by which share of the
-    /// exposure.
-    fn of_triggers(&self, room: f64) -> Option<(f64, f64, f64)> {
-        let Walk { power: walk, blocks } = Walk::new(self.missed, self.parts, self.fits.step)?;
-        let missed = Missed::around(self.fits, self.kind, room);
-        let [start, _, _, end] = missed.exposure.curve.times();
-        let (start, end) = (start - room, end + room);
-        let area = missed.exposure.area();
-        let each = fractions(16).map(|u| {
-            let t = missed.exposure.trigger(u).0;
-            let off = missed.off(u, t);
-            let spread = walk * (u * u * (end - t) + (1.0 - u) * (1.0 - u) * (t - start)).max(0.0);
-            let usual =
-                (spread.sqrt() + self.fits.rounding * area) / least_open(&missed.exposure, t);
-            (off.abs() / usual, t, off / area)
-        });
-        let each = each.filter(|(_, _, share)| share.abs() > MATTERS);
-        let (ratio, t, share) = each.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        // The walk's own size is known from the blocks in the dark.
-        Some((normal_of(ratio * ratio, (1.0, blocks as f64)), t, share))
     }
 }

@@ -39,11 +39,10 @@ pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
 fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
     let unit = fit.unit();
     let facts = format!(
-        "{}: exposure {}{}, efficiency {} %, rms {} % of the light",
+        "{}: exposure {}{}, rms {} % of the light",
         fit.chosen.title(),
         unit.show(fit.exposure.value),
         if fit.from == From::Trace { " by the trace" } else { "" },
-        short(100.0 * fit.efficiency.value, 4),
         short(100.0 * fit.best().rms, 3),
     );
     let middle = SIZE.0 * SCALE / 2;

@@ -11,7 +11,7 @@ use super::samples::Trace;
 const PARTS: usize = 16;
 /// The square sum of the dark has to fall so far by it, against a drift's, that chance does not do that: by five
 /// standard deviations.
-const FALLS: f64 = 2.0;
+const FALLS: f64 = 3.0;
 /// A pulse's tails are no dark: so many pulses on either side are left out.
 const ROOM: f64 = 0.15;
 

@@ -357,10 +357,10 @@ pub enum Warning {
         time(.to)
     )]
     Gap { count: usize, from: f64, to: f64 },
-    /// So few samples, or so much noise, that the test of the fit is blind for much: a share over a fifth of the pulse.
+    /// So few samples, or so much noise, that the test of the fit is blind for a dip of this share for a fifth of the pulse.
     #[error(
-        "too few samples, or too much noise, to see a bounce, a dip or a tail of less than {} of the light for a fifth \
-         of the pulse; that is in the errors; sample faster, or average several shots",
+        "too few samples, or too much noise, to see a dip, a slope or a tail of less than {} of the light; that is in \
+         the errors; sample faster, or average several shots",
         percent(.share)
     )]
     Unseen { share: f64 },
