@@ -15,7 +15,7 @@ const UNLIKE: f64 = 4.0;
 /// How often a lamp on the mains flickers, in hertz.
 const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
-const FEWEST: f64 = 1.0;
+const FEWEST: f64 = 2.0;
 
 /// The fit with a drift and a hum, if they are worth it, or none where neither is.
 pub fn with_columns(
