@@ -1,55 +1,42 @@
-//! Mechanics and instruments on which nothing was tuned, for one honest count.
+//! A second set of mechanics and instruments on which nothing was tuned, mostly by equations of motion, for one honest count.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::physics::{Measured, Openness};
 use super::{Random, circle};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mechanics {
-    /// Two curtains that are pulled by springs, before a round hole.
-    Curtains,
-    /// An iris of five blades on a cam, whose area is the square of its opening.
-    Iris,
-    /// A leaf on a solenoid, against friction, that strikes its stop and rebounds.
-    Solenoid,
-    /// A cell whose fall is a stretched exponential.
-    Stretched,
-    /// A disc with a sector, whose edge crosses a round beam.
-    Chopper,
-    /// A blade that catches half of the way.
-    Catches,
-    /// A lamp's afterglow behind an electronic switch.
-    Afterglow,
-    /// A plateau that sinks by some percent.
-    Sinks,
-    /// Two polarisers, of which one turns: there is no plateau.
-    Polariser,
-    /// Blades that turn back before they are open.
-    TurnsBack,
-    /// Leaves on a cam of the fifth order, around a star.
-    CamLeaf,
-    /// A blade that sticks until a spring tears it off, against a damper, up to a stop.
-    Sticks,
-    /// A hole in a turning disc before a smaller round beam.
-    Disc,
+    /// Straight-edged leaves on cranks, which overlap when closed, before a round pupil.
+    Cranks,
+    /// Cloth curtains on rollers, braked at their ends, with a slit that is narrower than the gate.
+    Rollers,
+    /// Metal curtains that strike their stops and come back, farther than their overlap hides.
+    Rebound,
+    /// A blade on a moving coil, with its inductance and back EMF, and a rubber stop.
+    Coil,
+    /// A plate with a slot that falls past a square beam.
+    Falls,
+    /// The sector of a cine camera's disc before a rectangular gate.
+    Cine,
+    /// A microscopic plate that a voltage snaps to its stop, and that rings when let go.
+    Snaps,
+    /// A wire of shape memory, with its latent heat.
+    Memory,
+    /// A ferroelectric liquid crystal, driven both ways.
+    Crystal,
+    /// A Pockels cell whose crystal rings.
+    Pockels,
+    /// A gated image intensifier: its gain droops, its phosphor recombines by pairs.
+    Phosphor,
+    /// An iris whose ring sticks and slips on a soft drive.
+    Slips,
 }
 
-/// Made after the others had been looked at.
-pub const LATER: [Mechanics; 3] = [Mechanics::CamLeaf, Mechanics::Sticks, Mechanics::Disc];
-
-pub const MECHANICS: [Mechanics; 10] = [
-    Mechanics::Curtains,
-    Mechanics::Iris,
-    Mechanics::Solenoid,
-    Mechanics::Stretched,
-    Mechanics::Chopper,
-    Mechanics::Catches,
-    Mechanics::Afterglow,
-    Mechanics::Sinks,
-    Mechanics::Polariser,
-    Mechanics::TurnsBack,
-];
+pub const MECHANICS: [Mechanics; 12] = {
+    use Mechanics::*;
+    [Cranks, Rollers, Rebound, Coil, Falls, Cine, Snaps, Memory, Crystal, Pockels, Phosphor, Slips]
+};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Instrument {
@@ -58,202 +45,290 @@ pub enum Instrument {
     Jitter,
     EightBits,
     Few,
+    /// Some two periods of hum.
     Mains,
-    /// Noise of the same power in every octave.
-    Pink,
+    /// Noise of the same power in every octave, of sines.
+    Sines,
     Capacitor,
     LostRows,
-    /// An exponential drift.
-    Warming,
-    /// Clipped before the noise is added, so that nothing shows it.
-    Clipped,
+    /// A slow drift that bends.
+    Bending,
+    /// Noise that grows with the light.
+    Shot,
 }
 
-pub const INSTRUMENTS: [Instrument; 10] = [
-    Instrument::Clean,
-    Instrument::Jitter,
-    Instrument::EightBits,
-    Instrument::Few,
-    Instrument::Mains,
-    Instrument::Pink,
-    Instrument::Capacitor,
-    Instrument::LostRows,
-    Instrument::Warming,
-    Instrument::Clipped,
-];
+pub const INSTRUMENTS: [Instrument; 10] = {
+    use Instrument::*;
+    [Clean, Jitter, EightBits, Few, Mains, Sines, Capacitor, LostRows, Bending, Shot]
+};
 
-/// The place of a body that a growing force pulls against friction, until a stop throws it back by a share of its speed.
-fn solenoid(lag: f64, rebound: f64) -> impl Fn(f64) -> f64 {
-    const STEPS: usize = 4000;
-    let (mut x, mut v, mut places) = (0.0, 0.0, vec![0.0]);
-    for k in 0..3 * STEPS {
-        let t = k as f64 / STEPS as f64;
-        let force = 4.0 * (1.0 - (-t / lag).exp()) - 0.4;
-        v += f64::max(force, if v > 0.0 { force } else { 0.0 }) / STEPS as f64;
-        x += v / STEPS as f64;
-        if x > 1.0 {
-            (x, v) = (1.0, -rebound * v);
-        }
-        places.push(f64::max(x, 0.0));
+const STEPS: usize = 80_000;
+/// An integration's step; all its steps last for 20.
+const DT: f64 = 1.0 / 4000.0;
+
+/// A motion's places, and how many steps go by in a unit of its time.
+struct Path(Vec<f64>, f64);
+
+impl Path {
+    /// `step` moves the state on by `DT` and gives the place; the place 1 is first reached at the time 1.
+    fn new<S>(mut state: S, mut step: impl FnMut(&mut S) -> f64) -> Self {
+        let places: Vec<f64> = (0..STEPS).map(|_| step(&mut state)).collect();
+        let unit = places.iter().position(|p| *p >= 1.0 - 1e-9).expect("it arrives");
+        Self(places, unit as f64 + 1.0)
     }
-    move |t| places[((t.max(0.0) * STEPS as f64) as usize).min(3 * STEPS)]
+
+    /// A mass from rest at 0 until a stop at 1, if any, which throws it back by a share of its speed.
+    fn moved(back: Option<f64>, force: impl Fn(f64, f64) -> f64) -> Self {
+        Self::new([0.0, 0.0], |[x, speed]| {
+            *speed += force(*x, *speed) * DT;
+            *x += *speed * DT;
+            if let (Some(back), true) = (back, *x > 1.0) {
+                (*x, *speed) = (1.0, -back * *speed);
+            }
+            *x
+        })
+    }
+
+    /// Before its first step it is at 0.
+    fn at(&self, t: f64) -> f64 {
+        let x = (t * self.1).clamp(0.0, STEPS as f64 - 1.0);
+        let (k, part) = (x as usize, x.fract());
+        let before = if k == 0 { 0.0 } else { self.0[k - 1] };
+        before + (self.0[k] - before) * part
+    }
 }
 
-/// The place of a mass on a damped spring that is let go, which stays where it has come to the stop.
-fn spring(damping: f64) -> impl Fn(f64) -> f64 {
-    const STEPS: usize = 4000;
-    let (mut x, mut v, mut places) = (0.0, 0.0, vec![0.0]);
-    for _ in 0..3 * STEPS {
-        v += (9.0 * (1.05 - x) - 6.0 * damping * v) / STEPS as f64;
-        x = f64::min(x + v / STEPS as f64, 1.0);
-        places.push(x);
+/// The share of a round pupil of radius 1 within a regular polygon whose sides are so far from the centre.
+fn polygon(sides: f64, far: f64) -> f64 {
+    let far = far.clamp(0.0, 1.0);
+    if far <= (PI / sides).cos() {
+        sides * far * far * (PI / sides).tan() / PI
+    } else {
+        1.0 - sides * (far.acos() - far * (1.0 - far * far).sqrt()) / PI
     }
-    move |t| places[((t.max(0.0) * STEPS as f64) as usize).min(3 * STEPS)]
-}
-
-/// The share of a disc of radius 1 that a larger one covers, so far away.
-fn overlap(radius: f64, apart: f64) -> f64 {
-    if apart <= radius - 1.0 {
-        return 1.0;
-    }
-    if apart >= radius + 1.0 {
-        return 0.0;
-    }
-    let (d, r) = (apart, radius);
-    let alpha = ((d * d + 1.0 - r * r) / (2.0 * d)).clamp(-1.0, 1.0).acos();
-    let beta = ((d * d + r * r - 1.0) / (2.0 * d * r)).clamp(-1.0, 1.0).acos();
-    (alpha - 0.5 * (2.0 * alpha).sin() + r * r * (beta - 0.5 * (2.0 * beta).sin())) / PI
 }
 
 fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
-    let (start, length) = (random.within(0.27, 0.34), random.within(0.25, 0.38));
+    let (start, length) = (random.within(0.26, 0.33), random.within(0.26, 0.38));
+    let (a, b) = (random.within(0.08, 0.4) * length, random.within(0.08, 0.4) * length);
     let end = start + length;
-    let (a, b) = (random.within(0.1, 0.35) * length, random.within(0.1, 0.35) * length);
-    let (u, v) = (random.within(0.0, 1.0), random.within(0.0, 1.0));
-    let up = move |t: f64| ((t - start) / a).clamp(0.0, 1.0);
-    let down = move |t: f64| ((end - t) / b).clamp(0.0, 1.0);
-    // From rest to rest.
-    let cam = |z: f64| z - (TAU * z).sin() / TAU;
+    let close = end - b;
+    let [u, v, w, z] = [0; 4].map(|_| random.within(0.0, 1.0));
+    // From a motion that opens, and another that closes.
+    let both = |opens: &Path, closes: &Path, t: f64| {
+        opens.at((t - start) / a).min(1.0 - closes.at((t - close) / b))
+    };
     match mechanics {
-        Mechanics::Curtains => Openness::new(move |t| {
-            let pulled = |z: f64| (z * (0.4 + 0.6 * z * (1.0 - 0.3 * u))) / (1.0 - 0.18 * u);
-            circle(pulled(up(t))) - circle(1.0 - pulled(down(t)))
-        }),
-        Mechanics::Iris => Openness::new(move |t| {
-            let radius = |z: f64| (1.0 - 0.5 * u) * cam(z) + 0.5 * u * z;
-            radius(up(t)).powi(2).min(radius(down(t)).powi(2))
-        }),
-        Mechanics::Solenoid => {
-            let place = solenoid(0.1 + 0.5 * u, 0.05 + 0.3 * v);
-            Openness::new(move |t| {
-                circle(place((t - start) / a).min(1.0 - place((t - end + b) / b)))
+        Mechanics::Cranks => {
+            let ring = |drag: f64| Path::moved(Some(0.0), |x, speed| 1.0 - 0.5 * x - drag * speed);
+            let (opens, closes, turn) = (ring(1.5 * u), ring(1.5 * v), PI * (0.45 + 0.45 * w));
+            let lift = |x: f64| 1.0 - (x * turn).cos() + 0.15 * (x * turn).sin().powi(2);
+            let (hidden, sides) = (0.05 + 0.15 * z, 3.0 + (5.0 * z).floor());
+            Openness::new(|t| {
+                let lifted = lift(both(&opens, &closes, t)) / lift(1.0);
+                polygon(sides, (1.1 + hidden) * lifted - hidden)
             })
         }
-        Mechanics::Stretched => Openness::new(move |t| {
-            let late = (t - end + b).max(0.0) / (0.3 * b);
-            (1.0 - (-(t - start).max(0.0) / (0.2 * a)).exp()) * (-late.powf(0.6 + 0.3 * u)).exp()
-        }),
-        Mechanics::Chopper => Openness::new(move |t| circle(up(t)).min(circle(down(t)))),
-        Mechanics::Catches => Openness::new(move |t| {
-            let z = up(t);
-            let (at, wide) = (0.4 + 0.3 * u, 0.05 + 0.2 * v);
-            let gone = (z - ((z - at).clamp(0.0, wide))) / (1.0 - wide);
-            circle(gone).min(circle(down(t)))
-        }),
-        Mechanics::Afterglow => Openness::new(move |t| {
-            let glow = |t: f64| {
-                (1.0 - 0.2 * u) * (-t / (0.02 * length)).exp()
-                    + 0.2 * u * (-t / (0.1 * length)).exp()
+        Mechanics::Rollers => {
+            let curtain = |brake: f64| {
+                let held = move |x: f64| if x > 0.86 { brake } else { 0.0 };
+                Path::moved(Some(0.0), move |x, speed| 1.0 - 0.4 * x - held(x) * speed)
             };
-            if t < start {
-                0.0
-            } else {
-                let lit = 1.0 - glow(t - start);
-                if t < end { lit } else { lit * glow(t - end) }
-            }
-        }),
-        Mechanics::Sinks => Openness::new(move |t| {
-            let sunk = (0.01 + 0.06 * u) * ((t - start - a) / length).clamp(0.0, 1.0);
-            (cam(up(t)) - sunk).max(0.0).min(cam(down(t)))
-        }),
-        Mechanics::Polariser => Openness::new(move |t| {
-            let z = ((t - start) / length).clamp(0.0, 1.0);
-            (0.4 + 0.5 * u) * (PI * z).sin().powi(2)
-        }),
-        Mechanics::TurnsBack => Openness::new(move |t| {
-            let z = ((t - start) / length).clamp(0.0, 1.0);
-            (0.2 + 0.5 * u) * circle((2.0 * z.min(1.0 - z)).powf(1.0 + v))
-        }),
-        Mechanics::CamLeaf => Openness::new(move |t| {
-            let place = |z: f64| z.powi(3) * (10.0 - 15.0 * z + 6.0 * z * z);
-            place(up(t)).powf(1.3 + 0.7 * u).min(place(down(t)).powf(1.3 + 0.7 * v))
-        }),
-        Mechanics::Sticks => {
-            let (opens, closes) = (spring(0.2 + 0.7 * u), spring(0.2 + 0.7 * v));
-            Openness::new(move |t| {
-                circle(opens((t - start) / a).min(1.0 - closes((t - end + b) / b)))
+            let (first, second) = (curtain(3.0 + 6.0 * u), curtain(3.0 + 6.0 * v));
+            let (start, travel) = (start.min(0.29) - 0.03, 0.5 * length + 0.08);
+            let (late, faster) = (0.55 + 0.2 * z, 0.94 + 0.12 * w);
+            let gate = |x: f64| (x - 0.08).max(0.0) / 0.92;
+            Openness::new(|t| {
+                let z = (t - start) / travel;
+                (gate(first.at(z)) - gate(second.at((z - late) * faster))).max(0.0)
             })
         }
-        Mechanics::Disc => Openness::new(move |t| {
-            // The hole's radius, and how far it is from the beam, whose radius is 1.
-            let hole = 1.2 + 1.5 * u;
-            let apart = (t - start - 0.5 * length).abs() * 2.0 * (hole + 1.0) / length;
-            overlap(hole, apart)
-        }),
+        Mechanics::Rebound => {
+            let curtain = |back: f64| Path::moved(Some(back), |_, speed| 1.0 - 0.6 * speed);
+            let (first, second) = (curtain(0.1 + 0.4 * u), curtain(0.3 + 0.3 * v));
+            let gate = |x: f64| ((x - 0.02) / 0.96).clamp(0.0, 1.0);
+            Openness::new(|t| {
+                let opened = gate(first.at((t - start) / (0.7 * a)));
+                (opened - gate(second.at((t - close) / (0.5 * b)))).max(0.0)
+            })
+        }
+        Mechanics::Coil => {
+            let blade = |lag: f64, loss: f64| {
+                Path::new([0.0, 0.0, 0.0], move |[x, speed, current]| {
+                    *current += (1.0 - *current - 0.6 * *speed) / lag * DT;
+                    let deep = *x - 1.0;
+                    let rubber = 250.0 * deep + 2.0 * loss * 250f64.sqrt() * *speed;
+                    *speed += (*current - if deep > 0.0 { rubber.max(0.0) } else { 0.0 }) * DT;
+                    *x += *speed * DT;
+                    *x
+                })
+            };
+            let (opens, closes) = (blade(0.2 + u, 0.15 + 0.5 * w), blade(0.2 + v, 0.25 + 0.4 * w));
+            let (arm, b) = (1.4 + 2.5 * z, 0.6 * b);
+            Openness::new(|t| {
+                let x = opens.at((t - start) / a).min(1.0 - closes.at((t - close) / b));
+                let angle = (1.0 / arm).asin() * 1.08 * (2.0 * x.clamp(0.0, 1.0) - 1.0);
+                circle(0.5 + 0.5 * arm * angle.sin())
+            })
+        }
+        Mechanics::Falls => {
+            let (above, slot) = (0.05 + 1.5 * u, 1.4 + 2.0 * v);
+            let (from, to) = (f64::sqrt(above), f64::sqrt(above + slot + 1.0));
+            Openness::new(|t| {
+                let fallen =
+                    (from + (to - from) * ((t - start) / length).max(0.0)).powi(2) - from.powi(2);
+                fallen.clamp(0.0, 1.0) - (fallen - slot).clamp(0.0, 1.0)
+            })
+        }
+        Mechanics::Cine => {
+            // The gate is 1 high, and begins so far from the axis.
+            let (axis, wide, slower) = (0.5 + 1.5 * u, 0.7 + z, 0.12 * (w - 0.5));
+            let (half, sector) = ((0.5 / axis).atan(), 1.5 + 3.0 * v);
+            let edge = |angle: f64| {
+                let slope = angle.clamp(-half, half).tan();
+                let strip = |k: i32| (axis + wide * (f64::from(k) + 0.5) / 32.0) * slope + 0.5;
+                (0..32).map(|k| strip(k).clamp(0.0, 1.0)).sum::<f64>() / 32.0
+            };
+            Openness::new(|t| {
+                let z = ((t - start) / length).clamp(0.0, 1.0);
+                let turned = (z + slower * z * (1.0 - z)) * (sector + 1.0) * 2.0 * half - half;
+                (edge(turned) - edge(turned - 2.0 * half * sector)).max(0.0)
+            })
+        }
+        Mechanics::Snaps => {
+            let (pull, damping, hidden) = (0.36 + 0.4 * u, 0.7 + 0.6 * v, 0.06 + 0.1 * w);
+            let spring = |x: f64, speed: f64| -x - damping * speed;
+            let electric = |x: f64, speed| pull / (1.3 - x).powi(2) + spring(x, speed);
+            let snaps = Path::moved(Some(0.3), electric);
+            // Seen from the other end.
+            let freed = Path::moved(None, |x, speed| 1.0 - x - damping * speed);
+            let (close, unit) = (start + 0.65 * length, 0.08 * length + 0.05 * b);
+            Openness::new(|t| {
+                let x = snaps.at((t - start) / a).min(1.0 - freed.at((t - close) / unit));
+                (x.abs() - hidden).max(0.0) / (1.0 - hidden)
+            })
+        }
+        Mechanics::Memory => {
+            let wire = |goal: f64| {
+                Path::new(0.0, move |x| {
+                    *x += (goal - *x) / (1.0 + w * FRAC_PI_2 * (PI * *x).sin()) * DT;
+                    *x = f64::min(*x, 1.0);
+                    0.5 - 0.5 * (PI * *x).cos()
+                })
+            };
+            let (heats, cools) = (wire(1.5 + 3.0 * u), wire(1.1 + 0.6 * v));
+            Openness::new(|t| both(&heats, &cools, t))
+        }
+        Mechanics::Crystal => {
+            let cell = |first: f64, bias: f64| {
+                Path::new(first, move |angle: &mut f64| {
+                    *angle += angle.sin() * (1.0 + bias * angle.cos()) * DT;
+                    (FRAC_PI_2 * (0.5 - 0.5 * angle.cos())).sin().powi(2)
+                })
+            };
+            let (opens, closes) = (cell(0.04 + 0.1 * u, w - 0.5), cell(0.04 + 0.1 * v, z - 0.5));
+            Openness::new(|t| both(&opens, &closes, t))
+        }
+        Mechanics::Pockels => {
+            let (lag, share, damping) = (0.05 + 0.15 * u, 0.2 + 0.3 * v, 0.8 + 1.2 * w);
+            let cell = Path::new([0.0, 0.0, 0.0], |[volts, strain, speed]| {
+                *volts += (1.0 - *volts) / lag * DT;
+                *speed += (36.0 * (*volts - *strain) - damping * *speed) * DT;
+                *strain += *speed * DT;
+                (1.0 - share) * *volts + share * *strain
+            });
+            let unit = (0.008 + 0.012 * z) * length;
+            Openness::new(|t| {
+                let turned = cell.at((t - start) / unit) - cell.at((t - close) / unit);
+                (FRAC_PI_2 * turned).sin().powi(2)
+            })
+        }
+        Mechanics::Phosphor => {
+            let (tau, quench) = ((0.015 + 0.025 * u) * length, 0.3 + 0.7 * v);
+            let (droop, off) = (0.02 + 0.1 * w, start + 0.7 * length);
+            let (mut n, mut at, step) = (0.0, Vec::with_capacity(STEPS), 1.0 / STEPS as f64);
+            for k in 0..STEPS {
+                let since = k as f64 * step - start;
+                let gain = 1.0 - droop * (1.0 - (-since / (0.3 * length)).exp());
+                let lit = if since > 0.0 && since + start < off { gain } else { 0.0 };
+                n += (lit - n * n - quench * n) * step / tau;
+                at.push(n * n);
+            }
+            let peak = at.iter().copied().fold(0.0, f64::max);
+            let glow = Path(at, STEPS as f64);
+            Openness::new(|t| (glow.at(t) / peak).min(1.0))
+        }
+        Mechanics::Slips => {
+            let ring = |sticks: f64, inert: f64| {
+                Path::new([0.0, 0.0, 0.0], move |[x, speed, drive]| {
+                    *drive = f64::min(*drive + DT, 1.5);
+                    let pull = *drive - *x;
+                    if *speed > 0.0 || pull > 0.1 + sticks {
+                        *speed = f64::max(*speed + (pull - 0.1) / inert.powi(2) * DT, 0.0);
+                    }
+                    *x = f64::min(*x + *speed * DT, 1.0);
+                    *x
+                })
+            };
+            let (opens, closes) =
+                (ring(0.03 + 0.1 * u, 0.02 + 0.05 * w), ring(0.03 + 0.1 * v, 0.02 + 0.05 * z));
+            Openness::new(|t| ((1.2 * both(&opens, &closes, t)).sin() / 1.2f64.sin()).powi(2))
+        }
     }
 }
 
-/// Noise of the same power in every octave, by Voss and McCartney's method, of a standard deviation of 1.
-fn pink(n: usize, random: &mut Random) -> Vec<f64> {
-    const ROWS: u32 = 12;
-    let mut rows = [0; ROWS as usize].map(|_| random.normal());
-    let next = |k: usize| {
-        let row = (k.max(1).trailing_zeros()).min(ROWS - 1);
-        rows[row as usize] = random.normal();
-        rows.iter().sum::<f64>() / f64::from(ROWS).sqrt()
-    };
-    (0..n).map(next).collect()
+/// Noise of the same power in every octave and a standard deviation of 1: so many sines to a decade, at random.
+fn sines(n: usize, random: &mut Random) -> Vec<f64> {
+    const LINES: usize = 160;
+    let mut sum = vec![0.0; n];
+    for k in 0..LINES {
+        let place = (k as f64 + random.within(0.0, 1.0)) / LINES as f64;
+        let step = TAU * 0.3 * (n as f64 / 0.6).powf(place) / n as f64;
+        let (cosine, sine) = (random.normal(), random.normal());
+        for (i, v) in sum.iter_mut().enumerate() {
+            let (s, c) = (step * i as f64).sin_cos();
+            *v += (cosine * c + sine * s) / (LINES as f64).sqrt();
+        }
+    }
+    sum
 }
 
 /// A trace of a shutter by an instrument, and the noise's share of the light, by which its results may be off.
 pub fn measured(what: Mechanics, by: Instrument, random: &mut Random) -> (Measured, f64) {
     let truth = mechanics(what, random);
-    let n = match by {
-        Instrument::Few => random.scale(60.0, 400.0),
-        _ => random.scale(600.0, 6000.0),
-    } as usize;
+    let few = by == Instrument::Few;
+    let n = if few { random.scale(60.0, 400.0) } else { random.scale(600.0, 6000.0) } as usize;
     let noise = random.scale(0.0015, 0.01);
-    let mains = [50.0, 60.0][usize::from(random.within(0.0, 1.0) < 0.5)];
+    let mains = if random.within(0.0, 1.0) < 0.5 { 50.0 } else { 60.0 };
     let scale = match by {
         Instrument::Mains => random.within(0.7, 2.2) / mains,
         _ => random.scale(0.003, 0.2),
     };
-    let (size, phase) = (random.scale(0.004, 0.04), random.within(0.0, TAU));
-    let tau = random.scale(6.0, 40.0) * truth.exposure();
-    let clip = random.within(0.85, 0.97);
-    let (gain, dark, drift) =
-        (random.scale(0.1, 4.0), random.within(-0.5, 0.5), random.within(-0.06, 0.06));
-    let slow = if by == Instrument::Pink { pink(n, random) } else { Vec::new() };
-    let (mut times, mut values) = (Vec::new(), Vec::new());
-    let mut charge = 0.0;
+    let (hum, phase) = (random.scale(0.004, 0.04), random.within(0.0, TAU));
+    let passes = (-1.0 / (random.scale(6.0, 40.0) * truth.exposure() * n as f64)).exp();
+    let (drift, bend) = (random.within(-0.06, 0.06), random.within(1.0, 4.0));
+    let (gain, dark) = (random.scale(0.1, 4.0), random.within(-0.5, 0.5));
+    let slow = if by == Instrument::Sines { sines(n, random) } else { Vec::new() };
+    let bits = match by {
+        Instrument::EightBits => 200.0,
+        Instrument::Jitter => 3000.0,
+        _ => 1e6,
+    };
+    let (mut times, mut values, mut charge) = (Vec::new(), Vec::new(), 0.0);
     for k in 0..n {
         let t = (k as f64 + 0.5) / n as f64;
-        let mut v = truth.mean(t, 1.0 / n as f64);
-        match by {
-            Instrument::Mains => v += size * (TAU * mains * t * scale + phase).sin(),
-            Instrument::Warming => v += drift * (1.0 - (-2.0 * t).exp()),
-            Instrument::Clipped => v = v.min(clip * truth.at.iter().copied().fold(0.0, f64::max)),
+        let light = truth.mean(t, 1.0 / n as f64);
+        let white = noise * slow.get(k).copied().unwrap_or_else(|| random.normal());
+        let v = match by {
+            Instrument::Mains => light + white + hum * (TAU * mains * t * scale + phase).sin(),
+            Instrument::Bending => light + white + drift * (-bend * t).exp(),
+            Instrument::Shot => light + white * (0.1 + 0.9 * light).sqrt(),
             Instrument::Capacitor => {
-                charge += (v - charge) / (tau * n as f64);
-                v -= charge;
+                let before = charge;
+                charge = light + (charge - light) * passes;
+                light + white - 0.5 * (before + charge)
             }
-            _ => (),
-        }
-        v += noise * slow.get(k).copied().unwrap_or_else(|| random.normal());
-        let bits = match by {
-            Instrument::EightBits => 200.0,
-            Instrument::Jitter => 3000.0,
-            _ => 1e6,
+            _ => light + white,
         };
         let late = if by == Instrument::Jitter { random.within(-0.2, 0.2) / n as f64 } else { 0.0 };
         times.push(scale * (t + late));
