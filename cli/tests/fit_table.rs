@@ -36,7 +36,10 @@ struct Row {
     /// Of the triggers, those whose interval holds the truth.
     covered: f64,
     exposure_covered: bool,
+    /// Or not above the most that it may be.
     efficiency_covered: bool,
+    /// Something of 1 % of the light might not be seen, which is in the errors.
+    is_blind: bool,
     time: Duration,
 }
 
@@ -68,7 +71,11 @@ fn row(shutter: Shutter, case: &Case) -> Option<Row> {
         greatest,
         covered,
         exposure_covered: holds(fit.exposure, exposure),
-        efficiency_covered: holds(fit.efficiency, case.truth.efficiency()),
+        efficiency_covered: match fit.most_efficiency() {
+            Some(most) => case.truth.efficiency() <= most,
+            None => holds(fit.efficiency, case.truth.efficiency()),
+        },
+        is_blind: fit.warnings.iter().any(|warning| warning.code() == "unseen"),
         time,
     })
 }
@@ -132,17 +139,6 @@ fn of(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
     rows.iter().filter(|row| row.shutter == shutter).collect()
 }
 
-/// A relaxing liquid crystal is never quite closed: the end of its tail, and so its efficiency, is a matter of
-/// definition. A box's is 1.
-fn has_an_efficiency(row: &&&Row) -> bool {
-    !matches!(row.shutter, Shutter::LiquidCrystal | Shutter::Box)
-}
-
-fn efficiency_covered(rows: &[&Row]) -> Option<f64> {
-    let ended: Vec<&Row> = rows.iter().filter(has_an_efficiency).copied().collect();
-    (!ended.is_empty()).then(|| share(&ended, |row| f64::from(row.efficiency_covered)))
-}
-
 fn print(name: &str, rows: &[&Row]) {
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{:.0} %", 100.0 * x));
     let error = |q, of: fn(&Row) -> f64| 100.0 * quantile(rows.iter().map(|row| of(row)), q);
@@ -159,7 +155,7 @@ fn print(name: &str, rows: &[&Row]) {
         percent(kept_simple(rows)),
         percent(Some(share(rows, |row| row.covered))),
         percent(Some(share(rows, |row| f64::from(row.exposure_covered)))),
-        percent(efficiency_covered(rows)),
+        percent(Some(share(rows, |row| f64::from(row.efficiency_covered)))),
         1e3 * share(rows, |row| row.time.as_secs_f64()),
     );
 }
@@ -172,18 +168,23 @@ fn judge_errors(rows: &[Row], failed: usize, (median, most): (f64, f64)) {
     assert!(error(0.9) <= most, "90 % {}", error(0.9));
 }
 
-/// The limits on the choice of the model, and on how often an interval holds the truth.
+/// The limits on the choice of the model, and on how often an interval holds the truth. Errors must not be too large either, but
+/// for what is in them that these shutters do not do.
 fn judge_claims(rows: &[Row], coverage: RangeInclusive<f64>) {
     let all: Vec<&Row> = rows.iter().collect();
     let kept = kept_simple(&all).expect("some are simple");
     assert!(kept >= 0.9, "kept simple: {kept}");
-    for (what, share) in [
-        ("triggers", share(&all, |row| row.covered)),
-        ("exposure", share(&all, |row| f64::from(row.exposure_covered))),
-        ("efficiency", efficiency_covered(&all).expect("some have an end")),
+    let sighted: Vec<&Row> = rows.iter().filter(|row| !row.is_blind).collect();
+    for (what, of) in [
+        ("triggers", (|row| row.covered) as fn(&Row) -> f64),
+        ("exposure", |row| f64::from(row.exposure_covered)),
     ] {
-        assert!(coverage.contains(&share), "{what} covered: {share}");
+        let (all, sighted) = (share(&all, of), share(&sighted, of));
+        assert!(all >= *coverage.start(), "{what} covered: {all}");
+        assert!(sighted <= *coverage.end(), "{what} covered without `unseen`: {sighted}");
     }
+    let efficiency = share(&all, |row| f64::from(row.efficiency_covered));
+    assert!(efficiency >= 0.96, "efficiency covered: {efficiency}");
 }
 
 const DISTURBANCES: [(Disturbance, &str, (f64, f64)); 4] = [
@@ -228,6 +229,7 @@ fn table() {
             assert!(covered >= 0.9, "{shutter:?}: triggers covered: {covered}");
         }
         print("all", &rows.iter().collect::<Vec<_>>());
+        print("without `unseen`", &rows.iter().filter(|row| !row.is_blind).collect::<Vec<_>>());
         judge_errors(&rows, failed, limits);
         judge_claims(&rows, 0.9..=0.99);
         if is_white {

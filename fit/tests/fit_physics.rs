@@ -233,6 +233,18 @@ fn a_tail_is_told() {
     assert!(told >= 23, "{told}");
 }
 
+/// A dip of 1 % for a fifth of the time is told, or that it would not be seen; full light that sinks by 0.5 to 2 % is, or is in
+/// the errors.
+#[test]
+fn a_dip_and_a_slope_are_told() {
+    let [dips, slopes] = [Family::Shallow, Family::Sinks].map(|family| family_rows(family, 60, 5));
+    let count = |rows: &[Row], of: fn(&Row) -> bool| rows.iter().filter(|row| of(row)).count();
+    let (told, found) = (count(&dips, |row| row.told), count(&dips, |row| row.from_trace));
+    assert!(told >= 57 && found >= 42, "{told} {found}");
+    let held = count(&slopes, |row| row.covered);
+    assert!(held >= 56, "{held}");
+}
+
 /// And what is right is not doubted.
 #[test]
 fn the_models_own_kind_is_not_doubted() {
@@ -254,10 +266,15 @@ fn the_models_own_kind_is_not_doubted() {
 #[ignore = "some minutes: the table of false alarms, for docs/internals/fit.md"]
 fn false_alarms() {
     let (count, seed) = (asked("EACH", 20), asked("SEED", 1));
-    for (k, disturbance) in
-        [Disturbance::White, Disturbance::Coloured, Disturbance::Hum, Disturbance::Drift]
-            .into_iter()
-            .enumerate()
+    for (k, disturbance) in [
+        Disturbance::White,
+        Disturbance::Coloured,
+        Disturbance::Hum,
+        Disturbance::Drift,
+        Disturbance::Pink,
+    ]
+    .into_iter()
+    .enumerate()
     {
         for shutter in SHUTTERS {
             let alarms = each(count, |i| {

@@ -81,7 +81,12 @@ pub enum Disturbance {
     Coloured,
     Hum,
     Drift,
+    /// 1/f noise instead.
+    #[allow(dead_code)]
+    Pink,
 }
+
+const OCTAVES: usize = 12;
 
 /// A ramp from 0 at 0 to 1 at 1.
 type Ramp = Box<dyn Fn(f64) -> f64>;
@@ -248,6 +253,7 @@ pub fn traced(
     let hum = random.scale(0.005, 0.03);
     let drift = random.within(-0.05, 0.05);
     let mut last = random.normal();
+    let mut octaves = [0; OCTAVES].map(|_| random.normal());
     let mut values = Vec::with_capacity(n);
     for i in 0..n {
         let t = (i as f64 + 0.5) * step;
@@ -259,6 +265,11 @@ pub fn traced(
         let fresh = random.normal();
         last = match disturbance {
             Disturbance::Coloured => 0.8 * last + 0.6 * fresh,
+            // Each octave changes half as often as the one above (Voss and McCartney).
+            Disturbance::Pink => {
+                octaves[(i.max(1).trailing_zeros() as usize).min(OCTAVES - 1)] = fresh;
+                octaves.iter().sum::<f64>() / (OCTAVES as f64).sqrt()
+            }
             _ => fresh,
         };
         let beside = match disturbance {

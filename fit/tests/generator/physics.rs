@@ -65,9 +65,11 @@ pub enum Family {
     Differing,
     Coarse,
     Creep,
+    Sinks,
+    Shallow,
 }
 
-pub const FAMILIES: [Family; 17] = [
+pub const FAMILIES: [Family; 19] = [
     Family::Bounce,
     Family::DeepBounce,
     Family::Dip,
@@ -85,6 +87,8 @@ pub const FAMILIES: [Family; 17] = [
     Family::Differing,
     Family::Coarse,
     Family::Creep,
+    Family::Sinks,
+    Family::Shallow,
 ];
 
 /// A trace of a shutter, and the truth.
@@ -186,6 +190,19 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
                 leaf((t - start) / a) * if late > 0.0 { down } else { 1.0 }
             })
         }
+        // The lamp warms up, or the blades sag.
+        Family::Sinks => {
+            let by = random.within(0.005, 0.02);
+            Openness::new(move |t| {
+                plain(t) * (1.0 - by * ((t - open) / (close - open)).clamp(0.0, 1.0))
+            })
+        }
+        // A dip of a hundredth for a fifth of the time.
+        Family::Shallow => {
+            let wide = 0.2 * length;
+            let at = random.within(open + 0.5 * wide, close - 0.5 * wide);
+            Openness::new(move |t| plain(t) - 0.01 * f64::from((t - at).abs() < 0.5 * wide))
+        }
         _ => Openness::new(plain),
     }
 }
@@ -212,8 +229,11 @@ pub fn measured(family: Family, random: &mut Random) -> Measured {
 
 /// What the lamp and the recorder make of a shutter.
 pub fn recorded(family: Family, truth: Openness, scale: f64, random: &mut Random) -> Measured {
-    let n = random.scale(800.0, 5000.0) as usize;
-    let noise = random.scale(0.001, 0.01);
+    // A shallow dip may be hidden.
+    let (most, least, noisy) =
+        if family == Family::Shallow { (2000.0, 400.0, 0.02) } else { (5000.0, 800.0, 0.01) };
+    let n = random.scale(least, most) as usize;
+    let noise = random.scale(0.001, noisy);
     let lamp = lamp(family, scale, random);
     let light = |t: f64| lamp(t) * truth.at[((t * FINE as f64) as usize).min(FINE - 1)];
     // Many steps to a sample, so that no recorder sees a staircase.
