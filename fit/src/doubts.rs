@@ -70,13 +70,19 @@ fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     if light.len() < 20 || dark.len() < 20 {
         return None;
     }
-    let [quiet, usual] = [&light, &dark].map(|d| d.iter().sum::<f64>() / d.len() as f64);
+    let lit = light.len();
+    // But for a tenth: an edge in the dark is no noise.
+    let [quiet, usual] = [light, dark].map(|mut differ| {
+        differ.sort_by(f64::total_cmp);
+        differ.truncate(differ.len() * 9 / 10);
+        differ.iter().sum::<f64>() / differ.len() as f64
+    });
     // Twenty differences and more scatter by a half at most; a level between two steps of the values makes noise of its
     // own.
     let least = least_step(&fit.samples.values) / fit.best().signal.gain;
     let is_quiet = quiet < 0.25 * usual && usual.sqrt() > least;
     let top = fit.best().signal.dark + fit.best().signal.gain;
-    let share = light.len() as f64 / (parts.pulse.len() as f64);
+    let share = lit as f64 / parts.pulse.len() as f64;
     is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(top) })
 }
 
@@ -150,19 +156,17 @@ fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
 fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<Warning> {
     let best = fit.best();
     let curve = best.signal.curve;
-    if curve.opening.min(curve.closing) < 2.0 * step {
-        return Some(Warning::SharpEdges { step });
-    }
-    // What a misfit leaves is no noise, and no average makes it less.
-    if !fit.test.explained {
-        return None;
-    }
     let [up25, _, up75, down75, _, down25] = frame.crossings;
     let longer = (up75 - up25).max(down25 - down75);
     // Half a ramp lies between its quarters.
     let on_ramp = (2.0 * longer / step).max(1.0);
     let noise = best.rms * correlation.sqrt();
-    (noise / on_ramp.sqrt() > 0.03).then_some(Warning::NoiseHidesRamps { noise: best.rms })
+    // What a misfit leaves is no noise, and no average makes it less.
+    if fit.test.explained && noise / on_ramp.sqrt() > 0.03 {
+        return Some(Warning::NoiseHidesRamps { noise: best.rms });
+    }
+    let is_sharp = curve.opening.min(curve.closing) < 2.0 * step;
+    is_sharp.then_some(Warning::SharpEdges { step })
 }
 
 /// A curve that comes to a point, or nearly, by how much of the time above half it is above 95 % of its peak: a tenth
@@ -183,7 +187,7 @@ fn no_plateau(fit: &Fit) -> Option<Warning> {
 fn unseen(fit: &Fit) -> Option<Warning> {
     let Test { tested, unseen, .. } = fit.test;
     (tested && fit.from == From::Model && unseen > UNSEEN)
-        .then_some(Warning::Unseen { share: unseen })
+        .then_some(Warning::Unseen { share: unseen.min(1.0) })
 }
 
 /// Errors beyond which a result is of no use to most.

@@ -26,7 +26,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "exposure_s": fit.exposure.value,
         "exposure_error_s": fit.exposure.error,
         "efficiency": fit.efficiency.value,
-        "efficiency_error": fit.efficiency.error,
+        "efficiency_error": fit.most_efficiency().is_none().then_some(fit.efficiency.error),
         "efficiency_most": fit.most_efficiency(),
         "nominal_s": fit.nominal,
         "delay_s": of_delay(Delay::mean),

@@ -61,7 +61,9 @@ impl Shape {
     /// It matters where the triggers move so much with it, as a share of the exposure.
     pub fn matters(self) -> f64 {
         match self {
-            Self::Tail | Self::Slope => 1e-3,
+            Self::Tail => 1e-3,
+            // That is 0.5 % of the exposure.
+            Self::Slope => 8e-4,
             Self::Dip(_) => MATTERS,
         }
     }
@@ -165,13 +167,15 @@ fn pattern(
         let amounts = light.iter().map(|light| amount * light / gain);
         Beside::new(exposure, bins, amounts)
     };
+    let raw = of(&light);
     let (k, highest) = light.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     Some(Pattern {
         shape,
         // Light that is missing behind a ramp is no tail.
         sigma: if shape == Shape::Tail && along < 0.0 { -sigma } else { sigma },
-        triggers: of(&movable.without_levels(&light)).triggers(),
-        exposure: of(&light).exposure(),
+        // The curve may make up for some of it, but not for more than all.
+        triggers: raw.triggers().min(of(&movable.without_levels(&light)).triggers()),
+        exposure: raw.exposure(),
         share: amount * highest / gain,
         at: bins[k].from,
         least,

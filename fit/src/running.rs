@@ -100,6 +100,9 @@ impl Running {
         // A tail is light as well, though none of its blocks stands out.
         let tail = tail_end(fits, kind);
         to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
+        // The noise is known by what is dark now.
+        let dark_now = Parts { before: 0..from, pulse: from..to, after: to..missed.len() };
+        let walk = Walk::new(&missed, &dark_now, fits.step).unwrap_or(walk);
 
         let opened = fits.opened(kind);
         let mut sum = 0.0;
@@ -153,9 +156,9 @@ impl Running {
         let stretches: Vec<(f64, f64)> = (0..=count).filter_map(stretch).collect();
         let least = stretches.iter().map(|(scatter, _)| *scatter).fold(f64::INFINITY, f64::min);
         // Which of those that are nearly as flat, or as flat as the noise lets them be, is the flattest is chance: their mean
-        // counts, and is known no better than they agree.
+        // counts, and is known no better than they agree. Of the flattest one chance makes a quarter of the usual at least.
         let usual = walk / part * (parts - 1) as f64;
-        let alike = stretches.iter().filter(|s| s.0 <= ALIKE * least.max(usual));
+        let alike = stretches.iter().filter(|s| s.0 <= ALIKE * usual.clamp(least, 4.0 * least));
         let alike: Vec<f64> = alike.map(|(_, level)| *level).collect();
         let middle = mean(-0.25, 0.25)?;
         let (scatter, value) = match alike.len() {

@@ -312,8 +312,8 @@ pub enum Warning {
     Hum { hertz: f64, amplitude: f64 },
     /// A sine of so few periods in the record that a drift or the shutter may pass for it; was its frequency given?
     #[error(
-        "hum of {:.2} % of the light, taken out at {}, of which the record holds {periods:.1} periods: a drift or the \
-         shutter's own shape may pass for it; record three periods (60 ms), or run it all on batteries",
+        "hum of {:.2} % of the light, taken out at {}, of which the dark and the pulse hold {periods:.1} periods: a drift \
+         or the shutter's own shape may pass for it; run it all on batteries, or record more dark",
         100.0 * amplitude,
         mains(*.hertz, *.is_known)
     )]
@@ -359,8 +359,8 @@ pub enum Warning {
     Gap { count: usize, from: f64, to: f64 },
     /// So few samples, or so much noise, that the test of the fit is blind for a dip of this share for a fifth of the pulse.
     #[error(
-        "too few samples, or too much noise, to see a dip, a slope or a tail of less than {} of the light; that is in \
-         the errors; sample faster, or average several shots",
+        "too few samples, or too much noise, to see a dip, a slope or a tail of less than {} of the light; the ± \
+         allow for it; sample faster, or average several shots",
         percent(.share)
     )]
     Unseen { share: f64 },
