@@ -127,7 +127,9 @@ pub fn fit(
         fit.delay = Some(delay);
         fit.warnings.extend(doubts);
     }
-    if differ {
+    // Pulses of a lamp are no shots.
+    let are_shots = !fit.warnings.iter().any(|warning| matches!(warning, Warning::Pulsed { .. }));
+    if differ && are_shots {
         fit.warnings.push(Warning::ShotsDiffer { scatter: counted.scatter });
     }
     let doubts = doubts::doubts(&fit, fits, frame, options.full.is_some());

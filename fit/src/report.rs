@@ -67,7 +67,7 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
     let unit = fit.unit();
     writeln!(
         out,
-        "  model                     opens      open    closes   rms %    ΔBIC    shift"
+        "  model                   opening      open   closing   rms %    ΔBIC    shift"
     )?;
     for candidate in &fit.candidates {
         let kind = candidate.signal.kind;

@@ -108,8 +108,8 @@ pub enum Refusal {
     /// The samples of a ramp are missing.
     #[error(
         "samples are missing from {} to {}, and the light changes there: a ramp is lost; record it again",
-        time(.from),
-        time(.to)
+        short(*.from, 4),
+        short(*.to, 4)
     )]
     LostRamp { from: f64, to: f64 },
     /// No delay can be told from the edge of the camera's sync.
@@ -206,7 +206,8 @@ pub enum Warning {
     SyncBounced { few: usize, all: usize },
     /// So many of all shots have no edge before them.
     #[error(
-        "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay",
+        "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay; check the \
+         lead",
         counted(.all, "shot")
     )]
     SyncMissing { few: usize, all: usize },
@@ -216,7 +217,7 @@ pub enum Warning {
     /// The edge comes after the opening in so many of all shots, by so much at most.
     #[error(
         "the edge of the sync comes after the start of opening in {few} of {}, by up to {}: it cannot trigger what comes \
-         before it",
+         before it; use an earlier contact",
         counted(.all, "shot"),
         time(.by)
     )]
@@ -319,7 +320,7 @@ pub enum Warning {
     )]
     ShortHum { hertz: f64, amplitude: f64, periods: f64, is_known: bool },
     /// The dark level drifts so far over the frame.
-    #[error("the dark level drifts by {:.2} % of the light, fitted and taken out", 100.0 * amount)]
+    #[error("the dark level drifts by {:.2} % of the light over the samples that are fitted, and is taken out", 100.0 * amount)]
     Drift { amount: f64 },
     /// The ramps are lost in the noise.
     #[error(
@@ -343,14 +344,14 @@ pub enum Warning {
     NoPlateau,
     /// A large standard error, the largest, as a share of the exposure.
     #[error(
-        "the exposure or a trigger is known to ± {} of the exposure only (a standard error): take more samples, or \
-         more light",
+        "the exposure or a trigger is known to ± {} of the exposure only (a standard error): see to \
+         the other warnings first, then take more samples, or more light",
         percent(.share)
     )]
     WideError { share: f64 },
     /// Samples are missing in the pulse or beside it: the longest gap's ends.
     #[error(
-        "samples are missing at {} in the pulse or beside it, the longest gap from {} to {}: what the shutter did \
+        "samples are missing at {} in the pulse or beside it, the longest gap from {} to {} s: what the shutter did \
          there is not known; record it again",
         counted(.count, "place"),
         time(.from),
