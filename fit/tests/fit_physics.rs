@@ -2,7 +2,7 @@
 //! ordinary test judges some traces of each; the tables of docs/internals/fit.md come from
 //!
 //! ```text
-//! cargo test --package shutter --test fit_physics -- --ignored --nocapture
+//! cargo test --package shutter-fit --test fit_physics -- --ignored --nocapture
 //! ```
 //!
 //! `SEED=9000011` before it makes other traces, and `EACH=100` more of them.
