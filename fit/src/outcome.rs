@@ -153,7 +153,7 @@ pub struct Test {
     pub tested: bool,
     /// By how many standard deviations the most telling of the tests is off.
     pub sigma: f64,
-    /// A dip, a slope or a tail below this share of the light would not be seen.
+    /// A dip, a slope or a tail below this share of the light may not be seen.
     pub unseen: f64,
     /// The greatest structure that is left, as a share of the light.
     pub share: f64,
@@ -211,10 +211,11 @@ impl Fit {
         &self.candidates[self.chosen as usize]
     }
 
-    /// The most that the efficiency may be, in 39 of 40 traces: blades may start more softly than any curve shows. None for straight
-    /// ramps that explain the trace, which have no soft start.
+    /// The most that the efficiency may be, in 39 of 40 traces: blades may start more softly than any curve shows. None where straight
+    /// ramps, which have no soft start, are the best model and explain the trace.
     pub fn most_efficiency(&self) -> Option<f64> {
-        let is_straight = self.chosen <= Kind::Trapezoid && self.test.explained;
+        let is_best = self.best().delta_bic <= 0.0 && self.test.explained;
+        let is_straight = self.chosen <= Kind::Trapezoid && is_best;
         let Measured { value, error } = self.efficiency;
         (!is_straight).then_some((value + 1.96 * error).min(1.0))
     }

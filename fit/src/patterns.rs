@@ -4,6 +4,8 @@
 //! How much of a pattern is in the samples, less what the signal's own parameters could make up for, is compared with what the dark's
 //! noise would put there (a score test). That finds what no block of samples shows by itself.
 
+use std::iter::once;
+
 use crate::bins::Bin;
 use crate::curve::Exposure;
 use crate::frame::FrameFits;
@@ -128,18 +130,21 @@ impl Pattern {
 
 /// All patterns in what a kind's curve misses; none where there is too little dark.
 pub fn patterns(fits: &FrameFits, kind: Kind) -> Vec<Pattern> {
+    of_shapes(fits, kind, Shape::all())
+}
+
+fn of_shapes(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) -> Vec<Pattern> {
     let Some(noise) = Noise::new(fits, kind) else { return Vec::new() };
     let movable = Movable::new(&fits.of(kind).solution, fits.bins(), |_| true);
     let found = |shape| pattern(fits, kind, shape, &movable, &noise);
-    Shape::all().filter_map(found).collect()
+    shapes.filter_map(found).collect()
 }
 
 /// When the tail that the samples show has come to its end, if they show one.
 pub fn tail_end(fits: &FrameFits, kind: Kind) -> Option<f64> {
     let curve = fits.of(kind).solution.signal.curve;
-    let is_tail = |pattern: &Pattern| pattern.shape == Shape::Tail && pattern.is_told();
     let end = curve.end() + TAIL_ENDS * LAG * curve.closing;
-    patterns(fits, kind).iter().any(is_tail).then_some(end)
+    of_shapes(fits, kind, once(Shape::Tail)).iter().any(Pattern::is_told).then_some(end)
 }
 
 fn pattern(

@@ -104,12 +104,12 @@ impl Structure {
         if pattern.matters() {
             self.take(pattern.sigma, pattern.shape.beyond(), (pattern.share, pattern.at));
         }
-        let Pattern { shape, sigma, triggers, exposure, least, .. } = *pattern;
+        let Pattern { shape, sigma, triggers, exposure, .. } = *pattern;
         // One of many dips is always beyond a standard deviation.
         if sigma > 1.5 && !matches!(shape, Shape::Dip(_)) {
             self.hide(triggers, exposure);
         }
-        let unseen = pattern.unseen();
+        let (unseen, least) = (self.strict * pattern.unseen(), self.strict * pattern.least);
         self.unseen = self.unseen.max(unseen);
         if unseen > UNSEEN {
             let [of_triggers, of_exposure] = self.unseen_moves;
