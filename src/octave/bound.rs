@@ -1,25 +1,22 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
 //! certificate", 1 to 4).
 //!
-//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q`
-//! and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. For each degree `n < N`,
-//!
-//! `|R| <= (greatest sample + tail) / cos(n π / 2N) + tail`,
-//!
-//! where the *tail* is what `R` has above degree `n`, bounded on an ellipse around [-1, 1] ([`off_line`]).
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
+//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times a weight has degree 51, and a polynomial of
+//! degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and Zeller 1964).
 
 use crate::number::units::{WORD, fixed_f64};
 use crate::octave::Octave;
 use crate::octave::path::{Path, absolute};
 
-/// The greatest N, and `cos(π / N)`.
-const POINTS: usize = 96;
-const COSINE: f64 = 0.9994645874763657;
+/// N, and `cos(π / N)`.
+const POINTS: usize = 192;
+const COSINE: f64 = 0.9998661379095618;
 
-/// At first every fourth point is sampled; then every second, then all, if that is not enough.
-pub(crate) const FIRST_STRIDE: usize = 4;
+/// At first every second point is sampled, as if N were 96; then all, if that is not enough.
+pub(crate) const FIRST_STRIDE: usize = 2;
 
-/// `cos(i π / 96)` for `i` from 0 to 48, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
+/// `cos(i π / N)` for `i` from 0 to N / 2, each from the two before it. They count 2⁻³⁰ (`proofs/certificate.py`).
 const COSINES: &[i32; POINTS / 2 + 1] = &{
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() {
@@ -32,31 +29,11 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
 /// `s = 1` as a place. (In this file a place is the `s` of a sample, in 2⁻³⁰, not a parameter of the Bezier.)
 const PLACE: f32 = (1 << 30) as f32;
 
-/// An ellipse around [-1, 1], with half axes `(ρ ± 1/ρ) / 2`.
-struct Ellipse {
-    /// The greater one.
-    axis: f32,
-    /// The tail for degree 12 and a bound of 1.
-    tail: f32,
-    /// A tail's factor for two degrees more.
-    square: f32,
-}
+/// `1 / cos(51 π stride / 2N)`, by the stride.
+// proofs/certificate.py
+const FACTOR: [f32; FIRST_STRIDE + 1] = [0.0, 1.093_840_9, 1.489_072_5];
 
-/// Found by trial, as the degrees: any would do.
-const ELLIPSES: [Ellipse; 6] =
-    [ellipse(2.5), ellipse(3.0), ellipse(3.5), ellipse(4.0), ellipse(5.0), ellipse(7.0)];
-
-const fn ellipse(rho: f32) -> Ellipse {
-    let square = 1.0 / (rho * rho);
-    let twelfth = square * square * square * square * square * square;
-    Ellipse { axis: 0.5 * (rho + 1.0 / rho), tail: 2.0 * twelfth / (rho - 1.0), square }
-}
-
-/// Half of the least degree, and the number of degrees, two apart.
-const HALF_DEGREE: usize = 6;
-const DEGREES: usize = 7;
-
-/// More than what may make a bound too small: 181 roundings of an `f32`, and 27 more for samples off their points.
+/// More than what may make a bound too small: roundings of an `f32`, and samples off their points.
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
@@ -117,7 +94,6 @@ pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
 pub(crate) const fn errors(
     octave: &Octave,
     along: &Sampled,
-    x: &[f32; 7],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
     stride: usize,
@@ -148,61 +124,14 @@ pub(crate) const fn errors(
         }
         i += stride;
     }
-    let (mut tails, mut i) = ([0.0; ELLIPSES.len()], 0);
-    while i < ELLIPSES.len() {
-        let Ellipse { axis, tail, .. } = ELLIPSES[i];
-        tails[i] = SLACK * tail * off_line(octave, x, axis);
-        i += 1;
-    }
     let (mut least, mut most, mut kind) = (seen, seen, 0);
     while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
         least[kind] -= noise;
-        most[kind] = bound(SLACK * (seen[kind] + noise), &tails, &weights[kind], stride);
+        most[kind] = SLACK * (seen[kind] + noise) * FACTOR[stride];
         kind += 1;
     }
     (least, most)
-}
-
-/// The bound that follows from the greatest sample `seen`, of every `stride`-th point, by the best ellipse and degree.
-#[inline(never)]
-const fn bound(seen: f32, tails: &[f32; ELLIPSES.len()], weight: &[f32; 4], stride: usize) -> f32 {
-    let (mut least, mut i) = (f32::INFINITY, 0);
-    while i < ELLIPSES.len() {
-        let Ellipse { axis, square, .. } = ELLIPSES[i];
-        let mut tail = tails[i] * absolute(weight, axis);
-        let (mut last, mut k, mut degrees) = (f32::INFINITY, HALF_DEGREE * stride, DEGREES);
-        while degrees > 0 && k < COSINES.len() {
-            // COSINES[k] is cos(n π / 2N) for N = 96 / stride, n = 2 k / stride; 0, and no bound, for n = N.
-            let bound = (seen + tail) * PLACE / COSINES[k] as f32 + tail;
-            // The bound is convex in `n`: once it does not fall, no further one is less.
-            degrees = if bound < last { degrees - 1 } else { 0 };
-            least = if bound < least { bound } else { least };
-            (last, tail) = (bound, tail * square);
-            k += stride;
-        }
-        i += 1;
-    }
-    least
-}
-
-/// `Σ |c_k| (Y^k - Y₁^k)` from `k = 2` on, where `Y₁ = |x₀| + |x₁| B` and `Y = Y₁ + Σ |x_k| B^k`, with the `axis` as
-/// `B`. On the ellipse, `R` is within this of a polynomial of a degree below 12.
-#[inline(never)]
-const fn off_line(octave: &Octave, [x0, x1, curved @ ..]: &[f32; 7], axis: f32) -> f32 {
-    let linear = x0.abs() + x1.abs() * axis;
-    let curve = absolute(curved, axis) * axis * axis;
-    // Y^k - Y₁^k = Y (Y^(k-1) - Y₁^(k-1)) + (Y - Y₁) Y₁^(k-1), from k = 2 up.
-    let (mut power, mut more, mut sum) = (linear, curve, 0.0);
-    let [above @ .., _] = &octave.c;
-    let mut c: &[i32] = above;
-    while let [higher @ .., next] = c {
-        more = (linear + curve) * more + curve * power;
-        power *= linear;
-        sum += next.unsigned_abs() as f32 * more;
-        c = higher;
-    }
-    sum
 }
 
 /// `Σ c[k] x^k`

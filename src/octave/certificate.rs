@@ -117,7 +117,7 @@ impl View<'_> {
         let (mut stride, mut shares) = (FIRST_STRIDE, Shares::REFUSED);
         let (Some(sampled), true) = (Sampled::new(&along), fits) else { return shares };
         while stride > 0 {
-            let (least, most) = errors(octave, &sampled, &offset, &weights, noise, stride);
+            let (least, most) = errors(octave, &sampled, &weights, noise, stride);
             shares = limits.shares(most);
             // More samples cannot help where those seen are too wrong.
             let is_decided = shares.are_certain() || !limits.shares(least).are_certain();
