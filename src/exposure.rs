@@ -12,14 +12,10 @@ use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT, floor_bits};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::{Shape, check_finite, check_ramp};
-use crate::search::Tolerance;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
-pub(crate) const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
-/// The error of the inverse that decides a cdf, relative to its fraction: less than what measuring a mass may lose,
-/// 2⁻³⁹ of its terms.
-pub(crate) const CDF_ERROR: f32 = 1.0 / (1u64 << 40) as f32;
+const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
@@ -91,10 +87,10 @@ impl Exposure {
     }
 
     /// The moment by which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. What is collected
-    /// then differs from `a` by at most `error · a`; or by `INVERSE_ERROR · a`, if the search's last step is at most
-    /// 2⁻²³ of the place. Where a search reaches its limit of evaluations there is no bound.
+    /// then differs from `a` by at most `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no
+    /// bound.
     #[inline(always)]
-    pub(crate) const fn at_fraction(&self, side: Side, a: Pair, error: f32) -> Moment {
+    pub(crate) const fn at_fraction(&self, side: Side, a: Pair) -> Moment {
         let near = self.ramp(side).share;
         let (ramp, target) = if a.difference(near) < 0.0 {
             (side, a)
@@ -114,8 +110,7 @@ impl Exposure {
         };
         // One address, or the search keeps the curve's and an index on the stack.
         let ramp = core::hint::black_box(self.ramp(ramp));
-        let [wanted, accepted] = [error * a.hi, INVERSE_ERROR * a.hi];
-        ramp.at_mass(side, target, &Tolerance { wanted, accepted })
+        ramp.at_mass(side, target, INVERSE_ERROR * a.hi)
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two

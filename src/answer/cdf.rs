@@ -1,14 +1,14 @@
 //! From a time: the openness, the density, and the cdf.
 //!
-//! A cdf is the mass collected until the place at which the time is reached. It is measured from the curve's start, so
-//! masses are added and nothing cancels. Where the noise of that measurement reaches the middle of two `f32`, the
-//! inverse's time of the middle decides. So the cdf never steps back: docs/internals/proofs.md has the argument.
+//! A cdf is the mass collected until the place at which the time is reached, counted from the nearer end of the curve, as
+//! the inverse counts. So it loses some 2⁻³⁹ of the lesser of the fraction and its rest, and times next to each other are
+//! farther apart than that: it never steps back.
 
-use crate::exposure::{CDF_ERROR, Exposure};
+use crate::exposure::Exposure;
 use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::rounded;
 use crate::number::pair::{Pair, significand};
-use crate::number::units::{DARK, WHOLE, WHOLE_EXPONENT};
+use crate::number::units::{WHOLE, WHOLE_EXPONENT, exponent, power_of_two};
 
 /// Where a time lies on the curve.
 enum At {
@@ -19,6 +19,14 @@ enum At {
 }
 
 impl Exposure {
+    /// The time `t`. On a curve across time 0, where `f32` are denser than a measurement is exact, it is rounded to a
+    /// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+    #[inline]
+    fn on_grid(&self, t: f32) -> f32 {
+        let [start, end] = [self.end(Start), self.end(End)];
+        if start < 0.0 && end > 0.0 && t > start && t < end { gridded(start, end, t) } else { t }
+    }
+
     #[inline]
     fn at(&self, t: f32) -> At {
         let [start, end] = [self.end(Start), self.end(End)];
@@ -40,6 +48,7 @@ impl Exposure {
     /// The openness at `t`, at least 0, in units of a power of two, and the exponent of that.
     #[inline]
     pub(crate) fn openness(&self, t: f32) -> (Pair, i32) {
+        let t = self.on_grid(t);
         match self.at(t) {
             At::Outside => (Pair::ZERO, 0),
             At::Plateau => (Pair::new(1.0), 0),
@@ -57,11 +66,7 @@ impl Exposure {
     /// The fraction of the exposure collected by `t`.
     #[inline]
     pub(crate) fn cdf(&self, t: f32) -> f32 {
-        // Asked again: `on_grid` may move a time onto a join, and `at` may count that to the plateau or other ramp.
-        let t = match self.at(t) {
-            At::Ramp(ramp) => self.ramp(ramp).on_grid(t),
-            _ => t,
-        };
+        let t = self.on_grid(t);
         match self.at(t) {
             At::Outside if t > self.end(End) => 1.0,
             At::Outside => 0.0,
@@ -74,58 +79,52 @@ impl Exposure {
     #[inline(never)]
     fn cdf_on_plateau(&self, t: f32) -> f32 {
         let (area, exponent) = significand(self.area);
-        // Scaled first: a quotient of a subnormal way has too few bits.
-        let way = Pair::sum(t, -self.join(Start)).shifted(WHOLE_EXPONENT - exponent);
-        // No noise: the mass is off by a few 2⁻⁴³ of itself, and `nearest` adds 2 CDF_ERROR = 2⁻³⁹ anyway.
-        self.nearest(t, self.ramps[0].share.plus(way.over(area)), |_| 0.0)
+        nearer(|side| {
+            let join = self.join(side);
+            let way = if side.is(Start) { Pair::sum(t, -join) } else { Pair::sum(join, -t) };
+            // Scaled first: a quotient of a subnormal way has too few bits.
+            let way = way.shifted(WHOLE_EXPONENT - exponent);
+            self.ramp(side).share.plus(way.over(area))
+        })
     }
 
     #[inline(never)]
     fn cdf_on_ramp(&self, ramp: Side, t: f32) -> f32 {
         let point = self.ramp(ramp).at_time(t);
-        let part = point.mass();
-        let mass =
-            if ramp.is(Start) { part } else { self.ramps[0].share.plus(self.plateau).plus(part) };
-        self.nearest(t, mass, |side| point.noise(side))
+        nearer(|side| {
+            let part = point.mass(side);
+            if ramp.is(side) { part } else { self.ramp(side).share.plus(self.plateau).plus(part) }
+        })
     }
+}
 
-    /// The `f32` nearest to a measured `mass`, in [`WHOLE`]. If the middle of two `f32` is within the noise, the
-    /// inverse's time of it decides: the lesser `f32` for a `t` before that, else the greater. (A subnormal answer is
-    /// rounded once more.)
-    ///
-    /// `noise` bounds the errors of a measurement on a ramp and of an inverse there, given the side from which the
-    /// inverse counts. Added here are 2⁻⁴⁰ of the mass for the search, and as much for sums of pairs.
-    #[inline(always)]
-    fn nearest(&self, t: f32, mass: Pair, noise: impl Fn(Side) -> f32) -> f32 {
-        let nearest = mass.rounded();
-        // 0 as an `f32`, and no inverse is asked: its search would bisect for so little.
-        if nearest < DARK {
-            return 0.0;
-        }
-        // mass = nearest + rest, and the middle is nearest + half; half has the sign of rest.
-        let rest = (mass.hi - nearest) + mass.lo;
-        let next =
-            f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
-        let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
-        let side = Side::end_if(lesser >= 0.5 * WHOLE);
-        let half = 0.5 * (next - nearest);
-        // Told by the measurement alone: the middle is beyond the noise. Else the inverse's time settles it.
-        let is_told = (half - rest).abs() > noise(side) + 2.0 * CDF_ERROR * nearest;
-        let cdf = if is_told {
-            nearest
-        } else if t >= self.time_of(side, Pair::sum(nearest, half)) {
-            greater
-        } else {
-            lesser
-        };
-        if cdf < WHOLE { cdf / WHOLE } else { 1.0 }
+/// The fraction collected, by the mass from the nearer end, in [`WHOLE`].
+#[inline(always)]
+fn nearer(mass: impl Fn(Side) -> Pair) -> f32 {
+    let from_start = mass(Start).rounded();
+    let fraction = if from_start < 0.5 * WHOLE {
+        from_start.max(0.0)
+    } else {
+        Pair::new(WHOLE).minus(mass(End)).rounded().clamp(0.5 * WHOLE, WHOLE)
+    };
+    fraction / WHOLE
+}
+
+/// [`Exposure::on_grid`] between two ends, one on either side of time 0.
+#[inline(never)]
+const fn gridded(start: f32, end: f32, t: f32) -> f32 {
+    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
+    if t.abs() >= half {
+        return t;
     }
-
-    /// The time by which a mass from the start, in [`WHOLE`], has been collected. The inverse counts from `side`.
-    #[cold]
-    #[inline(never)]
-    fn time_of(&self, side: Side, mass: Pair) -> f32 {
-        let a = if side.is(Start) { mass } else { Pair::new(WHOLE).minus(mass) };
-        self.at_fraction(side, a, CDF_ERROR).time()
+    // The farther end is 2 to 4 times `half`, and `t + 1.5 half` is 0.5 to 2.5 times it. So an ulp of that sum, to
+    // which `t` is rounded, is 1/4, 1/2 or 1 ulp of the farther end.
+    let t = (t + 1.5 * half) - 1.5 * half;
+    if t < start {
+        start
+    } else if t > end {
+        end
+    } else {
+        t
     }
 }

@@ -18,7 +18,7 @@
 //! keeps the order.
 
 use crate::error::{CurveError, tried};
-use crate::exposure::{Exposure, INVERSE_ERROR};
+use crate::exposure::Exposure;
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::Moment;
@@ -215,7 +215,7 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
 
     const fn searched_moment(&self, side: Side, a: f32) -> Moment {
         if a > 0.0 {
-            self.exposure.at_fraction(side, Pair::new(a * WHOLE), INVERSE_ERROR)
+            self.exposure.at_fraction(side, Pair::new(a * WHOLE))
         } else {
             // Of 0: the end itself, though no light may fall there.
             Moment::at(self.exposure.end(side))

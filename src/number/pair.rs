@@ -158,13 +158,6 @@ pub(crate) const fn lost_by_product(product: f32, a: f32, b: f32) -> f32 {
     ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 }
 
-/// `a x - product`, exactly, where `product` is `a x` rounded, for an `x` of 12 bits.
-#[inline(always)]
-pub(crate) const fn lost_by_short_product(product: f32, a: f32, x: f32) -> f32 {
-    let high = upper(a);
-    (high * x - product) + (a - high) * x
-}
-
 /// The upper 12 of 24 bits. The product of two such numbers is exact.
 // proofs/words.py: upper
 #[inline(always)]

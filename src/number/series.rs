@@ -17,11 +17,7 @@ impl Series<'_> {
     #[inline(always)]
     pub(crate) const fn at(self, x: f32) -> Pair {
         // Hidden from the compiler, which would unroll the loop: 500 bytes less in a search.
-        self.value(x, core::hint::black_box(self.c))
-    }
-
-    #[inline(always)]
-    const fn value(self, x: f32, mut c: &[Pair]) -> Pair {
+        let mut c = core::hint::black_box(self.c);
         let Pair { mut hi, mut lo } = self.last;
         loop {
             let product = hi * x;
@@ -39,18 +35,7 @@ impl Series<'_> {
     // proofs/series.py
     #[inline(always)]
     pub(crate) const fn at_pair(self, place: Pair) -> Pair {
-        self.moved(self.at(place.hi), place)
-    }
-
-    /// [`at_pair`](Self::at_pair) with its loop unrolled: faster, and more bytes.
-    #[inline(always)]
-    pub(crate) const fn at_pair_unrolled(self, place: Pair) -> Pair {
-        self.moved(self.value(place.hi, self.c), place)
-    }
-
-    /// `S(place)` from `S(place.hi)`.
-    #[inline(always)]
-    const fn moved(self, Pair { hi, lo }: Pair, place: Pair) -> Pair {
+        let Pair { hi, lo } = self.at(place.hi);
         Pair { hi, lo: lo + self.slope(place.hi) * place.lo }
     }
 

@@ -57,13 +57,12 @@ const fn up_of_mass(share: f32) -> i32 {
     80 - if exponent < DARK_EXPONENT { DARK_EXPONENT } else { exponent }
 }
 
-/// The exponent of a ramp's unit of time. The ramp is one to two [`LENGTH`]s long (less if its length is subnormal), so
+/// The exponent of a ramp's unit of time. The ramp is 2⁶⁴ to 2⁶⁵ of them long (less if its length is subnormal), so
 /// that its last coefficient, of the third power of a place, has a normal second number.
 #[inline(always)]
 pub(crate) const fn ramp_unit(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
-pub(crate) const LENGTH: f32 = power_of_two(64);
 
 /// The exponent of a curve's unit of time: its times and their differences are at most 2⁶² units.
 pub(crate) const fn time_unit(start: f32, end: f32) -> i32 {

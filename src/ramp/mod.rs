@@ -31,7 +31,7 @@ use crate::number::units::{
 };
 use crate::ramp::cubic::integral;
 use crate::ramp::shape::Shape;
-use crate::search::{Anchor, Found, ROUNDING, Tolerance, solve};
+use crate::search::{Anchor, Found, ROUNDING, solve};
 
 /// The sign bit, for what counts back.
 pub(crate) const BACK: u32 = 1 << 31;
@@ -179,13 +179,12 @@ impl Ramp {
     /// The moment by which `target` has been collected since the end that faces a side. Target and error are fractions
     /// in [`WHOLE`].
     #[inline(always)]
-    pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: &Tolerance) -> Moment {
+    pub(crate) const fn at_mass(&self, side: Side, target: Pair, error: f32) -> Moment {
         let factor = mass_per_fraction(self.share.hi);
         let target = target.scaled(factor);
-        let Tolerance { wanted, accepted } = *error;
-        let error = Tolerance { wanted: wanted * factor, accepted: accepted * factor };
+        let error = error * factor;
         let anchor = self.anchor(side, target);
-        let Found { place, evaluations } = solve(self.mass_since(side), target, &anchor, &error);
+        let Found { place, evaluations } = solve(self.mass_since(side), target, &anchor, error);
         let way = self.time_since(side).at_pair(place);
         Moment {
             base: self.time(side),

@@ -46,9 +46,6 @@ pub(crate) const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 /// of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 0.75 · 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
-/// Neighbouring `f32` are at most this far apart, relative to them.
-const ULP: f32 = f32::EPSILON;
-
 /// Where a search starts: a place on the ramp, and the series around it in the direction of the target.
 pub(crate) struct Anchor<const N: usize> {
     pub(crate) place: Pair,
@@ -105,13 +102,6 @@ impl<const N: usize> Anchor<N> {
             x = f32::from_bits(if next < most { next } else { most } as u32);
         }
     }
-}
-
-/// What a search may leave.
-pub(crate) struct Tolerance {
-    pub(crate) wanted: f32,
-    /// Enough if the last step is at most 2⁻²³ of the place, one to two ulp: as near as a bracket of neighbours comes.
-    pub(crate) accepted: f32,
 }
 
 /// What a search found.
@@ -215,14 +205,14 @@ pub(crate) const fn solve<const N: usize>(
     series: Series,
     target: Pair,
     anchor: &Anchor<N>,
-    error: &Tolerance,
+    error: f32,
 ) -> Found {
     let Anchor { place, sign, c, sought, rounding } = *anchor;
     // The anchor itself.
-    if sought <= 0.5 * error.wanted {
+    if sought <= 0.5 * error {
         return Found { place, evaluations: 0 };
     }
-    let (mut local, mut evaluations) = anchor.approach(error.wanted);
+    let (mut local, mut evaluations) = anchor.approach(error);
     // Only an `f32` can be measured: `p`, at `x + moved` from the anchor. If that is far from `x`, the slopes differ.
     let mut p = place.hi + flipped(local.x, sign);
     let mut distance = anchor.distance(p);
@@ -243,10 +233,9 @@ pub(crate) const fn solve<const N: usize>(
         let way = flipped(step, sign);
         let end = p + way;
         let is_inside = end.to_bits() as i32 >= low && end.to_bits() as i32 <= high;
-        let most = if step.abs() <= ULP * p { error.accepted } else { error.wanted };
         // A quarter of the error is left for measuring, which is off by 2⁻³⁰·⁹ of the target at most (proofs/solve.py):
-        // enough for errors from 2⁻²⁸ on, not for a cdf's 2⁻⁴⁰.
-        if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * most {
+        // enough for errors from 2⁻²⁸ on.
+        if is_inside && left(&c, &local, moved, missing, step, rounding) <= 0.75 * error {
             return Found { place: Pair::sum(p, way), evaluations };
         }
         // Another round would take two.
