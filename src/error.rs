@@ -5,9 +5,12 @@ use core::fmt;
 /// The part of a curve that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Part {
     /// The ramp from `open_start` to `open_end`.
     Opening,
+    /// Fully open, from `open_end` to `close_start`.
+    Plateau,
     /// The ramp from `close_start` to `close_end`.
     Closing,
 }
@@ -16,12 +19,14 @@ impl fmt::Display for Part {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(match self {
             Self::Opening => "opening ramp",
+            Self::Plateau => "plateau",
             Self::Closing => "closing ramp",
         })
     }
 }
 
-/// Why a curve was not built.
+/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and where. A
+/// `point` is the index of a control point, 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -30,24 +35,46 @@ pub enum CurveError {
     NotFinite(Part),
     /// The four times do not satisfy `open_start <= open_end <= close_start <= close_end`.
     TimesOutOfOrder,
-    /// `open_start` and `close_end` are the same `f32`: there is no interval, or it is so short for its distance from
-    /// time 0 that `f32` cannot tell its ends apart. Count times from a nearer origin.
+    /// The time of an inner control point is not between the ramp's ends.
+    TimeOutsideRamp {
+        /// The ramp.
+        part: Part,
+        /// The control point: 1 or 2.
+        point: u8,
+    },
+    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the whole
+    /// interval. They may have been given as fractions of the ramp, or as times.
+    FractionOutsideRamp {
+        /// The ramp.
+        part: Part,
+        /// The control point: 1 or 2.
+        point: u8,
+    },
+    /// The first inner control point is later than the second by more than 15/16 of the ramp.
+    TimesCross(Part),
+    /// The openness of a control point is not in [0, 1].
+    OpennessOutOfRange {
+        /// The ramp.
+        part: Part,
+        /// The control point.
+        point: u8,
+    },
+    /// The same of a [`density`](crate::ShutterCurve::density), which may be
+    /// [scaled](crate::CubicBezier::scaled) into [0, 1].
+    DensityOutOfRange {
+        /// The control point.
+        point: u8,
+    },
+    /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
+    NotFullyOpen(Part),
+    /// The interval is below 2⁻¹⁶ of the greatest |time|, so `f32` has fewer than 256 times in it.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
-    /// Time turns back along the ramp: `t'(p) < 0` somewhere in [0, 1].
-    TimeTurnsBack(Part),
-    /// Time turns back because of the inner control points of [`shutteropening`](crate::ShutterCurve::shutteropening).
-    /// Their times are fractions of the whole interval; they may have been given as fractions of the ramp, or as times.
-    InnerTimesTurnBack(Part),
-    /// The openness falls below 0 somewhere on the ramp.
-    NegativeOpenness(Part),
-    /// The openness rises above 1 somewhere on the ramp.
-    OpennessAboveOne(Part),
-    /// The area under the curve is 0: nothing is ever exposed.
-    ZeroArea,
-    /// The area under the curve is below the normal range of `f32`: less than 2⁻¹²⁶.
-    AreaOutOfRange,
+    /// The exposure of a [`density`](crate::ShutterCurve::density) is below 2⁻²⁰ of its interval, or 0.
+    DensityTooSmall,
+    /// A ramp or the plateau is shorter than 2⁻²⁴ of the greatest |time|, but not 0.
+    TooShort(Part),
 }
 
 /// `?` for a `const fn`.
@@ -61,11 +88,48 @@ macro_rules! tried {
 }
 pub(crate) use tried;
 
-macro_rules! at {
-    ($ramp:expr, $reason:literal) => {
-        match $ramp {
-            Part::Opening => concat!("opening ramp: ", $reason),
-            Part::Closing => concat!("closing ramp: ", $reason),
+/// A text about a part.
+macro_rules! of_part {
+    ($part:expr, $($text:literal),+) => {
+        match $part {
+            Part::Opening => concat!("opening ramp: ", $($text),+),
+            Part::Plateau => concat!("plateau: ", $($text),+),
+            Part::Closing => concat!("closing ramp: ", $($text),+),
+        }
+    };
+}
+
+/// A text about a control point of a ramp.
+macro_rules! of_point {
+    ($part:expr, $point:expr, $before:literal, $after:literal) => {
+        match $point {
+            0 => of_part!($part, $before, "first point", $after),
+            1 => of_part!($part, $before, "first inner point", $after),
+            2 => of_part!($part, $before, "second inner point", $after),
+            _ => of_part!($part, $before, "last point", $after),
+        }
+    };
+}
+
+/// A text about a control point of a density.
+macro_rules! density {
+    ($point:literal) => {
+        concat!(
+            "the density at its ",
+            $point,
+            " point has to be in [0, 1]; scale it down (CubicBezier::scaled)"
+        )
+    };
+}
+
+/// A text about an inner time of `shutteropening`.
+macro_rules! of_fraction {
+    ($part:expr, $point:expr, $text:literal) => {
+        match ($part, $point) {
+            (Part::Opening, 1) => concat!("opening ramp: t1", $text),
+            (Part::Opening, _) => concat!("opening ramp: t2", $text),
+            (_, 1) => concat!("closing ramp: t5", $text),
+            _ => concat!("closing ramp: t6", $text),
         }
     };
 }
@@ -74,33 +138,55 @@ impl CurveError {
     /// The fixed text that [`Display`](fmt::Display) prints.
     pub const fn message(&self) -> &'static str {
         use CurveError as E;
-        match self {
-            E::NotFinite(r) => at!(r, "a control point is NaN, infinite or beyond f32 (3.4e38)"),
+        match *self {
+            E::NotFinite(part) => {
+                of_part!(part, "a control point is NaN, infinite or beyond f32 (3.4e38)")
+            }
             E::TimesOutOfOrder => {
                 "times out of order: open_start <= open_end <= close_start <= close_end is required"
             }
+            E::TimeOutsideRamp { part, point } => {
+                of_point!(part, point, "the time of its ", " has to lie between the ramp's ends")
+            }
+            E::FractionOutsideRamp { part, point } => of_fraction!(
+                part,
+                point,
+                " does not lie on the ramp; it is a fraction of the whole interval, \
+                 0 at open_start and 1 at close_end"
+            ),
+            E::TimesCross(part) => of_part!(
+                part,
+                "its first inner point is later than its second by more than 15/16 of the ramp; \
+                 move them closer"
+            ),
+            E::OpennessOutOfRange { part, point } => {
+                of_point!(part, point, "the openness of its ", " has to be in [0, 1]")
+            }
+            E::DensityOutOfRange { point } => match point {
+                0 => density!("first"),
+                1 => density!("first inner"),
+                2 => density!("second inner"),
+                _ => density!("last"),
+            },
+            E::NotFullyOpen(Part::Closing) => {
+                "closing ramp: it has to begin fully open, at openness 1"
+            }
+            E::NotFullyOpen(part) => of_part!(part, "it has to end fully open, at openness 1"),
             E::IntervalUnresolved => {
-                "the interval has no length, or is too short for f32 so far from time 0: \
-                 it starts and ends at the same f32"
+                "the interval is too short for its distance from time 0: below 2^-16 of its greatest \
+                 time; count times from a nearer origin"
             }
             E::IntervalOutOfRange => {
                 "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"
             }
-            E::TimeTurnsBack(r) => {
-                at!(r, "time turns back along it; with control times in order it does not")
+            E::DensityTooSmall => {
+                "the density's exposure is below 2^-20 of its interval; scale it up \
+                 (CubicBezier::scaled)"
             }
-            E::InnerTimesTurnBack(Part::Closing) => {
-                "closing ramp: time turns back along it; \
-                 t5 and t6 are fractions of the whole interval, 0 at open_start and 1 at close_end"
-            }
-            E::InnerTimesTurnBack(Part::Opening) => {
-                "opening ramp: time turns back along it; \
-                 t1 and t2 are fractions of the whole interval, 0 at open_start and 1 at close_end"
-            }
-            E::NegativeOpenness(r) => at!(r, "the openness falls below 0"),
-            E::OpennessAboveOne(r) => at!(r, "the openness rises above 1"),
-            E::ZeroArea => "the area under the curve is 0",
-            E::AreaOutOfRange => "the area under the curve is below 2^-126 (1.2e-38)",
+            E::TooShort(part) => of_part!(
+                part,
+                "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"
+            ),
         }
     }
 }

@@ -4,14 +4,15 @@
 //! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
 //! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
 
-use crate::error::{CurveError, Part, tried};
+use crate::domain::{self, LEAST_EXPOSURE};
+use crate::error::{CurveError, tried};
 use crate::fraction::Side;
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
-use crate::number::units::{DOUBLE_WORD, WHOLE, WHOLE_EXPONENT, floor_bits};
+use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
-use crate::ramp::shape::{Shape, check_finite, check_ramp};
+use crate::ramp::shape::Shape;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
@@ -34,32 +35,13 @@ impl Exposure {
         opening: &CubicBezier,
         closing: &CubicBezier,
     ) -> Result<(Self, [Shape; 2]), CurveError> {
-        tried!(check_finite(opening, Part::Opening));
-        tried!(check_finite(closing, Part::Closing));
-        let [start, _, _, open] = opening.times();
-        let [close, _, _, end] = closing.times();
-        if !(start <= open && open <= close && close <= end) {
-            return Err(CurveError::TimesOutOfOrder);
-        }
-        if start == end {
-            return Err(CurveError::IntervalUnresolved);
-        }
-        let length = end as f64 - start as f64;
-        // The bounds are 2⁻⁶⁴ and 2⁶⁴.
-        if !(length >= 1.0 / DOUBLE_WORD && length <= DOUBLE_WORD) {
-            return Err(CurveError::IntervalOutOfRange);
-        }
-        tried!(check_ramp(opening, Part::Opening));
-        tried!(check_ramp(closing, Part::Closing));
+        tried!(domain::check(opening, closing));
+        let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
         let plateau = close as f64 - open as f64;
         let shapes = [Shape::new(opening), Shape::new(closing)];
         let area = (shapes[0].area() + shapes[1].area()) + plateau;
-        if area <= 0.0 {
-            return Err(CurveError::ZeroArea);
-        }
-        // The area is at most 2⁶⁴ or so: if it is normal, its reciprocal is.
-        if !(area as f32).is_normal() {
-            return Err(CurveError::AreaOutOfRange);
+        if area < LEAST_EXPOSURE * (end as f64 - start as f64) {
+            return Err(CurveError::DensityTooSmall);
         }
         let ramps =
             [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
@@ -123,22 +105,9 @@ impl Exposure {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;
-        if !self.has_plateau() && is_next_to_half(near) {
-            return [0.5; 2];
-        }
         [
             if near < 0.5 { near } else { 1.0 - (plateau + far) },
             if near + plateau < 0.5 { near + plateau } else { 1.0 - far },
         ]
     }
-
-    /// Does 1/2 lie beyond the join of both ramps, seen from the start, though the join counts as 1/2?
-    pub(crate) const fn half_is_beyond_join(&self) -> bool {
-        !self.has_plateau() && is_next_to_half(self.ramps[0].share.to_f64() / WHOLE as f64)
-    }
-}
-
-/// Is a fraction below 1/2, by an ulp at most?
-const fn is_next_to_half(a: f64) -> bool {
-    floor_bits(a) == 0.5f32.to_bits() - 1
 }

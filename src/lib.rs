@@ -106,6 +106,7 @@
 //
 // Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
 mod answer;
+mod domain;
 mod error;
 mod exposure;
 mod fraction;
@@ -122,7 +123,7 @@ pub use error::{CurveError, Part, ScheduleError};
 pub use measure::MAX_EVALUATIONS;
 pub use ramp::bezier::CubicBezier;
 pub use shutter::{ShutterCurve, valid};
-pub use trigger::{Pulse, PulseTicks, TriggerTicks, TriggerTimes};
+pub use trigger::{Pulse, PulseTicks, TriggerTicks};
 
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]

@@ -6,16 +6,25 @@ use crate::answer::plan::Plan;
 use crate::error::{CurveError, Part, tried};
 use crate::fraction::Side;
 use crate::number::moment::rounded;
-use crate::number::pair::Pair;
 use crate::ramp::bezier::CubicBezier;
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
 /// Bezier, taken as a probability density.
 ///
+/// **What is accepted.** Everything else is a [`CurveError`] that names the part and the rule.
+///
+/// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
+///    (a box), and the plateau may have none (a triangle).
+/// 2. Inner control times lie between their ramp's ends, and every openness in [0, 1]. Inner times may be out of order,
+///    but the first may pass the second by at most 15/16 of the ramp.
+/// 3. Ramps are fully open, at openness 1, where they meet the plateau or each other.
+/// 4. The interval is 2⁻⁶⁴ to 2⁶⁴ long, and at least 2⁻¹⁶ of its greatest |time|.
+/// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
+/// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
+///
 /// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
 /// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in
-/// Hz. Either ramp may have no length (a box), the plateau may have none (a triangle), and a ramp need not start at 0
-/// or end at 1 (a jump).
+/// Hz.
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
 /// another number than 8. The promised accuracy is the same for every number. With 8 at most one `u` in 256 of a
@@ -89,13 +98,13 @@ impl ShutterCurve {
     /// assert_eq!(curve.close_end(), 10.0);
     /// // Fractions of each ramp, as an easing curve has them, are refused.
     /// let error = ShutterCurve::shutteropening(times, [0.4, 0.0, 0.6, 1.0, 0.4, 1.0, 0.6, 0.0]);
-    /// assert_eq!(error, Err(CurveError::InnerTimesTurnBack(Part::Opening)));
+    /// assert_eq!(error, Err(CurveError::FractionOutsideRamp { part: Part::Opening, point: 1 }));
     /// # Ok::<(), CurveError>(())
     /// ```
     ///
     /// # Errors
-    /// As [`with_octaves`](Self::with_octaves), but inner times out of order are
-    /// [`InnerTimesTurnBack`](CurveError::InnerTimesTurnBack).
+    /// As [`with_octaves`](Self::with_octaves), but an inner time that is not on its ramp is a
+    /// [`FractionOutsideRamp`](CurveError::FractionOutsideRamp).
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
         let (opening, closing) = CubicBezier::shutteropening(times, inner);
         // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
@@ -104,7 +113,9 @@ impl ShutterCurve {
             return Err(CurveError::NotFinite(Part::Closing));
         }
         match Self::new(opening, closing) {
-            Err(CurveError::TimeTurnsBack(ramp)) => Err(CurveError::InnerTimesTurnBack(ramp)),
+            Err(CurveError::TimeOutsideRamp { part, point }) => {
+                Err(CurveError::FractionOutsideRamp { part, point })
+            }
             curve => curve,
         }
     }
@@ -134,7 +145,12 @@ impl ShutterCurve {
     /// As [`with_octaves`](Self::with_octaves).
     pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
         let [.., (end, _)] = density.points();
-        Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0)))
+        match Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0))) {
+            Err(CurveError::OpennessOutOfRange { point, .. }) => {
+                Err(CurveError::DensityOutOfRange { point })
+            }
+            curve => curve,
+        }
     }
 }
 
@@ -151,11 +167,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A coordinate that is not finite; times out of order, or running back along a ramp; an openness outside [0, 1]
-    /// anywhere on a ramp; an interval without length, or outside [2⁻⁶⁴, 2⁶⁴]; an area that is 0, or below 2⁻¹²⁶.
-    /// Rounded control points are forgiven. The openness may rise above 1 by up to 2⁻²², and fall below 0 by up to 2⁻²²
-    /// of its largest value. The slope of time may fall below 0 by up to 2⁻²² of the ramp's length. But time may leave
-    /// the ramp by at most 2⁻⁴⁶ of its length.
+    /// The first rule of [`ShutterCurve`]'s list that the ramps break.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -209,17 +221,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
-        let f = rounded(self.plan.exposure.openness(t));
-        // Where rounding lifts the curve above 1. `openness_pair` would give the same bits, but takes longer.
-        if f > 1.0 { 1.0 } else { f }
-    }
-
-    /// The openness, no more than 1 where rounding lifts the curve above it.
-    #[inline]
-    fn openness_pair(&self, t: f32) -> (Pair, i32) {
-        let (f, unit) = self.plan.exposure.openness(t);
-        let is_above = f.shifted(unit).difference(Pair::new(1.0)) > 0.0;
-        if is_above { (Pair::new(1.0), 0) } else { (f, unit) }
+        rounded(self.plan.exposure.openness(t))
     }
 
     /// The normalised density at `t`, `openness(t)` over the [`exposure`](Self::exposure), in fractions of the exposure
@@ -234,7 +236,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
-        self.plan.exposure.density(self.openness_pair(t))
+        self.plan.exposure.density(t)
     }
 
     /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1
@@ -305,8 +307,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (1.0 / self.plan.exposure.area) as f32
     }
 
-    /// The shutter efficiency `A / (close_end - open_start)`. It is 0 where it is too small for an `f32`, and may reach
-    /// 1 + 2⁻²², since control points may be rounded by so much.
+    /// The shutter efficiency `A / (close_end - open_start)`, at most 1.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;

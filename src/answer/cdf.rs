@@ -56,9 +56,10 @@ impl Exposure {
         }
     }
 
-    /// `K f` for an openness `f` in units of `2^unit`.
+    /// `K f` at `t`.
     #[inline]
-    pub(crate) fn density(&self, (f, unit): (Pair, i32)) -> f32 {
+    pub(crate) fn density(&self, t: f32) -> f32 {
+        let (f, unit) = self.openness(t);
         let (area, exponent) = significand(self.area);
         rounded((f.over(area), unit - exponent))
     }

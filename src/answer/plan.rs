@@ -79,12 +79,8 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
             // The line at u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure.
             plan.base = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
             plan.slope = fixed(close, unit) + fixed_f64(shapes[1].area(), unit) - plan.base;
-            // The line is off by a few units: from 2⁴⁰ units of area on, by less than 2⁻⁶ ulp of the least `u` on it. A
-            // curve with less is far from time 0, or dark for its length. It gets no octaves either, as without a line
-            // fractions on the plateau would be looked up in them.
-            if plan.slope >> 40 == 0 {
-                return Ok(plan);
-            }
+            // The line is off by a few units, less than 2⁻⁶ ulp of the least `u` on it: by rules 2 to 4 it has 2⁴⁰
+            // units of area (proofs/domain.py).
             let mut side = 0;
             while side < 2 {
                 let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);
@@ -93,11 +89,6 @@ impl<const OCTAVES: usize> Plan<OCTAVES> {
                     plan.last_before_far[side].saturating_sub(last_before_line);
                 side += 1;
             }
-        } else if plan.exposure.half_is_beyond_join() {
-            // Of all `f32` of its side only 1/2 itself lies on the far ramp. A search finds its time now, which is kept
-            // as a line of one point: an octave for it alone would take one of `OCTAVES` from the near ramp.
-            plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 });
-            plan.on_line_count[0] = 1;
         }
         let mut side = 0;
         // `OCTAVES > 0` leaves the code that builds octaves out where there are none.

@@ -98,9 +98,7 @@ impl Moment {
         // way = floor(hi + lo), apart from the rounding of `rest`: ways of at least 2²⁴ units keep their order, since
         // there `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
         let whole = fixed(hi, 0);
-        let rest = (hi - whole as f32) + lo;
-        let down = fixed(rest, 0);
-        let way = whole + down - ((down as f32) > rest) as i64;
+        let way = whole + fixed((hi - whole as f32) + lo, 0);
         let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)];
         // Next to a dark end the little mass by which a search may err is a long time: never beyond `until`.
         let time = if self.back { base - way } else { base + way };

@@ -19,10 +19,6 @@ pub(crate) const LAST_PLACE: f32 = (1 << 30) as f32;
 pub(crate) const WHOLE: f32 = power_of_two(WHOLE_EXPONENT);
 pub(crate) const WHOLE_EXPONENT: i32 = 104;
 
-/// Half of the least `f32` above 0, in [`WHOLE`]: less than that is 0 as an `f32`. A ramp with less is *dark*.
-pub(crate) const DARK: f32 = power_of_two(DARK_EXPONENT);
-const DARK_EXPONENT: i32 = WHOLE_EXPONENT - 150;
-
 /// How many values a `u32` has, and a `u64`.
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
@@ -36,8 +32,8 @@ pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// The bits of tops are multiples of this, eight to a power of two, so that each top fits a `u8`.
 pub(crate) const TOP_STEP: u32 = 1 << 20;
 
-/// The factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰ to 2⁸¹ of mass
-/// (0 if it is dark), so that all coefficients keep their bits.
+/// The factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰ to 2⁸¹ of mass,
+/// so that all coefficients keep their bits; a ramp without length has 0.
 #[inline(always)]
 pub(crate) const fn mass_per_fraction(share: f32) -> f32 {
     power_of_two(up_of_mass(share))
@@ -49,15 +45,14 @@ pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
     power_of_two(-up_of_mass(share))
 }
 
+/// A share is 0, or at least 2⁻³⁰ of [`WHOLE`] (proofs/domain.py).
 #[inline(always)]
 const fn up_of_mass(share: f32) -> i32 {
-    // At 2⁻¹⁵⁰ of the exposure the factor is 2¹²⁶ and its inverse 2⁻¹²⁶, the least normal number: so WHOLE may not be
-    // less, and the 80 not greater.
     let exponent = exponent(share);
-    80 - if exponent < DARK_EXPONENT { DARK_EXPONENT } else { exponent }
+    if exponent < 0 { 0 } else { 80 - exponent }
 }
 
-/// The exponent of a ramp's unit of time. The ramp is 2⁶⁴ to 2⁶⁵ of them long (less if its length is subnormal), so
+/// The exponent of a ramp's unit of time. The ramp is 2⁶⁴ to 2⁶⁵ of them long (0 if it has no length), so
 /// that its last coefficient, of the third power of a place, has a normal second number.
 #[inline(always)]
 pub(crate) const fn ramp_unit(start: f32, end: f32) -> i32 {
@@ -72,22 +67,21 @@ pub(crate) const fn time_unit(start: f32, end: f32) -> i32 {
     (most.to_bits() >> 52) as i32 - 1023 - 61
 }
 
-/// `x / 2^e`, which has to be below 2⁶³, rounded towards 0.
+/// `x / 2^e`, which has to be below 2⁶³, rounded down.
 // proofs/words.py: fixed
 pub(crate) const fn fixed(x: f32, e: i32) -> i64 {
     let (bits, exponent) = (x.to_bits(), exponent(x));
     let significand = (bits & 0x7F_FFFF) as i64;
     let (significand, exponent) =
         if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
+    let significand = if x < 0.0 { -significand } else { significand };
     let up = exponent - 23 - e;
-    let units = if up >= 0 {
+    if up >= 0 {
         significand << (up & 63)
-    } else if up > -24 {
-        significand >> (-up & 63)
     } else {
-        0
-    };
-    if x < 0.0 { -units } else { units }
+        // Down by 63 or more: -1 or 0.
+        significand >> if up > -63 { -up & 63 } else { 63 }
+    }
 }
 
 /// `x / 2^e` rounded towards 0; `±i64::MAX` from 2⁶³ on, and for NaN. ([`fixed`] is faster, for the two ends by which a

@@ -32,7 +32,8 @@ pub(crate) struct Candidate {
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) steep: f32,
-    /// What rounding adds to its time, in steps: Horner's, and a unit of time to which the side's end is cut.
+    /// What rounding adds to its time, in steps: Horner's, a unit of time to which the side's end is cut, and two by
+    /// which a search for a neighbour may be early ([`Moment::in_units`](crate::number::moment::Moment::in_units)).
     pub(crate) truncated: f32,
 }
 
@@ -86,7 +87,7 @@ impl View<'_> {
             middle: middle as f64 * power_of_two_f64(self.unit),
             step,
             steep: steep / step as f32,
-            truncated: HALF_TRUNCATION + 1.0 / factor as f32,
+            truncated: HALF_TRUNCATION + 3.0 / factor as f32,
         })
     }
 }

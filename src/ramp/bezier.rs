@@ -74,15 +74,13 @@ impl CubicBezier {
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
-        let (start, end) = (open_start as f64, close_end as f64);
-        // Rounding may put an inner point beyond its ramp's join where it is meant to be at it: the fraction, start and
-        // end, and the join are each rounded by 2⁻²⁴ at most.
-        let trace = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;
+        let interval = [open_start as f64, close_end as f64];
+        let (opening, closing) = ([open_start, open_end], [close_start, close_end]);
         let at = [
-            snapped(start + (end - start) * t1 as f64, open_end as f64, trace),
-            snapped(start + (end - start) * t2 as f64, open_end as f64, trace),
-            -snapped(-(start + (end - start) * t5 as f64), -close_start as f64, trace),
-            -snapped(-(start + (end - start) * t6 as f64), -close_start as f64, trace),
+            snapped(t1, interval, opening),
+            snapped(t2, interval, opening),
+            snapped(t5, interval, closing),
+            snapped(t6, interval, closing),
         ];
         (
             Self::new([(open_start, 0.0), (at[0], y1), (at[1], y2), (open_end, 1.0)]),
@@ -115,7 +113,14 @@ impl From<[(f32, f32); 4]> for CubicBezier {
     }
 }
 
-/// The time, or the bound if it is passed by `trace` at most.
-const fn snapped(time: f64, bound: f64, trace: f64) -> f32 {
-    (if time > bound && time <= bound + trace { bound } else { time }) as f32
+/// The time at a `fraction` of the interval from `start` to `end`; or an end of its ramp, which rounding may pass where
+/// the point is meant to be at it. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
+const fn snapped(fraction: f32, [start, end]: [f64; 2], [from, to]: [f32; 2]) -> f32 {
+    let fraction = fraction as f64;
+    let time = start * (1.0 - fraction) + end * fraction;
+    let (from, to) = (from as f64, to as f64);
+    let on_ramp = if time < from { from } else { to };
+    let on_ramp = if time >= from && time <= to { time } else { on_ramp };
+    let rounding = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;
+    (if (time - on_ramp).abs() <= rounding { on_ramp } else { time }) as f32
 }

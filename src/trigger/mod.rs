@@ -6,4 +6,4 @@ mod schedule;
 pub(crate) mod ticks;
 
 pub use pulse::{Pulse, PulseTicks};
-pub use schedule::{TriggerTicks, TriggerTimes};
+pub use schedule::TriggerTicks;

@@ -1,4 +1,4 @@
-//! When to trigger: equal shares of the exposure, as times, as timer ticks, as a checked schedule.
+//! When to trigger: equal shares of the exposure, as timer ticks, as a checked schedule.
 
 use core::ops::Range;
 
@@ -10,33 +10,12 @@ use crate::trigger::iterator::iterate;
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks};
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
-    /// The `n` times that split the exposure evenly, each in the middle of its share, in the curve's unit:
-    /// `inverse_cdf((i + 1/2) / n)`. They never step back.
-    ///
-    /// Each fraction is the nearest `f32` for up to 2²³ triggers, and within two and a half ulp for more. From about
-    /// 2²⁴ triggers on the last time may be the end itself.
-    ///
-    /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// // A box of 8 ms, its times in ms.
-    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 8.0, 8.0));
-    /// assert!(curve.trigger_times(4).eq([1.0, 3.0, 5.0, 7.0]));
-    /// // From the back, or any one at once: each costs the same.
-    /// assert_eq!(curve.trigger_times(4).next_back(), Some(7.0));
-    /// assert_eq!(curve.trigger_times(4_000_000_000).nth(2_000_000_000), Some(4.0));
-    /// ```
-    #[must_use]
-    pub fn trigger_times(&self, n: u32) -> TriggerTimes<'_, OCTAVES> {
-        TriggerTimes { frame: Times { curve: self, n }, left: 0..n }
-    }
-
     /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
-    /// README says how many cycles such a tick costs at most. This holds for [`trigger_times`](Self::trigger_times) and
-    /// [`trigger_ticks`](Self::trigger_ticks).
+    /// README says how many cycles such a tick costs at most.
     ///
-    /// It is 255 or more for most shutters with 8 octaves, doubles with each octave more, and is at most 2²². It is 0
-    /// on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on the
-    /// plateau.
+    /// It is at most 2²². With 8 octaves it is 127 or more on typical curves, and up to twice that for each octave more.
+    /// It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on
+    /// the plateau.
     ///
     /// In a constant the compiler checks it:
     ///
@@ -46,15 +25,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
-    /// Ramps on which time nearly stands still need searches, so this does not compile:
+    /// A frame that would need searches does not compile:
     ///
     /// ```compile_fail,E0080
-    /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::new(
-    ///     CubicBezier::new([(0.0, 0.0), (0.0025, 0.0), (0.0, 1.0), (0.0025, 1.0)]),
-    ///     CubicBezier::new([(0.0075, 1.0), (0.010, 1.0), (0.0075, 0.0), (0.010, 0.0)]),
-    /// ));
-    /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
+    /// # use shutter_curve::{ShutterCurve, valid};
+    /// # static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const _: () = assert!(SHUTTER.direct_triggers() >= 4096);
     /// ```
     #[must_use]
     pub const fn direct_triggers(&self) -> u32 {
@@ -67,8 +43,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
     }
 
-    /// The `n` trigger times in ticks of a timer, counted from [`open_start`](Self::open_start): add the timer's own
-    /// base with `wrapping_add`. They never step back.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They count
+    /// from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step back.
+    ///
+    /// Their times, in the curve's unit, are
+    /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`, up to 2²² of them.
     ///
     /// `ticks_per_unit` is the number of ticks in one unit of the curve's time: the timer's rate in Hz for a curve in
     /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds
@@ -248,14 +227,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 }
 
-/// An iterator over the times of a frame's triggers, from [`ShutterCurve::trigger_times`]. It goes from either end, and
-/// to any trigger at once.
-#[derive(Clone)]
-pub struct TriggerTimes<'a, const OCTAVES: usize = 8> {
-    frame: Times<'a, OCTAVES>,
-    left: Range<u32>,
-}
-
 /// An iterator over the ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`]. It goes from either end, and
 /// to any trigger at once.
 ///
@@ -290,21 +261,4 @@ pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
     left: Range<u32>,
 }
 
-/// The times of one frame.
-#[derive(Clone)]
-struct Times<'a, const OCTAVES: usize> {
-    curve: &'a ShutterCurve<OCTAVES>,
-    n: u32,
-}
-
-impl<const OCTAVES: usize> Times<'_, OCTAVES> {
-    /// The time of trigger `i`.
-    #[inline(always)]
-    fn at(&self, i: u32) -> f32 {
-        let (part, all) = (2 * i as u64 + 1, 2 * self.n as u64);
-        self.curve.inverse_cdf(part as f32 / all as f32)
-    }
-}
-
-iterate!(TriggerTimes, f32);
 iterate!(TriggerTicks, u32);
