@@ -75,13 +75,11 @@ pub(crate) struct Moment {
     pub(crate) unit: i32,
     /// The other end of the ramp or the plateau, which no answer passes.
     pub(crate) until: f32,
-    /// Polynomial evaluations that the search took.
-    pub(crate) evaluations: u32,
 }
 
 impl Moment {
     pub(crate) const fn at(time: f32) -> Self {
-        Self { base: time, back: false, way: Pair::ZERO, unit: 0, until: time, evaluations: 0 }
+        Self { base: time, back: false, way: Pair::ZERO, unit: 0, until: time }
     }
 
     /// The time, rounded once.
