@@ -79,11 +79,14 @@ impl Exposure {
 
     /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
     /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end itself,
-    /// though no light may fall there.
+    /// though no light may fall there; of what is negative, too, and of NaN the start.
     #[inline(always)]
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
-        let side = fraction.side;
-        if !(fraction.get() > 0.0) {
+        let (side, a) = (fraction.side, fraction.get());
+        if a.is_nan() {
+            return Moment::at(self.end(Side::Start));
+        }
+        if a <= 0.0 {
             return Moment::at(self.end(side));
         }
         match self.part(fraction) {
@@ -98,7 +101,7 @@ impl Exposure {
                 }
             }
             Part::Ramp(ramp, target) => {
-                let error = INVERSE_ERROR * (fraction.get() * WHOLE);
+                let error = INVERSE_ERROR * (a * WHOLE);
                 ramp.moment(side, ramp.place_of_mass(side, target, error).place)
             }
         }
