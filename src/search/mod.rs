@@ -173,10 +173,10 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// ```
 ///
 /// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`,
-/// `slopes = |c_1| + squares y`, and `c_j` is `c[j - 1]`. Up to `y` the slope is at most `slopes`, the second
-/// derivative `5 squares`, the third `20 cubes`, as `j <= 6` (docs/internals/proofs.md, "What a step of the search
-/// leaves").
-// proofs/solve.py, for each kind of anchor
+/// `slopes = |c_1| + squares y`, and `c_j` is `c[j - 1]`. On the way, within `y`, the slope is at most `slopes`; as
+/// `j <= 6`, the second derivative is at most `5 squares` and the third `20 cubes`. So Taylor's rest is at most
+/// `20/6 cubes |s|³`.
+// proofs/solve.py
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
     c: &[f32; N],
