@@ -37,8 +37,8 @@ const FACTOR: [f32; FIRST_STRIDE + 1] = [0.0, 1.093_840_9, 1.489_072_5];
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
 /// The number of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time, whose weight
-/// is 1; that in exposure, by the openness; and that relative to the time, by a bound of 1 / size.
-pub(crate) const KINDS: usize = 3;
+/// is 1; and that in exposure, by the openness.
+pub(crate) const KINDS: usize = 2;
 
 /// A sample's position counts 2⁻²⁰ of one, its time 2⁻²⁴ of a step.
 const POSITION_BITS: i32 = 20;

@@ -30,8 +30,7 @@ const MOST_OFFSET: f32 = 0.4999;
 /// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
-/// By how much rounding changes a weight ([`KINDS`]) at a sample, as a share of the openness's coefficients without
-/// signs, or of [`Limits::most_per_size`].
+/// By how much rounding changes the openness at a sample, as a share of its coefficients without signs.
 // proofs/certificate.py
 const WEIGHT_OFF: f32 = 1.0 / (1 << 18) as f32;
 
@@ -69,7 +68,7 @@ pub(crate) const fn certificate(
     time_steps[0] -= middle;
     scale(&mut time_steps, 1.0 / step, 1.0);
     let limits = Limits::new(view, candidate, span, stretch, &time_steps);
-    let weights = [[1.0, 0.0, 0.0, 0.0], limits.openness, limits.per_size];
+    let weights = [[1.0, 0.0, 0.0, 0.0], limits.openness];
     let (center, per_position) = span.offsets();
     // An offset beyond its word would wrap. It is greatest at an end.
     let [x0, x1, x2, x3, x4, x5, x6] = singles(&stretch.position, center, per_position);
@@ -103,10 +102,8 @@ struct Limits {
     openness: [f32; 4],
     /// In exposure, beyond the ramp's join: at openness 1, over the limit; 0 if the curve does not go on there.
     beyond: f32,
-    /// In time: at least 1 / size, over the limit.
-    per_size: [f32; 4],
-    /// The same at the end of the stretch where it is greater.
-    most_per_size: f32,
+    /// In time, over the limit.
+    per_size: f32,
 }
 
 impl Limits {
@@ -127,10 +124,9 @@ impl Limits {
         let per_exposure = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
         let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, per_exposure);
         let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
-        // 1 / size is convex in time, so at most the chord: `mean + slope (t(s) - t0 - t2)`.
-        let first = step as f32 / view.size_of_time(ends[0]) / FORWARD_ERROR;
-        let last = step as f32 / view.size_of_time(ends[1]) / FORWARD_ERROR;
-        let (slope, mean) = (0.5 * (last - first) / (t1 + t3), 0.5 * (first + last));
+        // The least size is that of an end.
+        let [first, last] = [view.size_of_time(ends[0]), view.size_of_time(ends[1])];
+        let size = if first < last { first } else { last };
         let goes_on = exposure.join(view.ramp) != exposure.end(view.ramp.other());
         Self {
             rounding_steps: truncation_steps
@@ -140,17 +136,16 @@ impl Limits {
             time_steps: [t0, t1, t2, t3],
             openness: [f0, f1, f2, f3],
             beyond: if stretch.is_joined && goes_on { per_exposure as f32 } else { 0.0 },
-            per_size: [mean - slope * t2, slope * t1, slope * t2, slope * t3],
-            most_per_size: if first > last { first } else { last },
+            per_size: step as f32 / size / FORWARD_ERROR,
         }
     }
 
-    /// The bounds that follow from the greatest errors: in time, in exposure at each place, and relative to the time.
+    /// The bounds that follow from the greatest errors, in time, and in exposure at each place.
     ///
     /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way it
     /// may be greater than at the place itself.
     #[inline(never)]
-    const fn bounds(&self, [time, exposure, relative]: [f32; KINDS]) -> ErrorOverLimit {
+    const fn bounds(&self, [time, exposure]: [f32; KINDS]) -> ErrorOverLimit {
         let error = time + self.rounding_steps;
         let rounding = self.rounding_steps + error * WEIGHT_OFF;
         // most >= t' >= slowest
@@ -171,7 +166,7 @@ impl Limits {
         let on_ramp = exposure + rounding * absolute(&self.openness, 1.0) + error * way * steepest;
         let beyond = error * self.beyond;
         ErrorOverLimit {
-            forward: relative + rounding * self.most_per_size,
+            forward: error * self.per_size,
             backward: if beyond > on_ramp { beyond } else { on_ramp },
         }
     }
