@@ -40,7 +40,7 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 /// The rounding error of the first two Taylor coefficients, as a share of their terms: around the end from which the
 /// pairs count, and around the other one, where the distance is rounded, too.
 // proofs/solve.py
-const ROUNDING_NEAR: f32 = 1.0 / (1 << 20) as f32;
+pub(crate) const ROUNDING_NEAR: f32 = 1.0 / (1 << 20) as f32;
 const ROUNDING_FAR: f32 = 1.25 * ROUNDING_NEAR;
 
 /// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. For a last step
