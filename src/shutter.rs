@@ -149,9 +149,7 @@ impl ShutterCurve {
     pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
         let [.., (end, _)] = density.points();
         match Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0))) {
-            Err(CurveError::OpennessOutOfRange { point, .. }) => {
-                Err(CurveError::DensityOutOfRange { point })
-            }
+            Err(CurveError::OpennessOutOfRange { .. }) => Err(CurveError::DensityOutOfRange),
             curve => curve,
         }
     }
@@ -477,8 +475,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If the answer is less than `wanted`, one more
     /// breaks the gap. The answer is at least 1, unless none are wanted.
     ///
-    /// It places one frame after another, each up to the first gap that is too small: usually a few frames, at most
-    /// `2 log2(wanted)`. For a gap of 0 it places none.
+    /// It places one frame after another, each up to the first gap that is too small: usually a few. For a gap of 0 it
+    /// places none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};

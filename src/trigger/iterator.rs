@@ -81,16 +81,6 @@ macro_rules! iterate {
             fn size_hint(&self) -> (usize, Option<usize>) {
                 self.left.size_hint()
             }
-
-            #[inline]
-            fn count(self) -> usize {
-                self.left.count()
-            }
-
-            #[inline]
-            fn last(mut self) -> Option<$item> {
-                self.next_back()
-            }
         }
 
         impl<const OCTAVES: usize> DoubleEndedIterator for $name<'_, OCTAVES> {
