@@ -20,8 +20,8 @@ U64 = Fraction(1, 2**53)
 # Lemmas that other scripts use. The script named proves each, and fails if the number is not this one.
 AT = {6: 118, 3: 31}  # series.py: the error of `Series::at`, in 2^-48 of its terms
 AT_PAIR = {6: 229, 3: 64}  # series.py: that of `Series::at_pair`
-MASS_TERMS = 133  # domain.py: a mass's terms without their signs, as a multiple of the mass
-TIME_TERMS = 13  # domain.py: the same of a time
+MASS_TERMS = 512  # domain.py: a mass's terms without their signs, as a multiple of the mass
+TIME_TERMS = 14  # domain.py: the same of a time
 
 
 def bare(rust):
@@ -40,14 +40,19 @@ def end_of(text, start):
     sys.exit("an item without an end")
 
 
-def item(file, name):
-    """The text of a function, constant or type; `Type::name` is looked for in the type's impls only."""
+def item(file, kind_and_name):
+    """The text of a function, constant or type: `Type::name` in the type's impls, `::name` outside of all impls."""
     text = re.sub(r"//[^\n]*", "", (SRC / file).read_text()) if (SRC / file).exists() else ""
-    kind, _, name = name.rpartition("::")
-    impls = [text]
-    if kind:
-        starts = re.finditer(rf"^impl\b[^{{\n]*\b{kind}\b[^{{\n]*{{", text, re.M)
-        impls = [text[found.start() : end_of(text, found.start())] for found in starts]
+    kind, _, name = kind_and_name.rpartition("::")
+    is_in_impl = "::" in kind_and_name
+    starts = re.finditer(rf"^impl\b[^{{\n]*\b{kind}\b[^{{\n]*{{", text, re.M)
+    impls = [text[found.start() : end_of(text, found.start())] for found in starts]
+    if not is_in_impl:
+        impls = [text]
+    elif not kind:
+        for impl in impls:
+            text = text.replace(impl, "")
+        impls = [text]
     pattern = rf"\b(?:fn|const|struct|enum) {name}\b"
     found = [part[at.start() : end_of(part, at.start())] for part in impls for at in re.finditer(pattern, part)]
     return found[0] if len(found) == 1 else None

@@ -10,20 +10,9 @@ import numpy as np
 
 from common import *
 
-code("let sum = Pair::sum(base, hi);", """let rest = sum.lo + way.lo * first * second;
-    if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 { return careful_sum(base, way, first, second); }
-    sum.hi + rest }""")
-code("const fn odd_sum(a: f32, b: f32) -> f32 {", """let sum = Pair::sum(a, b); let bits = sum.hi.to_bits();
-    if sum.lo == 0.0 || bits & 1 == 1 { return sum.hi; } let up = (sum.lo.to_bits() ^ bits) as i32 >= 0;
-    f32::from_bits(if up { bits + 1 } else { bits - 1 }) }""")
-code("let is_small = base.abs()", """+ (way.hi * first * second).abs() < power_of_two(-78);
-    let up = if is_small { 48 } else { 0 }; let (base, second) = (base * power_of_two(up), second * power_of_two(up));
-    let (hi, lo) = (way.hi * first * second, way.lo * first * second);
-    let near = Pair::sum(base, hi);
-    let (rough, least_normal) = (near.hi + (near.lo + lo), power_of_two(up - 126));
-    let places = if rough.abs() >= least_normal { 0.0 } else { least_normal.copysign(rough) };
-    let sum = Pair::sum(places, near.hi);
-    ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - places) * power_of_two(-up) }""")
+pinned("""
+number/moment.rs rounded_sum 88f3a57d careful_sum 4688c60a odd_sum c4c2eafa
+""")
 
 
 def shift_of(v, p):
