@@ -111,17 +111,12 @@ def log2(x):
 started = time.monotonic()
 
 
-def proven(claim, kind="proven"):
+def proven(claim):
     """Prints a claim that has just been checked, with the time since the last one."""
     global started
     now = time.monotonic()
-    print(f"{kind} {now - started:7.2f} s  {SCRIPT}: {claim}", flush=True)
+    print(f"proven {now - started:7.2f} s  {SCRIPT}: {claim}", flush=True)
     started = now
-
-
-def tested(claim):
-    """The same for what was tried on many words, but not proven."""
-    proven(claim, "tested")
 
 
 def require(condition, claim):
