@@ -438,7 +438,7 @@ fn a_bad_curve_is_an_error() {
     let dir = empty_dir("curve");
     let order =
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
-    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)";
+    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19); it lasts 1e30 s";
     for (key, value, at, reason) in [
         ("open_start", "nan", "open_start", "open_start: a finite number is required"),
         ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
@@ -456,6 +456,30 @@ fn a_bad_curve_is_an_error() {
     }
 }
 
+#[test]
+fn what_is_too_short_for_f32_is_an_error_at_its_end() {
+    let dir = empty_dir("short");
+    let short = |part: &str| {
+        format!(
+            "{part}: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length; it lasts 1e-9 ms"
+        )
+    };
+    let far = "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; count times \
+               from a nearer origin; it lasts 1000 ms";
+    for (times, at, reason) in [
+        (["0", "1e-9", "0.75", "1"], 2, short("opening ramp")),
+        (["-1", "0", "1e-9", "1"], 3, short("plateau")),
+        (["-1", "-0.5", "-1e-9", "0"], 4, short("closing ramp")),
+        (["131071000", "131071000", "131072000", "131072000"], 4, far.into()),
+    ] {
+        let keys = ["open_start", "open_end", "close_start", "close_end"];
+        let times = keys.iter().zip(times).map(|(key, time)| format!("{key} = {time}\n"));
+        let times: String = times.collect();
+        let scene = format!("{times}unit = \"ms\"\ntriggers = 1\ntimer_hz = 1000\nmin_gap = 0\n");
+        fails(&dir, &scene, Some(at), &reason);
+    }
+}
+
 /// What is told below an error of the inner control points.
 const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 
@@ -463,21 +487,45 @@ const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 fn wrong_control_points_are_an_error_that_names_their_convention() {
     let dir = empty_dir("convention");
     let (opening, closing) = ("opening ramp", "closing ramp");
-    let [back, closing_back] = ["t1 and t2", "t5 and t6"].map(|inner| {
+    let fraction = |name: &str, number: &str| {
         format!(
-            "time turns back along it; {inner} are fractions of the whole interval, 0 at open_start and 1 at close_end"
+            "{name} does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at \
+             close_end; it is {number}"
         )
-    });
-    let (back, closing_back) = (back.as_str(), closing_back.as_str());
+    };
+    let openness = |point: &str, number: &str| {
+        format!("the openness of its {point} has to be in [0, 1]; it is {number}")
+    };
+    let crossed = "its first inner point is later than its second by more than 15/16 of the ramp; move them closer";
     for (numbers, ramp, reason, hint) in [
-        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, back, ""),
-        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, closing_back, ""),
-        ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", opening, "the openness falls below 0", ""),
-        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, "the openness rises above 1", ""),
+        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, fraction("t1", "1.9"), ""),
+        ("[0.1, 0, 0.2500001, 1, 0.85, 1, 0.9, 0]", opening, fraction("t2", "0.2500001"), ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, fraction("t5", "-0.1"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 1, 1e9, 0]", closing, fraction("t6", "1000000000"), ""),
+        (
+            "[0.1, -1e-9, 0.15, 1, 0.85, 1, 0.9, 0]",
+            opening,
+            openness("first inner point", "-1e-9"),
+            "",
+        ),
+        (
+            "[0.1, 0, 0.15, 1.2, 0.85, 1, 0.9, 0]",
+            opening,
+            openness("second inner point", "1.2"),
+            "",
+        ),
+        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, openness("first inner point", "2"), ""),
+        (
+            "[0.1, 0, 0.15, 1, 0.85, 1, 0.9, -0.5]",
+            closing,
+            openness("second inner point", "-0.5"),
+            "",
+        ),
+        ("[0.25, 0, 0, 1, 0.85, 1, 0.9, 0]", opening, crossed.into(), ""),
         (
             "[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]",
             opening,
-            back,
+            fraction("t1", "0.4"),
             "  As fractions of each ramp they would fit; that is
   shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
 ",
