@@ -55,11 +55,11 @@ impl Shape {
         conventions.into_iter().find_map(|(name, convert)| {
             let inner: [f64; 8] = std::array::from_fn(|i| {
                 let x = f64::from(inner[i]);
-                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, 6)
+                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, 7)
             });
             // What is written is what has to fit.
             let curve = ShutterCurve::shutteropening(self.times, inner.map(|x| x as f32));
-            curve.is_ok().then(|| (name, inner.map(|x| short(x, 6))))
+            curve.is_ok().then(|| (name, inner.map(|x| short(x, 7))))
         })
     }
 }

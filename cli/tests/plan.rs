@@ -499,7 +499,7 @@ fn wrong_control_points_are_an_error_that_names_their_convention() {
     let crossed = "its first inner point is later than its second by more than 15/16 of the ramp; move them closer";
     for (numbers, ramp, reason, hint) in [
         ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, fraction("t1", "1.9"), ""),
-        ("[0.1, 0, 0.2500001, 1, 0.85, 1, 0.9, 0]", opening, fraction("t2", "0.2500001"), ""),
+        ("[0.1, 0, 1.2500003, 1, 0.85, 1, 0.9, 0]", opening, fraction("t2", "1.2500003"), ""),
         ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, fraction("t5", "-0.1"), ""),
         ("[0.1, 0, 0.15, 1, 0.85, 1, 1e9, 0]", closing, fraction("t6", "1000000000"), ""),
         (
