@@ -3,9 +3,9 @@
 use crate::number::pair::Pair;
 use crate::number::units::{fixed, power_of_two};
 
-/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once (but for 2⁻²⁴ of the rest, where base and way
-/// nearly cancel: docs/internals/proofs.md). `way` is at most 2¹⁰⁵ (a plateau's). `unit` is at least -252, so that half
-/// of it is the exponent of a normal number, and at most 22 unless `way` is 0.
+/// `base + way 2^unit`, or `base - way 2^unit` where `back`, rounded once. (Where base and way nearly cancel, across time
+/// 0, what is left over when their first numbers are added is rounded by 2⁻²⁴ of itself before.) `way` is at most 2¹⁰⁵.
+/// `unit` is at least -252, so that half of it is the exponent of a normal number, and at most 22 unless `way` is 0.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> f32 {
@@ -16,9 +16,9 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, unit: i32, back: bool) -> 
     let hi = way.hi * first * second;
     let sum = Pair::sum(base, hi);
     let rest = sum.lo + way.lo * first * second;
-    // base ± way = sum.hi + rest, but for the rounding of `rest`. If that is midway between two `f32`, the rest is ±1/2
-    // or ±1/4 ulp. So all powers of two, whose stored significand is 0, go to `careful_sum`, and 0 does with them.
-    // Below 2⁻⁷⁸ parts may be subnormal.
+    // The last line rounds `sum.hi + rest`, though `rest` has been rounded itself. That matters only if `rest` has been
+    // rounded to midway between two `f32`, ±1/2 or ±1/4 ulp of `sum.hi`, a power of two. So all powers of two, whose
+    // stored significand is 0, go to `careful_sum`, and 0 does with them. Below 2⁻⁷⁸ parts may be subnormal.
     if base.abs() + hi.abs() < power_of_two(-78) || rest.to_bits() << 9 == 0 {
         return careful_sum(base, way, first, second);
     }
@@ -75,13 +75,11 @@ pub(crate) struct Moment {
     pub(crate) unit: i32,
     /// The other end of the ramp or the plateau, which no answer passes.
     pub(crate) until: f32,
-    /// Polynomial evaluations that the search took.
-    pub(crate) evaluations: u32,
 }
 
 impl Moment {
     pub(crate) const fn at(time: f32) -> Self {
-        Self { base: time, back: false, way: Pair::ZERO, unit: 0, until: time, evaluations: 0 }
+        Self { base: time, back: false, way: Pair::ZERO, unit: 0, until: time }
     }
 
     /// The time, rounded once.
@@ -92,15 +90,14 @@ impl Moment {
         if is_beyond { self.until } else { time }
     }
 
-    /// The time in units of `2^unit`, at most 2⁶² of them.
+    /// The time in units of `2^unit`, at most 2⁶² of them: base and way are rounded down, each by itself.
     pub(crate) const fn in_units(self, unit: i32) -> i64 {
         let Pair { hi, lo } = self.way.shifted(self.unit - unit);
-        // way = floor(hi + lo), apart from the rounding of `rest`: ways of at least 2²⁴ units keep their order, since
-        // there `hi` is whole and `rest` is `lo`; shorter ones do if they are 2⁻¹⁷ of a unit apart (proofs/ticks.py).
+        // Only the last sum rounds: `whole` and the rest of `hi` are exact.
         let whole = fixed(hi, 0);
         let way = whole + fixed((hi - whole as f32) + lo, 0);
         let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)];
-        // Next to a dark end the little mass by which a search may err is a long time: never beyond `until`.
+        // Where little light falls, the little mass by which a search may err takes long: never beyond `until`.
         let time = if self.back { base - way } else { base + way };
         let is_beyond = if self.back { time < until } else { time > until };
         if is_beyond { until } else { time }

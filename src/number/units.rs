@@ -6,7 +6,7 @@
 //! | a fraction of the exposure, *in [`WHOLE`]* | either end of the curve | 2¹⁰⁴ | pair |
 //! | a mass, the fraction collected on one ramp | one of its ends | 2⁸⁰ to 2⁸¹, by [`mass_per_fraction`] | pair |
 //! | a time on a ramp | one of its ends | 2⁶⁴ to 2⁶⁵, by [`ramp_unit`] | pair |
-//! | a time on the curve | time 0 | ±2⁶², by [`time_unit`] | `i64` |
+//! | a time on the curve, *in units* | time 0 | ±2⁶², by [`time_unit`] | `i64` |
 
 /// Places along a ramp count from 0 at one end to this at the other.
 ///
@@ -23,7 +23,7 @@ pub(crate) const WHOLE_EXPONENT: i32 = 104;
 pub(crate) const WORD: f32 = power_of_two(32);
 pub(crate) const DOUBLE_WORD: f64 = power_of_two_f64(64);
 
-/// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`plan`](crate::answer::plan)).
+/// From here on an `f32` is a multiple of 2⁻³², the unit of the plateau's line ([`inverse`](crate::inverse)).
 pub(crate) const FINE: f32 = 1.0 / 512.0;
 
 /// The bits of 2⁻²⁸, the least top of an octave; a fraction of 0 is below all octaves. One that begins below 2⁻²⁹ would

@@ -3,6 +3,8 @@
 use crate::exposure::Exposure;
 use crate::fraction::Side;
 use crate::number::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
+use crate::octave::candidate::candidate;
+use crate::octave::certificate::certificate;
 use crate::octave::path::{Path, View};
 use crate::octave::span::Span;
 use crate::octave::{Octave, below};
@@ -40,7 +42,7 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = View { exposure, shapes, side, ramp, unit }.octaves(rest);
+        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit }, rest);
         // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 steps above LEAST_TOP = 2⁻²⁸.
         // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
         // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above the near ramp's join and
@@ -54,70 +56,66 @@ pub(crate) const fn build(
     tops
 }
 
-impl View<'_> {
-    /// Builds the ramp's octaves. Returns the bits of its first top, and how many octaves it has.
-    #[inline(never)]
-    const fn octaves(&self, octaves: &mut [Octave]) -> (u32, usize) {
-        let range = range(self.exposure, self.side, self.ramp);
-        if range[0] >= range[1] {
-            // No octaves, so a search has to answer. A far ramp without any is never looked up. A near one is, by
-            // fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of these, each
-            // has an index behind the far ramp's octaves, where all are NONE.
-            let far = self.exposure.joins(self.side)[1];
-            return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
-        }
-        let (path, mut trial) = (self.path(), 0);
-        loop {
-            let top = top_beyond(range, MOVES[trial % MOVES.len()]);
-            trial += 1;
-            if let Some(count) = self.try_top(top, trial >= MOVES.len(), range, &path, octaves) {
-                return (top, count);
-            }
+/// Builds the octaves on a ramp. Returns the bits of its first top, and how many octaves it has.
+#[inline(never)]
+const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
+    let range = range(view.exposure, view.side, view.ramp);
+    if range[0] >= range[1] {
+        // No octaves, so a search has to answer. A far ramp without any is never looked up. A near one is, by
+        // fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of these, each
+        // has an index behind the far ramp's octaves, where all are NONE.
+        let far = view.exposure.joins(view.side)[1];
+        return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
+    }
+    let (path, mut trial) = (view.path(), 0);
+    loop {
+        let top = top_beyond(range, MOVES[trial % MOVES.len()]);
+        trial += 1;
+        if let Some(count) = try_top(view, top, trial >= MOVES.len(), range, &path, octaves) {
+            return (top, count);
         }
     }
+}
 
-    /// Builds the ramp's octaves from a first top on, and returns their number. None at the first that has no
-    /// polynomial, unless this is the last try.
-    #[inline(never)]
-    const fn try_top(
-        &self,
-        first: u32,
-        is_last: bool,
-        range: [f64; 2],
-        path: &Path,
-        octaves: &mut [Octave],
-    ) -> Option<usize> {
-        let (mut index, mut count) = (0, 0);
-        while index < octaves.len() {
-            octaves[index] = Octave::NONE;
-            let top = below(first, index);
-            if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
-                // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
-                // ramp's `a` there would find the near ramp's first octave. An example in units of LEAST_TOP: the join
-                // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8, below 7/8, is on that ramp.
-                count = index + 1;
-            }
-            if let Some(span) = Span::new(range, top) {
-                octaves[index] = self.certified(path, &span);
-                if !octaves[index].exists() && !is_last {
-                    return None;
-                }
-            }
-            index += 1;
+/// Builds the octaves on a ramp from a first top on, and returns their number. None at the first that has no
+/// polynomial, unless this is the last try.
+#[inline(never)]
+const fn try_top(
+    view: &View,
+    first: u32,
+    is_last: bool,
+    range: [f64; 2],
+    path: &Path,
+    octaves: &mut [Octave],
+) -> Option<usize> {
+    let (mut index, mut count) = (0, 0);
+    while index < octaves.len() {
+        octaves[index] = Octave::NONE;
+        let top = below(first, index);
+        if f32::from_bits(top) as f64 > range[0] && top + (1 << 23) > LEAST_TOP {
+            // The first octave with a top below LEAST_TOP takes an index, too, though it stays empty. Else a far
+            // ramp's `a` there would find the near ramp's first octave. An example in units of LEAST_TOP: the join
+            // is at 0.7, and the far ramp's last tops are 7/4 and 7/8. An `a` of 0.8, below 7/8, is on that ramp.
+            count = index + 1;
         }
-        Some(count)
+        if let Some(span) = Span::new(range, top) {
+            octaves[index] = certified(view, path, &span);
+            if !octaves[index].exists() && !is_last {
+                return None;
+            }
+        }
+        index += 1;
     }
+    Some(count)
+}
 
-    /// The octave of a span, without a polynomial if the candidate has no certificate.
-    #[inline(never)]
-    const fn certified(&self, path: &Path, span: &Span) -> Octave {
-        let ends = [(span.middle - span.half) as f64, (span.middle + span.half) as f64];
-        let places = [path.place(ends[0], false), path.place(ends[1], true)];
-        let stretch = span.counted(path.stretch(places));
-        let Some(candidate) = self.candidate(span, &stretch) else { return Octave::NONE };
-        let shares = self.certificate(&candidate, span, stretch, places);
-        if shares.are_certain() { candidate.octave } else { Octave::NONE }
-    }
+/// The octave of a span, without a polynomial if the candidate has no certificate.
+#[inline(never)]
+const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
+    let stretch = span.stretch(path, view.joins_at());
+    let Some(candidate) = candidate(view, span, &stretch) else { return Octave::NONE };
+    let errors = certificate(view, &candidate, span, &stretch);
+    if errors.are_certain() { candidate.octave } else { Octave::NONE }
 }
 
 /// The bits of a ramp's first top: the least that is at or above the range's end, raised by `steps`, or by one more.

@@ -31,7 +31,7 @@ pub(crate) mod span;
 
 use crate::number::units::{LEAST_TOP, TOP_STEP};
 
-/// One octave's polynomial: the time is `middle + factor · P(x)`, in the plan's unit of time. The *offset* `x`, from
+/// One octave's polynomial: the time, in units, is `middle + factor · P(x)`. The *offset* `x`, from
 /// -1/2 to 1/2 in units of 2⁻³², is `(position - center) << shift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Octave {
@@ -74,7 +74,7 @@ impl Octave {
         position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK)
     }
 
-    /// The time, in the plan's unit, at an offset.
+    /// The time at an offset, in units.
     #[inline(always)]
     pub(crate) const fn time(&self, x: i32) -> i64 {
         self.middle.wrapping_add(self.factor as i64 * self.polynomial(x) as i64)

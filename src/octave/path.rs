@@ -5,7 +5,7 @@
 
 use crate::exposure::Exposure;
 use crate::fraction::Side;
-use crate::ramp::cubic::Cubic;
+use crate::number::units::WORD;
 use crate::ramp::shape::Shape;
 
 /// [`root`] ends with a step below this share of `x`, which is about as close as an `f32` comes.
@@ -21,44 +21,75 @@ pub(crate) struct View<'a> {
     pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
     pub(crate) ramp: Side,
-    /// The plan's unit of time is `2^unit`.
+    /// Times in units count `2^unit`.
     pub(crate) unit: i32,
 }
 
-/// A ramp, by powers of a place from 0, at the end that faces the side, to 1. Or a *stretch* of it, by powers of an `s`
-/// from -1 to 1. Coefficients from the constant up.
-#[derive(Clone, Copy)]
-pub(crate) struct Path {
-    pub(crate) openness: [f64; 4],
-    /// The time since the side's end; in a certificate, less the octave's middle, in the unit of its coefficients.
-    pub(crate) time: [f64; 4],
-    /// The fraction from the side; after [`Span::counted`](crate::octave::span::Span::counted), a position.
-    pub(crate) fraction: [f64; 7],
-}
-
 impl View<'_> {
+    /// The whole ramp.
     pub(crate) const fn path(&self) -> Path {
         let Self { exposure, shapes, side, ramp, .. } = *self;
-        let shape = shapes[ramp as usize].from(side);
-        let way = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
+        let shape = shapes[ramp as usize].seen_from(side);
+        let until_far = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
         // At place 0: the side's end, or the far ramp's join.
         let (t0, u0) =
-            if ramp.is(side) { (0.0, 0.0) } else { (way.abs(), exposure.joins(side)[1]) };
-        let Cubic { value: f, c: [f1, f2, f3] } = shape.openness();
-        let Cubic { c: [t1, t2, t3], .. } = shape.time();
-        let [u1, u2, u3, u4, u5, u6] = shape.mass();
+            if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.joins(side)[1]) };
+        let [t1, t2, t3] = shape.time_powers();
+        let [u1, u2, u3, u4, u5, u6] = shape.mass_powers();
         // Masses over the area; `u0` is a fraction already.
         let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
-        Path { openness: [f, f1, f2, f3], time: [t0, t1, t2, t3], fraction }
+        Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
     }
+
+    /// The place of the ramp's join: it faces the side on the far ramp.
+    pub(crate) const fn joins_at(&self) -> f64 {
+        if self.ramp.is(self.side) { 1.0 } else { 0.0 }
+    }
+
+    /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
+    /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
+    #[inline(never)]
+    pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
+        let [start, end] = [self.exposure.end(Side::Start), self.exposure.end(Side::End)];
+        let size = if !(start < 0.0 && end > 0.0) {
+            let time =
+                if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
+            (time as f32).abs()
+        } else if end > -start {
+            end
+        } else {
+            -start
+        };
+        if size < end - start { size } else { end - start }
+    }
+}
+
+/// A ramp by powers of a place, from 0 at the end that faces the side to 1. Coefficients from the constant up.
+pub(crate) struct Path {
+    openness: [f64; 4],
+    /// The time since the side's end.
+    time: [f64; 4],
+    /// The fraction from the side.
+    pub(crate) fraction: [f64; 7],
+}
+
+/// A part of a path by powers of an `s` from -1 to 1.
+pub(crate) struct Stretch {
+    pub(crate) openness: [f64; 4],
+    /// The time since the side's end.
+    pub(crate) time: [f64; 4],
+    /// The position in the octave, before it is cut to a whole number.
+    pub(crate) position: [f64; 7],
+    /// Does it reach the ramp's join?
+    pub(crate) is_joined: bool,
 }
 
 impl Path {
     /// A place of the ramp with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is
     /// near, not the nearest: farther out, a certificate is only stricter.
     #[inline(never)]
-    pub(crate) const fn place(&self, u: f64, up: bool) -> f64 {
+    const fn place(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
         let (p, slope) = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
@@ -78,15 +109,19 @@ impl Path {
         }
     }
 
-    /// The stretch between two places of the ramp: `s` is -1 at the first, 1 at the last.
+    /// The stretch that has all fractions from `from` to `to`, in an octave with this power. `joins_at` is the place of
+    /// the ramp's join, 0 or 1.
     #[inline(never)]
-    pub(crate) const fn stretch(&self, [first, last]: [f64; 2]) -> Self {
+    pub(crate) const fn stretch(&self, from: f64, to: f64, power: f32, joins_at: f64) -> Stretch {
+        let (first, last) = (self.place(from, false), self.place(to, true));
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
-        let mut stretch = *self;
-        recentred(&mut stretch.openness, middle, half);
-        recentred(&mut stretch.time, middle, half);
-        recentred(&mut stretch.fraction, middle, half);
-        stretch
+        let Self { mut openness, mut time, fraction: mut position } = *self;
+        recentred(&mut openness, middle, half);
+        recentred(&mut time, middle, half);
+        recentred(&mut position, middle, half);
+        position[0] -= power as f64;
+        scale(&mut position, (WORD / power) as f64, 1.0);
+        Stretch { openness, time, position, is_joined: first == joins_at || last == joins_at }
     }
 }
 

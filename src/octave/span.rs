@@ -2,7 +2,7 @@
 
 use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
 use crate::octave::SHIFT_MASK;
-use crate::octave::path::{Path, scale};
+use crate::octave::path::{Path, Stretch};
 
 /// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. (Unhalved, too: a
 /// top is at most 15/8 of the power, and `half` a quarter of the top.) A word of offsets ends at 0.5 width. Of the 0.02
@@ -53,11 +53,10 @@ impl Span {
         fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
 
-    /// The stretch with positions for its fractions.
-    pub(crate) const fn counted(&self, mut stretch: Path) -> Path {
-        stretch.fraction[0] -= self.power as f64;
-        scale(&mut stretch.fraction, (WORD / self.power) as f64, 1.0);
-        stretch
+    /// The stretch of a ramp that has all of these fractions. `joins_at` is the place of the ramp's join.
+    pub(crate) const fn stretch(&self, path: &Path, joins_at: f64) -> Stretch {
+        let Self { middle, half, power, .. } = *self;
+        path.stretch((middle - half) as f64, (middle + half) as f64, power, joins_at)
     }
 
     /// `(center, per_position)`: the offset, in widths, is `(position - center) per_position`.

@@ -1,8 +1,9 @@
 //! From fractions of the exposure to the ticks of a timer.
 
-use crate::answer::plan::Plan;
 use crate::error::ScheduleError;
 use crate::fraction::{Fraction, Side};
+use crate::inverse::Inverse;
+use crate::number::units::DOUBLE_WORD;
 
 /// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that it tells before from
 /// after.
@@ -13,14 +14,14 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 /// The ticks of one frame: of the triggers, or the pulses, of one exposure.
 #[derive(Clone)]
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
-    plan: &'a Plan<OCTAVES>,
-    pub(crate) n: u32,
+    inverse: &'a Inverse<OCTAVES>,
+    n: u32,
     scale: TickScale,
 }
 
 impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     pub(crate) const fn new(
-        plan: &'a Plan<OCTAVES>,
+        inverse: &'a Inverse<OCTAVES>,
         n: u32,
         ticks_per_unit: u32,
     ) -> Result<Self, ScheduleError> {
@@ -30,12 +31,12 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let (start, unit) = (plan.end_in_units(Side::Start), plan.unit());
-        let length = (plan.end_in_units(Side::End) - start) as u64;
+        let (start, unit) = (inverse.end_units(Side::Start), inverse.unit);
+        let length = (inverse.end_units(Side::End) - start) as u64;
         if exponent_of_ticks(length, ticks_per_unit, unit) > TICK_BITS {
             return Err(too_high(length, ticks_per_unit, unit));
         }
-        Ok(Self { plan, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
+        Ok(Self { inverse, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
     }
 
     /// The tick of trigger `i`.
@@ -47,7 +48,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
     #[inline(always)]
     pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
-        self.scale.tick(self.plan.time_at(self.fraction(i, more)))
+        self.scale.tick(self.inverse.time_units(self.fraction(i, more)))
     }
 
     /// Do all triggers keep a gap?
@@ -65,13 +66,69 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
 
     /// Does trigger `i` need no search?
     pub(crate) const fn is_direct(&self, i: u32) -> bool {
-        i < self.n && self.plan.direct(self.fraction(i, 0.0)).is_some()
+        i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
 
+    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a pulse
+    /// it is within one and a half ulp (proofs/ticks.py).
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
-        Fraction::new(2 * i + 1, more, self.n)
+        let (odd, whole) = (2 * i + 1, 2 * self.n);
+        Fraction::of_parts(odd as f32 + more, (whole - odd) as f32 - more, whole as f32)
     }
+
+    /// The ticks of all triggers, as many as the slice has places; an error at the first gap that is too small.
+    pub(crate) const fn schedule_into(
+        &self,
+        ticks: &mut [u32],
+        min_gap: u32,
+    ) -> Result<(), ScheduleError> {
+        let (mut i, mut last) = (0, 0);
+        while i < ticks.len() {
+            let tick = self.at(i as u32);
+            let gap = tick.saturating_sub(last);
+            if i > 0 && gap < min_gap {
+                return Err(ScheduleError::GapTooSmall { trigger: i as u32, gap, min_gap });
+            }
+            ticks[i] = tick;
+            (i, last) = (i + 1, tick);
+        }
+        Ok(())
+    }
+
+    /// How many triggers, up to `n`, keep a gap.
+    pub(crate) const fn most_triggers(mut self, min_gap: u32, guess: u32) -> u32 {
+        let wanted = self.n;
+        if wanted <= 1 || min_gap == 0 {
+            return wanted;
+        }
+        // First the whole frame, then the guess, then doubled steps and bisection. One trigger keeps any gap.
+        let (mut keep, mut fail, mut step) = (1, wanted + 1, 0u32);
+        while fail - keep > 1 {
+            let keeps = self.keeps(min_gap);
+            *(if keeps { &mut keep } else { &mut fail }) = self.n;
+            let next = if step == 0 {
+                guess
+            } else if keeps {
+                keep.saturating_add(step)
+            } else {
+                fail.saturating_sub(step)
+            };
+            self.n = if next <= keep || next >= fail { keep + (fail - keep) / 2 } else { next };
+            step = step.saturating_mul(2) | 1;
+        }
+        keep
+    }
+}
+
+/// The most triggers in a frame that needs no search.
+pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTAVES>) -> u32 {
+    let [first, last] = [inverse.least_direct(Side::Start), inverse.least_direct(Side::End)];
+    let least = if first > last { first } else { last };
+    // The first and the last trigger are 1/2n from the ends, and 1/2n > least is needed, with a slack of 2⁻²⁴, as
+    // fractions are rounded to `f32`. In 2⁻⁶⁴; saturating shows the compiler that the divisor is not 0.
+    let most = (1 << 63) / ((least * DOUBLE_WORD) as u64).saturating_add(1 << 40);
+    if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
 
 /// The least `e` for which a `length`, in units of `2^unit` of the curve's time, is at most 2^e ticks.
@@ -95,7 +152,7 @@ const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError 
     ScheduleError::TickRateTooHigh { most }
 }
 
-/// From times in the plan's unit to ticks, in fixed point.
+/// From times in units to ticks, in fixed point.
 #[derive(Clone)]
 pub(crate) struct TickScale {
     start: i64,
