@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use shutter_curve::{CurveError, Part, ShutterCurve};
-use shutter_fit::unit::{Unit, short};
+use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
@@ -196,6 +196,9 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     })
 }
 
+/// The digits of an inner control number: all that `f32` keeps.
+const DIGITS: i32 = 9;
+
 /// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.
 const ROUNDING: f64 = 1e-4;
 
@@ -281,7 +284,7 @@ impl Scene {
         let ramp = |part| if part == Part::Closing { 4 } else { 0 };
         let point = |part, point: u8| ramp(part) + 2 * (usize::from(point) - 1);
         let one =
-            |i: usize| ((i, i + 1), format!("; it is {}", short(place.get_ref()[i].get(), 9)));
+            |i: usize| ((i, i + 1), format!("; it is {}", short(place.get_ref()[i].get(), DIGITS)));
         let (inner, number) = match error {
             E::FractionOutsideRamp { part, point: at } => one(point(part, at)),
             E::OpennessOutOfRange { part, point: at } => one(point(part, at) + 1),
@@ -294,12 +297,43 @@ impl Scene {
         fault.inner = Some(inner);
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
         let is_time = matches!(error, E::FractionOutsideRamp { .. });
-        if let Some((convention, inner)) = shape.misread(self.unit()).filter(|_| is_time) {
+        let misread = is_time.then(|| self.misread(shape, place.get_ref())).flatten();
+        if let Some((convention, inner)) = misread {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));
         }
         fault
+    }
+
+    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
+    /// crate takes them.
+    ///
+    /// Times go first, as they fit only where the control points lie on their own ramps; small fractions of each ramp
+    /// fit easily.
+    fn misread(&self, shape: &Shape, inner: &[Number]) -> Option<(String, [String; 8])> {
+        let times = self.times().map(|time| time.get_ref().get());
+        let [open_start, open_end, close_start, close_end] = times;
+        let fraction = |time: f64| (time - open_start) / (close_end - open_start);
+        let of_ramp = |ramp: usize, x: f64| match ramp {
+            0 => open_start + x * (open_end - open_start),
+            _ => close_start + x * (close_end - close_start),
+        };
+        let as_times = |_, x| fraction(x);
+        let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
+        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] = [
+            (format!("times in {}", self.unit().name()), &as_times),
+            ("fractions of each ramp".into(), &as_ramps),
+        ];
+        conventions.into_iter().find_map(|(name, convert)| {
+            let inner: [f64; 8] = std::array::from_fn(|i| {
+                let x = inner[i].get();
+                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, DIGITS)
+            });
+            // What is written is what has to fit.
+            let shape = Shape { inner: Some(inner.map(|x| x as f32)), ..*shape };
+            shape.curve().is_ok().then(|| (name, inner.map(|x| short(x, DIGITS))))
+        })
     }
 }
 

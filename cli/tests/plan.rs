@@ -487,45 +487,28 @@ const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 fn wrong_control_points_are_an_error_that_names_their_convention() {
     let dir = empty_dir("convention");
     let (opening, closing) = ("opening ramp", "closing ramp");
-    let fraction = |name: &str, number: &str| {
-        format!(
-            "{name} does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at \
-             close_end; it is {number}"
-        )
+    let wrong = |what: &str, point: &str, rule: &str, number: &str| {
+        format!("the {what} of its {point} inner point has to {rule}; it is {number}")
     };
-    let openness = |point: &str, number: &str| {
-        format!("the openness of its {point} has to be in [0, 1]; it is {number}")
-    };
+    let on_ramp =
+        "lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end";
+    let fraction = |point: &str, number: &str| wrong("time", point, on_ramp, number);
+    let openness = |point: &str, number: &str| wrong("openness", point, "be in [0, 1]", number);
     let crossed = "its first inner point is later than its second by more than 15/16 of the ramp; move them closer";
     for (numbers, ramp, reason, hint) in [
-        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, fraction("t1", "1.9"), ""),
-        ("[0.1, 0, 1.2500003, 1, 0.85, 1, 0.9, 0]", opening, fraction("t2", "1.2500003"), ""),
-        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, fraction("t5", "-0.1"), ""),
-        ("[0.1, 0, 0.15, 1, 0.85, 1, 1e9, 0]", closing, fraction("t6", "1000000000"), ""),
-        (
-            "[0.1, -1e-9, 0.15, 1, 0.85, 1, 0.9, 0]",
-            opening,
-            openness("first inner point", "-1e-9"),
-            "",
-        ),
-        (
-            "[0.1, 0, 0.15, 1.2, 0.85, 1, 0.9, 0]",
-            opening,
-            openness("second inner point", "1.2"),
-            "",
-        ),
-        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, openness("first inner point", "2"), ""),
-        (
-            "[0.1, 0, 0.15, 1, 0.85, 1, 0.9, -0.5]",
-            closing,
-            openness("second inner point", "-0.5"),
-            "",
-        ),
+        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, fraction("first", "1.9"), ""),
+        ("[0.1, 0, 1.2500003, 1, 0.85, 1, 0.9, 0]", opening, fraction("second", "1.2500003"), ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, fraction("first", "-0.1"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 1, 1e9, 0]", closing, fraction("second", "1000000000"), ""),
+        ("[0.1, -1e-9, 0.15, 1, 0.85, 1, 0.9, 0]", opening, openness("first", "-1e-9"), ""),
+        ("[0.1, 0, 0.15, 1.2, 0.85, 1, 0.9, 0]", opening, openness("second", "1.2"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, openness("first", "2"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 1, 0.9, -0.5]", closing, openness("second", "-0.5"), ""),
         ("[0.25, 0, 0, 1, 0.85, 1, 0.9, 0]", opening, crossed.into(), ""),
         (
             "[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]",
             opening,
-            fraction("t1", "0.4"),
+            fraction("first", "0.4"),
             "  As fractions of each ramp they would fit; that is
   shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
 ",
