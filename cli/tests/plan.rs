@@ -593,6 +593,49 @@ fn a_unit_scales_all_times() {
     }
 }
 
+/// Decimals in or at the end of the box, some of them rounded to seven digits, on any scale and up to a hundred
+/// intervals from time 0: neither the unit's conversion nor `f32` carries one out of it.
+#[test]
+fn what_lies_in_the_box_lies_in_it_in_every_unit() {
+    let mut state = 1u64;
+    let mut below = |n: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as i64 % n
+    };
+    for _ in 0..2000 {
+        let n = [8, 10, 12, 25, 49, 64, 80, 125, 300][below(9) as usize];
+        let mut times = [0, below(n + 1), below(n + 1), n];
+        times.sort_unstable();
+        // Of each inner time an end of its ramp, or any place on it.
+        let ramps = [[times[0], times[1]], [times[2], times[3]]];
+        let inner = ramps.map(|[from, to]| {
+            let mut inner = [0, 1].map(|_| match below(4) {
+                0 => from,
+                1 => to,
+                _ => from + below(to - from + 1),
+            });
+            inner.sort_unstable();
+            inner.map(|at| {
+                let fraction = (1e7 * at as f64 / n as f64).round() / 1e7;
+                format!("{fraction}, {}", below(11) as f64 / 10.0)
+            })
+        });
+        let (offset, power) = (below(201 * n) - 100 * n, below(7) - 3);
+        for (unit, more) in [("s", -3), ("ms", 0), ("us", 3), ("ns", 6)] {
+            let keys = ["open_start", "open_end", "close_start", "close_end"].iter().zip(times);
+            let times = keys
+                .map(|(key, time)| format!("{key} = {}e{}\n", offset + time, power + more))
+                .collect::<String>();
+            let text = format!(
+                "unit = \"{unit}\"\n{times}shutteropening = [{}]\ntriggers = 1\ntimer_hz = 1\nmin_gap = 0\n",
+                inner.as_flattened().join(", ")
+            );
+            let curve = shutter::scene::parse(&text).and_then(|scene| scene.curve());
+            assert!(curve.is_ok(), "{}", curve.unwrap_err().locate("scene", &text));
+        }
+    }
+}
+
 /// Everything that is asked of a delay: it is printed, counted from, drawn, and checked.
 #[test]
 fn a_delay_is_counted_from_the_edge_of_the_sync() {
