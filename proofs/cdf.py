@@ -9,10 +9,10 @@ import numpy as np
 from box import *
 
 pinned("""
-cdf.rs section 73fb4e68 cdf_on_plateau f629ab0d cdf_on_ramp bb8e53c8 from_nearer_end 3731fca8 on_grid 502f7034 gridded 664f67ff
-ramp/mod.rs at_time bce1ca88 place_of_time 2df707a6 place_from 4b1484c7 mass 2c3592b7
+cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp c175bd32 from_nearer_end 70c248c7 on_grid af670c35 gridded 664f67ff
+ramp/mod.rs at_time 08d4d20d place_of_time 48a5f503 place_from 4b1484c7 fraction 21c2a107
 number/pair.rs plus 557c4757 minus 631268a2 over e34c0f49
-number/units.rs fraction_per_mass 3a29ad14
+number/units.rs fraction_per_mass f0b1684c
 """)
 
 TIME_ERROR = constant("TIME_ERROR")

@@ -8,12 +8,12 @@ from solver import *
 
 pinned("""
 octave/mod.rs offset f842a0c4 polynomial dd3fe418
-octave/bound.rs COSINES b2eeaf01 FACTOR 211a3236 count 2b8110fe ::at 17b1ec79 errors e5f34c3b single 84fae9ed
-octave/certificate.rs certificate 07a75490 Limits::new 5d5e5543 bounds 1f6cc52d are_certain 1d3ddbaa
-octave/candidate.rs candidate 80cd425e
-octave/path.rs absolute 0189ce1f place 230ae802 stretch 3fe352f0 joins_at 767b2b61 size_of_time 0445ca2e
-octave/span.rs Span::new f245b7f1 stretch 5733a218 offsets 5456fc37
-exposure.rs joins 53de3777
+octave/bound.rs COSINES b2eeaf01 FACTOR 211a3236 count 36d8dce6 ::at 17b1ec79 errors e5f34c3b single 84fae9ed
+octave/certificate.rs certificate 7a1196f1 PerStep::new 50f6773c bounds 49660a09 are_certain 1d3ddbaa
+octave/candidate.rs candidate 5f0e210b
+octave/path.rs absolute 0189ce1f parameter ab66e34c stretch 047cf925 join_parameter cec05c49 size_of_time 8fec6805
+octave/span.rs Span::new f245b7f1 stretch 5d390374 offsets 5456fc37
+exposure.rs join_fractions bec42778
 """)
 
 DEGREE, POINTS, FIRST_STRIDE = constant("DEGREE"), constant("POINTS"), constant("FIRST_STRIDE")

@@ -3,11 +3,11 @@
 from box import *
 
 pinned("""
-domain.rs check 500822ed check_section b2af6dd3 check_box f68e8624
+domain.rs check f6cb7d9f check_section b2af6dd3 check_points 843de3a2
 exposure.rs Exposure::new 3f1397a4
-inverse.rs Inverse::new d5c65e16 last_before_line e915c97a
-number/units.rs up_of_mass 41d903a9 time_unit b4f8f376 ramp_unit 86df90e1 fixed aa9cc2fe fixed_f64 6ba26ccd
-ramp/shape.rs powers 91a002ae mass_powers 593f5195 area 2d3ce743
+inverse.rs Inverse::new 36cce59a last_before_line e915c97a
+number/units.rs mass_exponent 8d1444af time_exponent 96eb982d ramp_exponent bb4367a6 fixed_down 12e34aed fixed_towards_0 c6a6eaa3
+ramp/shape.rs powers 91a002ae exposure_powers 6be3a531 area 6e0daa9d
 """)
 
 # Rule 2. `t'` is at least 3 p^2 next to the start, as much next to the end, and SLOWEST between.
@@ -53,9 +53,10 @@ require(line < ulp * units / 2**6 and line > ulp * units / 2**8, "the line")
 proven(f"the plateau's line has at least 2^{log2(units):.2f} units of area, and is off by at most {float(line):.2f} units: 2^{log2(line / ulp / units):.2f} ulp of the least u on it")
 longest = constant("DOUBLE_WORD")
 require(density / longest > Fraction(1, 2**126) and min(density, LEAST_AREA) == density, "areas")
-least_ramp, least_time = section / longest / 2, 1 / longest / 2
-require(log2(least_ramp) - 64 >= -252 and log2(longest / interval) - 61 + 32 < 127 and log2(least_time) - 61 + 32 >= -126, "units")
-proven(f"an area is from 2^{log2(density / longest):g} to 2^64, so it and its reciprocal are normal f32; a ramp's unit of time is from 2^{log2(least_ramp) - 64:g} to 2^0, and 2^32 units of time on the curve are from 2^{log2(least_time) - 61 + 32:g} to 2^{log2(longest / interval) - 61 + 32:g}")
+# The greatest |time|, or the interval if that is more, has 2^61 to 2^62 units.
+least_ramp, units = section / longest / 2, [log2(1 / longest) - 61, log2(longest / interval) - 61]
+require(log2(least_ramp) - 64 >= -252 and units[0] >= -125 and units[1] + 32 < 127, "units")
+proven(f"an area is from 2^{log2(density / longest):g} to 2^64, so it and its reciprocal are normal f32; a way on a ramp counts in 2^{log2(least_ramp) - 64:g} or more, a time in 2^{units[0]:g} to 2^{units[1]:g}")
 
 # Terms without their signs, at each place of any ramp.
 ramps, times_only = extremes(), [Extreme(corner, (0, 0, 0, 1)) for corner in corners()]

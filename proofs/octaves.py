@@ -4,18 +4,18 @@ truncates, by Gappa."""
 from solver import *
 
 pinned("""
-octave/mod.rs top 3bf89186 below b73f9ae7 Octave::offset f842a0c4 times_high 6572aa47 times_high_by_halves 411fa41c polynomial dd3fe418
-octave/span.rs Span::new f245b7f1 center c1694c6b
-octave/build.rs top_beyond 0e05e7b9
-octave/candidate.rs candidate 80cd425e
-inverse.rs Inverse::new d5c65e16 section 00a6e42c look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_words 0f9f46b6
+octave/mod.rs top c6b09b9a below b73f9ae7 Octave::offset f842a0c4 times_high 6572aa47 times_high_by_halves 411fa41c polynomial dd3fe418
+octave/span.rs Span::new f245b7f1 center c648d563
+octave/build.rs top_beyond ffb7021a
+octave/candidate.rs candidate 5f0e210b
+inverse.rs Inverse::new 36cce59a section 44bee705 look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
 fraction.rs Fraction::new a0cd572f
 """)
 
 
 
 SHIFT_MASK = constant("SHIFT_MASK")
-STEP = constant("TOP_STEP")
+STEP = constant("EIGHTH")
 
 
 def look_up(top, bits):

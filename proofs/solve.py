@@ -8,12 +8,12 @@ import box
 from majorant import *
 
 pinned("""
-search/mod.rs mirrored b99425f4 Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left e179ba85 solve 54895c2b approach bcc2ca23
-ramp/mod.rs place_of_mass 9d8641e5 place_of_time 2df707a6
+search/mod.rs mirrored b82cf3df Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left 099b0969 solve 00ecc2bd approach bcc2ca23
+ramp/mod.rs place_of_part d7e002b3 place_of_time 48a5f503
 number/pair.rs difference c74b730c
 """)
 
-NEAR, FAR, MOVED = constant("ROUNDING_NEAR"), constant("ROUNDING_FAR"), constant("MOVED")
+NEAR, FAR, MOVED = constant("ROUNDING_SAME"), constant("ROUNDING_OTHER"), constant("MOVED")
 INVERSE_ERROR, TIME_ERROR = constant("INVERSE_ERROR"), constant("TIME_ERROR")
 # In `left`.
 CUBES, SQUARES = Fraction("3.4"), 5

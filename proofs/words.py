@@ -3,10 +3,10 @@
 from solver import *
 
 pinned("""
-inverse.rs on_line 11ca6ef0 in_words 0f9f46b6 last_before_line e915c97a upper_word a882ad8d rounded_near_0 c623c83a
+inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 89095067
 number/pair.rs upper 5180492f ::flipped 279c50d6 significand a3252cda
-number/units.rs exponent eb440cf3 fixed aa9cc2fe fixed_f64 6ba26ccd floor_bits 60a73088
-octave/candidate.rs rounded 52927dfe
+number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
+octave/candidate.rs rounded 0d9916e4
 """)
 
 # The plateau's line.
@@ -30,7 +30,7 @@ def line(first):
     return Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)), And(ULE(shift, 31), back == whole))
 
 
-valid("in_words: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
+valid("in_line_units: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
@@ -101,7 +101,7 @@ valid(
     (x ^ (1 << 31)) == x + (1 << 30),
 )
 
-# `exponent`, `fixed` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
+# `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
 # with the bits of a significand is the same for all: a shift.
 up, sig = BitVec("up", 64), BitVec("sig", 64)
 # A number below 2^63 units: |sig| 2^up < 2^63, so up is at most 62 where sig is not 0.
@@ -116,14 +116,14 @@ def whole(most_down):
     return Implies(fits, If(up >= 0, units >> up == sig, floor))
 
 
-valid("fixed: the whole units of a number below 2^63 of them, rounded down", whole(63), whole(23))
+valid("fixed_down: the whole units of a number below 2^63 of them, rounded down", whole(63), whole(23))
 # A subnormal number, whose exponent counts as 0, has no unit: up is at most -64 where e is at least -1011.
 fits = And(up <= 10, up >= -4000, ULT(sig, 1 << 53), UGE(sig, 1 << 52))
 units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(0, 64)))
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
 valid(
-    "fixed_f64: the whole units of a double below 2^63 of them, rounded towards 0",
+    "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0",
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
 )
