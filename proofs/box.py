@@ -86,7 +86,7 @@ def order(p):
     return next(k for k, c in enumerate(p) if c != 0)
 
 
-def holds(factor, left, right, ramps, until=None, parts=128, start=0):
+def holds(factor, left, right, ramps, until=None, parts=128):
     """Is left(ramp) <= factor * right(ramp) at all places? If `until` is given, only where until(ramp) <= 0, which rises.
 
     `left` has no negative coefficient. Some multiple of `until`, one for all ramps, may be added on the right.
@@ -97,7 +97,7 @@ def holds(factor, left, right, ramps, until=None, parts=128, start=0):
         low = order(l) if any(l) else 0
         require(order(r) <= low, "a right side that vanishes faster")
         sides.append((l, r, order(r), until(ramp) if until else None))
-    for part in range(start * parts // 1, parts):
+    for part in range(parts):
         x, y = Fraction(part, parts), Fraction(part + 1, parts)
         lower, upper = Fraction(0), None
         for l, r, low, u in sides:
@@ -117,18 +117,6 @@ def holds(factor, left, right, ramps, until=None, parts=128, start=0):
         if upper is not None and lower > upper:
             return False
     return True
-
-
-def least_factor(*args, **more):
-    """For exploring: the least factor that is proven, to 1 %."""
-    low, high = Fraction(1, 64), Fraction(1)
-    while not holds(high, *args, **more):
-        low, high = high, 2 * high
-        if high > 2**40: return None
-    while high > low * Fraction(101, 100):
-        middle = (low + high) / 2
-        low, high = (low, middle) if holds(middle, *args, **more) else (middle, high)
-    return high
 
 
 # Of a ramp counted from its start: not more than 51 of 100 parts of the mass are before the place.

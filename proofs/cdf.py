@@ -4,9 +4,8 @@ A mass is counted from the curve's start or end, whichever has less of it. `T` a
 their signs, `t` the ramp's time since then, of 1 in all, and `f` the openness. docs/internals/proofs.md has the argument.
 """
 
-import numpy as np
-
 from box import *
+from short import *
 
 pinned("""
 cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp c175bd32 from_nearer_end 70c248c7 on_grid af670c35 gridded 664f67ff
@@ -26,10 +25,10 @@ require(TIME_ERROR <= Fraction(1, 4) * U and TIME_ERROR * 2 == spacing / 4 and s
 proven("the time of a place is within a quarter of the distance to the next time; on a curve across time 0 that is 2^-27 of the interval or more, else 2^-24 of the time")
 
 # --- Masses, in 2^-48 of T: the value; a place from the ramp's other end, whose rest is rounded by 2^-48 of itself, with a slope of 6 T at
-# most; the sum with what lies before, for a second number of (12 + 6) 2^-24; and 3 for coefficients and shares in pairs.
+# most; the sum with what lies before, for a second number of (SECOND + 6) 2^-24; and 3 for coefficients and shares in pairs.
 middle = min(next(Fraction(k, 64) for k in range(64) if at(Extreme(c, SINGLE[3]).t, Fraction(k + 1, 64)) > Fraction(1, 2)) for c in corners())
 require(Fraction(1, 5) <= middle, "a time nearer to the other end")
-measured = (AT_PAIR[6] + 4 * 6 + 2 * (12 + 6) + 3) * U * U
+measured = (AT_PAIR[6] + 4 * 6 + 2 * (SECOND[6] + 6) + 3) * U * U
 require(measured < Fraction(1, 2**39), "measuring")
 proven(f"a mass is measured to 2^{log2(measured):.2f} of T; a time nearer to a ramp's other end lies beyond 1/5 of the ramp")
 
@@ -56,22 +55,12 @@ far = [extreme for extreme in extremes([(1, i, j, k) for i in (0, 1) for j in (0
 require(holds(DARK, lambda r: [ONE], lambda r: r.f, far, before_half) and not holds(Fraction(DARK, 4), lambda r: [ONE], lambda r: r.f, far, before_half), "openness on a far ramp")
 require(before * DARK < Fraction(1, 4), "what lies before")
 proven(f"on a far ramp openness is at least 1/{DARK}, so what rounds the sums costs at most 2^{log2(before * DARK):.1f} of the distance")
-plateau = 2 * (Fraction(301, 10) + 16) * U * U / (Fraction(1, 2**28))
+plateau = 2 * (OVER + PLUS) * U * U / (Fraction(1, 2**28))
 require(plateau < Fraction(1, 2**10), "the plateau")
 proven(f"on the plateau a mass is measured to 2^{log2(plateau):.1f} of the distance")
 
 
 # --- 1 less a mass from the end, by all values of p bits from 1/16 ulp of 1 to 1/2: in 2^-(4 p), with second numbers up to so many half ulps.
-def rounded(v, p):
-    """To p bits, to even in the middle."""
-    size = np.abs(v)
-    shift = np.maximum(np.frexp(size.astype(np.float64))[1].astype(np.int64) - p, 0)
-    down, unit = (size >> shift) << shift, np.int64(1) << shift
-    twice = 2 * (size - down)
-    up = (twice > unit) | ((twice == unit) & ((size >> shift) & 1 == 1) & (shift > 0))
-    return np.sign(v) * (down + np.where(up, unit, 0))
-
-
 def keeps_order(p, halves):
     whole = np.int64(1) << (4 * p)
     found = []

@@ -22,16 +22,8 @@ FACTOR = {1: Fraction("1.0938409"), 2: Fraction("1.4890725")}
 rational = lambda x: Q(x.numerator, x.denominator)
 
 
-# --- Cosines, to 2^-200.
-def arctan_inverse(n):
-    total, term, k = Fraction(0), Fraction(1, n), 0
-    while term > Fraction(1, 2**220):
-        total += term / (2 * k + 1) * (-1) ** k
-        term, k = term / n**2, k + 1
-    return total
-
-
-PI = 16 * arctan_inverse(5) - 4 * arctan_inverse(239)
+# --- Cosines, to 2^-160.
+PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494459")
 
 
 def cosine(x):

@@ -20,6 +20,8 @@ U64 = Fraction(1, 2**53)
 # Lemmas that other scripts use. The script named proves each, and fails if the number is not this one.
 AT = {6: 118, 3: 31}  # series.py: the error of `Series::at`, in 2^-48 of its terms
 AT_PAIR = {6: 229, 3: 64}  # series.py: that of `Series::at_pair`
+SECOND = {6: 12, 3: 6}  # series.py: the second number of `Series::at`, in 2^-24 of its terms
+OVER, PLUS = Fraction(301, 10), 16  # pairs.py: the errors of `Pair::over`, and `plus` with four ulp, in 2^-48
 MASS_TERMS = 512  # domain.py: a mass's terms without their signs, as a multiple of the mass
 TIME_TERMS = 14  # domain.py: the same of a time
 

@@ -19,13 +19,13 @@ STEP = constant("EIGHTH")
 
 
 def look_up(top, bits):
-    """`Plan::look_up`: the index, and the significand with its sign."""
+    """`Inverse::look_up`: the index, and the significand with its sign."""
     below = top - bits
     return LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
 
 
 def offset(significand, center):
-    """The position that `Plan::look_up` makes of it, and `Octave::offset` of that."""
+    """The position that `Inverse::look_up` makes of it, and `Octave::offset` of that."""
     position = significand + (significand & ~(significand >> 31))
     return (position - center) << (center & SHIFT_MASK)
 

@@ -103,10 +103,10 @@ for name, script, k, stated in (("plus and minus", plus, (1, 1), 46), ("times", 
 # The same as exactly as Gappa has it, in 2^-48.
 for name, script, k, bound in (
     ("plus and minus", plus, (1, 1), 3),
-    ("plus and minus", plus, (1, 8), 16),
+    ("plus and minus", plus, (1, 8), PLUS),
     ("minus_loose", loose, (1, 1), 3),
     ("times", times, (1, 2), 11),
-    ("over", over, (1, 2), Fraction(301, 10)),
+    ("over", over, (1, 2), OVER),
     ("difference of near numbers, before its last rounding,", difference_near, (2, 2), 2),
 ):
     bound = Fraction(bound)

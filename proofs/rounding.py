@@ -2,33 +2,15 @@
 
 What decides is where the rest of a sum lies relative to the middles next to the sum, and that depends on the number of bits
 only through how far the words reach below those middles. So numbers of a few bits have every case that those of 24 have, as
-long as a rest of some ulp still has bits below a quarter of an ulp. All numbers here are integers: multiples of a unit that
-is small enough.
+long as a rest of some ulp still has bits below a quarter of an ulp.
 """
 
-import numpy as np
-
 from common import *
+from short import *
 
 pinned("""
 number/moment.rs rounded_sum 2b2fef1d rounded_small_sum a4418eda odd_sum c4c2eafa
 """)
-
-
-def shift_of(v, p):
-    """By how many bits a number is too long."""
-    # The exponent, from the bits of a double.
-    return np.maximum((v.astype(np.float64).view(np.int64) >> 52 & 0x7FF) - 1022 - p, 0)
-
-
-def rounded(v, p):
-    """To p bits, to even in the middle."""
-    shift = shift_of(v, p)
-    size, unit = np.abs(v), np.int64(1) << shift
-    down = (size >> shift) << shift
-    rest = 2 * (size - down)
-    up = (rest > unit) | ((rest == unit) & (((size >> shift) & 1) == 1))
-    return np.sign(v) * (down + np.where(up & (shift > 0), unit, 0))
 
 
 def odd_sum(a, b, p):

@@ -48,6 +48,7 @@ for n, said in AT.items():
     lo, error = at(n)
     worst, second = ratio(error, sizes(n)), ratio(lo, sizes(n))
     require(0 <= worst / places - int(said) < Fraction(1, 1000) and worst <= Fraction(1, 2**stated), f"Series::at of degree {n}")
+    require(0 <= second / U - SECOND[n] < Fraction(1, 1000), f"the second number of Series::at of degree {n}")
     proven(f"Series::at of degree {n} errs by at most {float(worst / places):.3f} * 2^-48 of its terms, below 2^-{stated}; its second number is at most {float(second / U):.3f} * 2^-24")
 require(ratio(at(6)[1], sizes(6)) > Fraction(1, 2 ** (stated + 1)), "no more than that is proven")
 require(ratio(at(6, 2)[1], sizes(6)) > ratio(at(6)[1], sizes(6)), "a coefficient with more half ulps counts")

@@ -82,7 +82,7 @@ for what, degree, needed, rounding, less in (
     proven(f"{claim}, of which {float(less):g} would not do")
 
 # What is measured: by `Series::at`, and `difference` rounds the second numbers and the answer.
-eta = {6: MASS_TERMS * (AT[6] + 12 + 2) * U * U, 3: TIME_TERMS * (AT[3] + 6 + 2) * U * U}
+eta = {6: MASS_TERMS * (AT[6] + SECOND[6] + 2) * U * U, 3: TIME_TERMS * (AT[3] + SECOND[3] + 2) * U * U}
 require(8 * eta[6] < INVERSE_ERROR / 4 < 64 * eta[6] and 8 * eta[3] < TIME_ERROR / 4, "measuring")
 proven(f"what is missing is measured to 2^{log2(eta[6]):.1f} of a mass sought and 2^{log2(eta[3]):.1f} of a time: an eighth of the quarter that is left for it, or less")
 

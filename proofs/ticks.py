@@ -97,12 +97,12 @@ proven(f"openness times the way since an end is at most {FULL} times the mass")
 # The least interval in units, and the exposure of what is as open as the curve's most open control value.
 SHORTEST = int(61 + log2(constant("LEAST_INTERVAL")))
 UNITS = 2**SHORTEST * Fraction(1, 20)
-ulp = 2 * U / 2
+ulp = U
 searched = INVERSE + FULL * TIME
 require(ulp - 2 * searched > 0 and (ulp - 2 * INVERSE) * LEAST * UNITS / 2 > WAYS and ulp - 2 * INVERSE > 4 * FULL * TIME, "searches from one end")
 proven(f"two searches from one end: what the mass and the time are off by is {float(2 * searched / ulp):.2f} ulp; and the ways are 2^{log2((ulp - 2 * INVERSE) * LEAST * UNITS):.1f} of a unit or more apart")
 # From either end, at 1/2. The first is not late, the second early by less than a unit.
-require((ulp / 2 - 2 * INVERSE / 2) * UNITS > 1 + 2 * TIME * 2**SHORTEST and (ulp / 2 - INVERSE) / 20 > 2 * TIME, "searches from either end")
+require((ulp / 2 - INVERSE) * UNITS > 1 + 2 * TIME * 2**SHORTEST and (ulp / 2 - INVERSE) / 20 > 2 * TIME, "searches from either end")
 proven(f"a search from either end: times are 2^{log2((ulp / 2 - INVERSE) * UNITS):.1f} units apart or more, and a unit would do")
 # A polynomial's certificate counts three units: one by which its own end is cut, and two by which a search beside it may be early.
 UNITS_IN_CERTIFICATE = 3
