@@ -106,7 +106,8 @@
 // trigger   the ticks of triggers and pulses
 // shutter   the public face of all this
 //
-// Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
+// Masks such as `i & 31`, and branches to an end that is never reached, show the compiler that an index or a shift is in
+// range, so that no panic links.
 mod cdf;
 mod domain;
 mod error;

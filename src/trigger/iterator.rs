@@ -1,5 +1,4 @@
-//! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
-//! either end.
+//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item at once.
 
 use core::ops::Range;
 
