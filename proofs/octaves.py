@@ -8,10 +8,9 @@ octave/mod.rs top c6b09b9a below b73f9ae7 Octave::offset f842a0c4 times_high 657
 octave/span.rs Span::new f245b7f1 center c648d563
 octave/build.rs top_beyond ffb7021a
 octave/candidate.rs candidate 5f0e210b
-inverse.rs Inverse::new 36cce59a section 44bee705 look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
+inverse.rs Inverse::new b20a0b5f section 44bee705 look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
 fraction.rs Fraction::new a0cd572f
 """)
-
 
 
 SHIFT_MASK = constant("SHIFT_MASK")
@@ -87,35 +86,18 @@ LOW_BITS = SHIFT_MASK
 SERVED = EPSILON // 2
 
 
-def most_filled(filled, shift):
-    """The greatest half, in the width's 2^-32."""
-    whole = (2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON
-    return max(2 * filled * WORD, whole if shift == 0 else 0) * (1 + 2 * U)
-
-
-def served_fits(filled, extension=EPSILONS):
-    """Is the offset of each served fraction at most the half, and does that fit the word?"""
-    return extension * EPSILON >= SERVED + MIDDLE + LOW_BITS and most_filled(filled, 0) < WORD / 2
-
-
+# The greatest half, in the width's 2^-32: after a halving, and without one.
+WHOLE = ((2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON) * (1 + 2 * U)
+half = lambda filled: 2 * filled * WORD * (1 + 2 * U)
+# Is the offset of each served fraction at most the half, and does that fit the word?
+served_fits = lambda filled, more=EPSILONS: more * EPSILON >= SERVED + MIDDLE + LOW_BITS and max(half(filled), WHOLE) < WORD / 2
 require(served_fits(FILLED) and not served_fits(Fraction(1, 4)) and not served_fits(FILLED, 1), "served")
 proven(f"the offset of each fraction that a part serves is within its half and fits the word, for FILLED = {float(FILLED)} and any shift; with 0.25, or a half of one EPSILON more than the part, not so")
-
-
-def beyond_fits(filled, shift):
-    """The same for fractions up to 4 EPSILON beyond the part."""
-    return most_filled(filled, shift) + (MIDDLE + LOW_BITS) * 2**shift < WORD / 2
-
-
-def reach_holds(shift):
-    return (MIDDLE + LOW_BITS) * 2**shift <= REACH * WORD
-
-
-far = max(shift for shift in range(32) if beyond_fits(FILLED, shift))
-within = max(shift for shift in range(32) if reach_holds(shift))
-
-
-require(MOST_SHIFT <= far and not beyond_fits(FILLED, far + 1), "fractions beyond a part fit the word")
+# The same for fractions up to 4 EPSILON beyond the part, and what the reach allows.
+off = lambda shift: (MIDDLE + LOW_BITS) * 2**shift
+far = max(shift for shift in range(32) if half(FILLED) + off(shift) < WORD / 2)
+within = max(shift for shift in range(32) if off(shift) <= REACH * WORD)
+require(WHOLE + off(0) < WORD / 2 and MOST_SHIFT <= min(far, within) and far < 31, "fractions beyond a part fit the word")
 proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shifts up to {MOST_SHIFT} (up to {far} would do)")
 # Tops keep 16 ulp from where a range begins.
 bits, top = BitVecs("bits top", 32)
@@ -137,9 +119,8 @@ def sums_fit(guard, per_step=Fraction(3, 2)):
     return greatest + sum(per_step * reach**k for k in range(DEGREE)) < 2**31
 
 
-require(reach_holds(within) and sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
+require(sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
 proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a part serves, and {EPSILONS} EPSILON beyond with shifts up to {within}")
-require(MOST_SHIFT <= within, "the reach covers all shifts")
 
 # The plateau's line, by the bits of a fraction: those above `before` and up to `last`, which are below 2^31, as all are.
 last, before = BitVecs("last before", 32)
@@ -172,9 +153,8 @@ valid(
     Implies(ULT(end, 127 << 23), UGE(UDiv(end, BitVecVal(STEP, 32)) * STEP, end)),
 )
 
+
 # Horner's rule: each product is rounded down. `e` is what has been lost so far. The least x, -1/2, is never reached.
-
-
 def horner(least, most, size="0.4999"):
     steps = ["x = fixed<-32,ne>(X);", "e1 = -d1;"]
     for k in range(2, DEGREE + 1):
@@ -205,4 +185,4 @@ near = Fraction(1, 500)
 require(not gappa(horner(float(least + near), float(most))) and not gappa(horner(float(least), float(most - near))), "tighter")
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
-require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
+require(max(half(FILLED), WHOLE) < Fraction(4999, 10000) * WORD, "x is below 1/2")

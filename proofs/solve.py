@@ -70,11 +70,11 @@ require(cubes == Fraction(10, 3) and covers(CUBES) and not covers(CUBES - Fracti
 proven(f"the terms from the third on are at most 10/3 E |s|^3: {float(CUBES)} covers that and its rounding")
 require(mass.per_move == SQUARES and time.per_move == 2, "5 is j - 1 at most")
 proven(f"a distance rounded by m costs at most {SQUARES} m (2 |c_2| + E Y), and where it leads beyond Y at most {float(mass.more):.3f} * 2^-24 D more")
-# From the far end a place's distance is itself rounded, which `moved` does not know.
+# From the other end a place's distance is itself rounded, which `moved` does not know.
 far = mass.near + SQUARES * Fraction(1001, 1000)
 for what, degree, needed, rounding, less in (
-    ("a mass's search from the near end", mass, mass.near, NEAR, Fraction(3, 4)),
-    ("a mass's search from the far end", mass, far, FAR, Fraction(9, 10)),
+    ("a mass's search from the same end", mass, mass.near, NEAR, Fraction(3, 4)),
+    ("a mass's search from the other end", mass, far, FAR, Fraction(9, 10)),
     ("a time's search", time, time.near, NEAR, Fraction(7, 16)),
 ):
     claim = f"{what}: the first two terms are wrong by {float(needed):.2f} roundings of |s| D at most; the bound has {float(rounding / U):g}"
@@ -86,7 +86,7 @@ eta = {6: MASS_TERMS * (AT[6] + SECOND[6] + 2) * U * U, 3: TIME_TERMS * (AT[3] +
 require(8 * eta[6] < INVERSE_ERROR / 4 < 64 * eta[6] and 8 * eta[3] < TIME_ERROR / 4, "measuring")
 proven(f"what is missing is measured to 2^{log2(eta[6]):.1f} of a mass sought and 2^{log2(eta[3]):.1f} of a time: an eighth of the quarter that is left for it, or less")
 
-# --- The end of a search from the near end. Of the mass or the time, at most half is before the target. There D is at most `steep` times
+# --- The end of a search from the same end. Of the mass or the time, at most half is before the target. There D is at most `steep` times
 # the slope, so the slope is computed to `off` of itself.
 half_time = lambda ramp: box.plus(ramp.t, [-box.SHARE])
 times_only = [box.Extreme(corner, (0, 0, 0, 1)) for corner in box.corners()]
@@ -109,7 +109,7 @@ for degree, what, error, terms, steep, left, until, ramps in (
     refused = small * (NEAR + CUBES * step**2) * Fraction(1001, 1000) + (2 * eta[n] + off * way) * (2 * bend**2 + 8 * U)
     require(refused < error / 4 and 5 * eta[n] < error / 4, f"2^{log2(refused)}")
     proven(f"a step between neighbouring places leaves 2^{log2(bound):.1f} of a {what} sought, of {log2(error):g} allowed: it is accepted; and a search that reaches its limit misses 2^{log2(5 * eta[n]):.1f} at most")
-# From the far end D is at most that of all of the ramp, which has at most twice the target.
+# From the other end D is at most that of all of the ramp, which has at most twice the target.
 ends = 2 * FAR * Fraction(1, 2**23) * 6 * MASS_TERMS * Fraction(1001, 1000)
-require(ends < INVERSE_ERROR / 4, "the end from the far end")
-proven(f"from the far end what the bound has without what is missing is 2^{log2(ends):.1f} of the target")
+require(ends < INVERSE_ERROR / 4, "the end from the other end")
+proven(f"from the other end what the bound has without what is missing is 2^{log2(ends):.1f} of the target")

@@ -5,13 +5,13 @@ from solver import *
 
 pinned("""
 fraction.rs of_parts 36f90104
-trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new ea49af96 exponent_of_ticks f79152f3 TickScale::new f3f8ffa3 TickScale::tick ed10ecd3
+trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 536aa558 exponent_of_ticks f79152f3 TickScale::new f3f8ffa3 TickScale::tick ed10ecd3
 trigger/pulse.rs at e0b4f7ee
 number/moment.rs in_units 65d70f00
 number/units.rs fixed_down 12e34aed time_exponent 96eb982d
-exposure.rs moment 64cee23e sought 05355bcf
+exposure.rs moment f08dceba sought 05355bcf
 octave/candidate.rs candidate 5f0e210b
-inverse.rs time_units 0a5d4365 direct_units 0f0faea8 searched_units 772708e3
+inverse.rs time_units 0a5d4365 direct_units 0f0faea8 searched_units 8d6e0d1a
 """)
 
 # --- Fractions. R rounds to an f32, D divides by 2n and rounds. Both keep order, R keeps n, and D makes 1/2 of that.
