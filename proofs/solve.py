@@ -103,7 +103,7 @@ for degree, what, error, terms, steep, left, until, ramps in (
     bend = Fraction(n - 1, 2) * steep * step
     missing = (way + 2 * eta[n]) * (1 + 2 * off)
     bound = missing * (2 * bend**2 + bend**3 + 8 * U) + way * (NEAR + CUBES * step**2) * Fraction(1001, 1000)
-    require(off <= Fraction(1, 128) and bound < error / 4, f"2^{log2(bound)}")
+    require(off <= Fraction(1, 256) and bound < error / 4, f"2^{log2(bound)}")
     # One whose step is refused though what it misses is no more than what is measured wrongly, and the slope's error of a way.
     small = 2 * eta[n] * steep + off * step * n * terms
     refused = small * (NEAR + CUBES * step**2) * Fraction(1001, 1000) + (2 * eta[n] + off * way) * (2 * bend**2 + 8 * U)
