@@ -311,6 +311,12 @@ test('a newer choice ends what is computed, which says so meanwhile and never co
   assert.match(await page.text('#busy'), /Reading long\.csv/);
   // The forms are written meanwhile.
   assert.match(await copied('csv'), /^scene,index/);
+  // What would help stays the same button.
+  await page.fill('#min_gap', '5');
+  const help = await page.$('#problem button');
+  await page.evaluate(() => held[0][0].onmessage({ data: { progress: 0.5 } }));
+  assert.match(await page.text('#busy'), /50 %/);
+  assert.ok(await help.evaluate((it) => it.isConnected));
   const end = ended();
   await preset('leaf');
   assert.ok(!(await page.isSeen('#busy')));
