@@ -9,7 +9,7 @@ import { connect } from 'node:net';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { ROOT, SCENES, browser, choose, complaints, copied, copiedBy, curve, drag, drawn, drop, extend, forgive, middle, open, page, planned, played, preset, ready, saved, scratch, setUp,
+import { ROOT, SCENES, browser, choose, complaints, copied, copiedBy, curve, drag, drawn, drop, extend, forgive, hold, middle, open, page, planned, played, preset, ready, saved, scratch, setUp,
   settled, shutter, start, ticks, trace, url, written } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
@@ -613,8 +613,9 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await open();
   const value = (id) => page.value(`#${id}`);
   const trace = () => page.attribute('#graph path.trace', 'd');
-  const select = async (name, value) => {
-    await page.fill(`#trace [name=${name}]`, value);
+  const choice = (name, value) => page.fill(`#trace [name=${name}]`, value);
+  const select = async (...it) => {
+    await choice(...it);
     await page.until(() => document.getElementById('busy').hidden);
   };
   const rows = (unit, value, header = '') => header + Array.from({ length: 800 }, (_, i) => {
@@ -676,9 +677,11 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await page.push('Say which way');
   await select('rises', 'false');
   await page.waitForSelector('#trace dl');
-  // A column without a pulse.
-  await select('rises', '');
-  await select('signal', '2');
+  // A column without a pulse, chosen before the other choice is read.
+  await hold();
+  await choice('rises', '');
+  await choice('signal', '2');
+  await page.evaluate(() => release());
   await page.waitForSelector('#trace .wrong');
   assert.doesNotMatch(await page.text('main'), /--[a-z]|shutter fit/);
   await page.push('Choose the columns');
