@@ -95,9 +95,8 @@ impl View<'_> {
             // Evenly, and so also next to both ends.
             let a = span.from + (end - span.from) * f64::from(i) / f64::from(samples);
             let a = f64::from(a as f32);
-            // 1/2 is counted from the start, and has a line of its own where it lies beyond the join.
-            let is_beyond = self.side == Side::End || self.exposure.half_is_beyond_join();
-            if a < span.from || a > end || a == 0.5 && is_beyond {
+            // 1/2 is counted from the start.
+            if a < span.from || a > end || a == 0.5 && self.side == Side::End {
                 continue;
             }
             {
@@ -238,12 +237,15 @@ fn the_openness_beyond_a_join_is_bounded() {
         });
         assert_eq!(bounds[0], bounds[1], "a mirrored curve, {t:?} {f:?} {time:e}");
         let shape = shapes[1];
-        let [openness, since] = [shape.openness(), shape.time()];
+        let [openness, since] = [shape.openness().c, shape.time().c];
+        let cubic =
+            |constant: f64, c: [f64; 3], p: f64| constant + p * (c[0] + p * (c[1] + p * c[2]));
+        let f0 = f64::from(shape.f[0]);
         for i in 0..=4096 {
             // Ever nearer to the join.
             let p = (f64::from(i) / 4096.0).powi(4);
-            if since.around(p).value < f64::from(time) {
-                let there = openness.around(p).value * (1.0 - 1e-5) - 1e-12;
+            if cubic(0.0, since, p) < f64::from(time) {
+                let there = cubic(f0, openness, p) * (1.0 - 1e-5) - 1e-12;
                 assert!(
                     bounds[0] >= there,
                     "{} < {there} at {p:e}: {t:?} {f:?} {time:e}",
