@@ -25,8 +25,8 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and where. A
-/// `point` is the index of a control point, 0 to 3.
+/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and in which
+/// part, if that can be told. A `point` is the index of a control point, 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -59,15 +59,12 @@ pub enum CurveError {
         /// The control point.
         point: u8,
     },
-    /// The same of a [`density`](crate::ShutterCurve::density), which may be
-    /// [scaled](crate::CubicBezier::scaled) into [0, 1].
-    DensityOutOfRange {
-        /// The control point.
-        point: u8,
-    },
+    /// A control point of a [`density`](crate::ShutterCurve::density) is not in [0, 1]. A greater one may be
+    /// [scaled](crate::CubicBezier::scaled).
+    DensityOutOfRange,
     /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
     NotFullyOpen(Part),
-    /// The interval is below 2⁻¹⁶ of the greatest |time|, so `f32` has fewer than 256 times in it.
+    /// The interval is below 2⁻¹⁶ of the greatest |time|: `f32` has few times in it, at most 256.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
@@ -111,29 +108,6 @@ macro_rules! of_point {
     };
 }
 
-/// A text about a control point of a density.
-macro_rules! density {
-    ($point:literal) => {
-        concat!(
-            "the density at its ",
-            $point,
-            " point has to be in [0, 1]; scale it down (CubicBezier::scaled)"
-        )
-    };
-}
-
-/// A text about an inner time of `shutteropening`.
-macro_rules! of_fraction {
-    ($part:expr, $point:expr, $text:literal) => {
-        match ($part, $point) {
-            (Part::Opening, 1) => concat!("opening ramp: t1", $text),
-            (Part::Opening, _) => concat!("opening ramp: t2", $text),
-            (_, 1) => concat!("closing ramp: t5", $text),
-            _ => concat!("closing ramp: t6", $text),
-        }
-    };
-}
-
 impl CurveError {
     /// The fixed text that [`Display`](fmt::Display) prints.
     pub const fn message(&self) -> &'static str {
@@ -148,11 +122,12 @@ impl CurveError {
             E::TimeOutsideRamp { part, point } => {
                 of_point!(part, point, "the time of its ", " has to lie between the ramp's ends")
             }
-            E::FractionOutsideRamp { part, point } => of_fraction!(
+            E::FractionOutsideRamp { part, point } => of_point!(
                 part,
                 point,
-                " does not lie on the ramp; it is a fraction of the whole interval, \
-                 0 at open_start and 1 at close_end"
+                "the time of its ",
+                " has to lie on the ramp, as a fraction of the whole interval: \
+                 0 at open_start, 1 at close_end"
             ),
             E::TimesCross(part) => of_part!(
                 part,
@@ -162,12 +137,10 @@ impl CurveError {
             E::OpennessOutOfRange { part, point } => {
                 of_point!(part, point, "the openness of its ", " has to be in [0, 1]")
             }
-            E::DensityOutOfRange { point } => match point {
-                0 => density!("first"),
-                1 => density!("first inner"),
-                2 => density!("second inner"),
-                _ => density!("last"),
-            },
+            E::DensityOutOfRange => {
+                "the density has to be in [0, 1] at each control point; scale a greater one down \
+                 (CubicBezier::scaled)"
+            }
             E::NotFullyOpen(Part::Closing) => {
                 "closing ramp: it has to begin fully open, at openness 1"
             }

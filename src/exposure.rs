@@ -2,17 +2,18 @@
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
 //! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
-//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
+//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times, but for that of 1/2.
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};
-use crate::fraction::Side;
+use crate::fraction::{Fraction, Side};
 use crate::number::moment::Moment;
 use crate::number::pair::{Pair, significand};
 use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
+use crate::search::Found;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
@@ -20,11 +21,19 @@ const INVERSE_ERROR: f32 = 1.0 / (1 << 26) as f32;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Exposure {
-    pub(crate) ramps: [Ramp; 2],
+    ramps: [Ramp; 2],
     /// The plateau's fraction of the exposure, in [`WHOLE`].
     pub(crate) plateau: Pair,
     /// `A = ∫ f dt`
     pub(crate) area: f64,
+}
+
+/// What is sought of a fraction, in the section where it lies.
+enum Sought<'a> {
+    /// The fraction past the near ramp, in [`WHOLE`].
+    Plateau(Pair),
+    /// The fraction on a ramp, in [`WHOLE`].
+    Ramp(&'a Ramp, Pair),
 }
 
 impl Exposure {
@@ -55,53 +64,86 @@ impl Exposure {
     }
 
     /// The time of the curve's end at a side.
-    pub(crate) const fn end(&self, side: Side) -> f32 {
-        self.ramp(side).time(side)
+    pub(crate) const fn end_time(&self, side: Side) -> f32 {
+        self.ramp(side).end_time(side)
     }
 
     /// The time of the join of the ramp at a side.
-    pub(crate) const fn join(&self, side: Side) -> f32 {
-        self.ramp(side).time(side.other())
+    pub(crate) const fn join_time(&self, side: Side) -> f32 {
+        self.ramp(side).end_time(side.other())
     }
 
     pub(crate) const fn has_plateau(&self) -> bool {
         self.plateau.hi > 0.0
     }
 
-    /// The moment by which the fraction `a`, in [`WHOLE`], has been collected, counted from a side. What is collected
-    /// then differs from `a` by at most `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no
-    /// bound.
+    /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
+    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end itself,
+    /// though no light may fall there; of what is negative, too, and of NaN the start.
     #[inline(always)]
-    pub(crate) const fn at_fraction(&self, side: Side, a: Pair) -> Moment {
+    pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
+        let (side, a) = (fraction.side, fraction.get());
+        if a.is_nan() {
+            return Moment::at(self.end_time(Side::Start));
+        }
+        if a <= 0.0 {
+            return Moment::at(self.end_time(side));
+        }
+        match self.sought(fraction) {
+            Sought::Plateau(past_near) => {
+                // Where near ramp and `a` nearly cancel, `lo` may exceed `hi`. Then `lo · area` is rounded by 2⁻²⁴ of
+                // itself, at most 2⁻⁴⁸ of `a`.
+                let (area, exponent) = significand(self.area);
+                Moment {
+                    base: self.join_time(side),
+                    back: side.is_end(),
+                    way: past_near.times(area),
+                    way_exponent: exponent - WHOLE_EXPONENT,
+                    until: self.join_time(side.other()),
+                }
+            }
+            Sought::Ramp(ramp, part) => {
+                let error = INVERSE_ERROR * (a * WHOLE);
+                ramp.moment(side, ramp.place_of_part(side, part, error).place)
+            }
+        }
+    }
+
+    /// The evaluations of the mass that a search for the moment of a fraction takes.
+    pub(crate) const fn evaluations(&self, fraction: Fraction) -> u32 {
+        match self.sought(fraction) {
+            Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {
+                let error = INVERSE_ERROR * (fraction.get() * WHOLE);
+                let Found { evaluations, .. } = ramp.place_of_part(fraction.side, part, error);
+                evaluations
+            }
+            _ => 0,
+        }
+    }
+
+    #[inline(always)]
+    const fn sought(&self, fraction: Fraction) -> Sought<'_> {
+        let (side, a_in_whole) = (fraction.side, Pair::new(fraction.get() * WHOLE));
         let near = self.ramp(side).share;
-        let (ramp, target) = if a.difference(near) < 0.0 {
-            (side, a)
+        let (ramp, part) = if a_in_whole.difference(near) < 0.0 {
+            (side, a_in_whole)
         } else {
-            // If the two nearly cancel, `lo` may be the greater number: the product below then loses 2⁻²⁴ of it,
-            // some 2⁻⁴⁸ of `a`. No script proves that.
-            let past_near = a.minus_loose(near);
+            let past_near = a_in_whole.minus_loose(near);
             let past_plateau = past_near.minus(self.plateau);
             if past_plateau.rounded() <= 0.0 {
-                // On the plateau; or, without one, exactly at the join of the ramps: then the way is 0.
-                let (base, until) = (self.join(side), self.join(side.other()));
-                let (area, exponent) = significand(self.area);
-                let (way, unit) = (past_near.times(area), exponent - WHOLE_EXPONENT);
-                return Moment { base, until, back: side.is_end(), way, unit, evaluations: 0 };
+                // Or, without a plateau, exactly at the join of the ramps.
+                return Sought::Plateau(past_near);
             }
             (side.other(), past_plateau)
         };
         // One address, or the search keeps the curve's and an index on the stack.
-        let ramp = core::hint::black_box(self.ramp(ramp));
-        ramp.at_mass(side, target, INVERSE_ERROR * a.hi)
+        Sought::Ramp(core::hint::black_box(self.ramp(ramp)), part)
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two
     /// parts into which it divides the exposure. So without a plateau both are one number.
-    ///
-    /// Without a plateau, a join within an ulp below 1/2 counts as 1/2, as it is meant to be on a symmetric shutter. Of
-    /// all `f32` only 1/2 itself may then be on the wrong side, and `Plan` has its time.
     #[inline(never)]
-    pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
+    pub(crate) const fn join_fractions(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;

@@ -1,11 +1,10 @@
-//! Fractions of the exposure, each counted from the nearer end of the curve: so those next to either end keep their
-//! bits.
+//! A fraction of the exposure, counted from the nearer end of the curve: so those next to either end keep their bits.
 
 /// An end of the curve, or of a ramp. `ramp: Side` is the ramp at that end of the curve: the opening one at the start.
 ///
 /// Seen from a side, the ramp there is the *near* one, the other one the *far* one. A ramp meets the plateau, or the
 /// other ramp, at its *join*.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Start,
     End,
@@ -52,26 +51,40 @@ impl Side {
     }
 }
 
-/// A fraction of the exposure, counted from a side.
+/// A fraction of the exposure, counted from a side. As bits, which order fractions as their numbers do, and are looked
+/// up without waiting for an FPU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fraction {
     pub(crate) side: Side,
-    /// From 0 to 1/2.
-    pub(crate) a: f32,
+    /// The bits of an `f32` from 0 to 1/2.
+    pub(crate) bits: u32,
 }
 
 impl Fraction {
-    /// `(odd + more) / 2n`, from 0 to 1, where `odd` is `2i + 1` for item `i` of `n`. For a trigger `more` is 0, and
-    /// this is the nearest `f32`. For an end of a pulse it is ±duty, and this is within one and a half ulp
-    /// (proofs/ticks.py). Half is counted from the start.
+    /// `u`, from 0 to 1. Outside, the `f32` is negative, and for a NaN it is NaN: no octave has such bits.
+    ///
+    /// Without a branch, since the side is unpredictable.
     #[inline(always)]
-    pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {
-        let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
-        let all = (2 * n) as f32;
+    pub(crate) fn new(u: f32) -> Self {
+        let (bits, rest) = (u.to_bits(), (1.0 - u).to_bits());
+        // Signed: a negative `u` is not late.
+        let is_late = bits as i32 > 0.5f32.to_bits() as i32;
+        let bits = core::hint::select_unpredictable(is_late, rest, bits);
+        Self { side: Side::end_if(is_late), bits }
+    }
+
+    /// `part / whole`, where `part + rest = whole`, by the lesser of the two. Half is counted from the start.
+    #[inline(always)]
+    pub(crate) const fn of_parts(part: f32, rest: f32, whole: f32) -> Self {
         if part <= rest {
-            Self { side: Start, a: part / all }
+            Self { side: Start, bits: (part / whole).to_bits() }
         } else {
-            Self { side: End, a: rest / all }
+            Self { side: End, bits: (rest / whole).to_bits() }
         }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn get(self) -> f32 {
+        f32::from_bits(self.bits)
     }
 }

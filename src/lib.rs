@@ -91,26 +91,29 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 
-// Begin with an answer: `answer/plan.rs` has the steps from a fraction to its time, `answer/cdf.rs` those from a time
-// to its fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and
-// `error`; `shutter` is built on `answer`, and `trigger` adds methods to it:
+// Begin with an answer: `inverse.rs` has the steps from a fraction to its time, `cdf.rs` those from a time to its
+// fraction, `trigger/ticks.rs` what makes ticks of times. In this list each needs only those before it, and `error`:
 //
 // fraction  an end of the curve, and a fraction counted from it
 // number    units, pairs of `f32`, polynomials of pairs, a time before it is rounded
 // search    where a polynomial reaches a target, and the proof that it does
-// ramp      one Bezier: what makes it a ramp, its mass and time from either end, when a mass has been collected
+// ramp      one Bezier: its mass and time from either end, when a mass has been collected
+// domain    which curves are accepted
 // exposure  two ramps and the plateau, by fraction
 // octave    polynomials that answer without a search: how they are built, and their certificates
-// answer    the time of a fraction, and the fraction of a time
+// inverse   the time of a fraction
+// cdf       the fraction, the openness and the density at a time
 // trigger   the ticks of triggers and pulses
+// shutter   the public face of all this
 //
-// Masks such as `i & 1` show the compiler that an index or a shift is in range, so that no panic links.
-mod answer;
+// Masks such as `i & 31`, and branches to an end that is never reached, show the compiler that an index or a shift is in
+// range, so that no panic links.
+mod cdf;
 mod domain;
 mod error;
 mod exposure;
 mod fraction;
-mod measure;
+mod inverse;
 mod number;
 mod octave;
 mod ramp;
@@ -119,11 +122,12 @@ mod shutter;
 mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
-#[doc(hidden)]
-pub use measure::MAX_EVALUATIONS;
 pub use ramp::bezier::CubicBezier;
+#[doc(hidden)]
+pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, valid};
-pub use trigger::{Pulse, PulseTicks, TriggerTicks};
+pub use trigger::iterator::{PulseTicks, TriggerTicks};
+pub use trigger::pulse::Pulse;
 
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]

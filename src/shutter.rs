@@ -1,17 +1,20 @@
-//! A shutter: opening ramp, plateau, closing ramp.
+//! A shutter: opening ramp, plateau, closing ramp. All that can be asked of it stands here.
 
 use core::fmt;
 
-use crate::answer::plan::Plan;
-use crate::error::{CurveError, Part, tried};
+use crate::cdf;
+use crate::error::{CurveError, Part, ScheduleError, tried};
 use crate::fraction::Side;
-use crate::number::moment::rounded;
+use crate::inverse::Inverse;
 use crate::ramp::bezier::CubicBezier;
+use crate::trigger::iterator::{PulseTicks, TriggerTicks};
+use crate::trigger::pulse::{Pulse, Pulses};
+use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
 /// Bezier, taken as a probability density.
 ///
-/// **What is accepted.** Everything else is a [`CurveError`] that names the part and the rule.
+/// **What is accepted.** Everything else is a [`CurveError`], which names the rule.
 ///
 /// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
 ///    (a box), and the plateau may have none (a triangle).
@@ -27,16 +30,16 @@ use crate::ramp::bezier::CubicBezier;
 /// Hz.
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
-/// another number than 8. The promised accuracy is the same for every number. With 8 at most one `u` in 256 of a
-/// typical curve needs a search, with 0 every `u` on the ramps does. A curve takes 488 bytes, and 96 more for each of
+/// another number than 8. The promised accuracy is the same for every number. With 8 some one `u` in 256 of a
+/// typical curve needs a search, with 0 every `u` on the ramps does. A curve takes 384 bytes, and 96 more for each of
 /// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
 ///
-/// Fractions count from the nearer end. Down to half of a ramp's largest fraction the first polynomial answers, down to
-/// a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a polynomial, a
+/// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers, down
+/// to a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a polynomial, a
 /// search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
-    pub(crate) plan: Plan<OCTAVES>,
+    pub(crate) inverse: Inverse<OCTAVES>,
 }
 
 impl ShutterCurve {
@@ -122,9 +125,9 @@ impl ShutterCurve {
 
     /// One Bezier `(t(p), f(p))` alone as a density: the opening ramp of a shutter whose closing ramp has no length.
     ///
-    /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
-    /// not depend on it. But `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best
-    /// by a power of two, which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
+    /// [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do not depend on its scale. But `f`
+    /// may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best by a power of two, which
+    /// rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
     /// the scaled density.
     ///
     /// ```
@@ -146,9 +149,7 @@ impl ShutterCurve {
     pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
         let [.., (end, _)] = density.points();
         match Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0))) {
-            Err(CurveError::OpennessOutOfRange { point, .. }) => {
-                Err(CurveError::DensityOutOfRange { point })
-            }
+            Err(CurveError::OpennessOutOfRange { .. }) => Err(CurveError::DensityOutOfRange),
             curve => curve,
         }
     }
@@ -167,12 +168,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// The first rule of [`ShutterCurve`]'s list that the ramps break.
+    /// A rule of [`ShutterCurve`]'s list that the ramps break.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
     ) -> Result<Self, CurveError> {
-        Ok(Self { plan: tried!(Plan::new(&opening, &closing)) })
+        Ok(Self { inverse: tried!(Inverse::new(&opening, &closing)) })
     }
 
     /// When the shutter starts to open, in the unit of the curve's times.
@@ -187,25 +188,25 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn open_start(&self) -> f32 {
-        self.plan.exposure.end(Side::Start)
+        self.inverse.exposure.end_time(Side::Start)
     }
 
     /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn open_end(&self) -> f32 {
-        self.plan.exposure.join(Side::Start)
+        self.inverse.exposure.join_time(Side::Start)
     }
 
     /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_start(&self) -> f32 {
-        self.plan.exposure.join(Side::End)
+        self.inverse.exposure.join_time(Side::End)
     }
 
     /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_end(&self) -> f32 {
-        self.plan.exposure.end(Side::End)
+        self.inverse.exposure.end_time(Side::End)
     }
 
     /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
@@ -221,7 +222,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
-        rounded(self.plan.exposure.openness(t))
+        cdf::openness(&self.inverse.exposure, t)
     }
 
     /// The normalised density at `t`, `openness(t)` over the [`exposure`](Self::exposure), in fractions of the exposure
@@ -236,7 +237,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
-        self.plan.exposure.density(t)
+        cdf::pdf(&self.inverse.exposure, t)
     }
 
     /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1
@@ -250,7 +251,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub fn cdf(&self, t: f32) -> f32 {
-        self.plan.exposure.cdf(t)
+        cdf::cdf(&self.inverse.exposure, t)
     }
 
     /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
@@ -276,7 +277,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
-        self.plan.inverse_cdf(u)
+        self.inverse.inverse_cdf(u)
     }
 
     /// The effective exposure time `A = ∫ f dt`, in the curve's unit. In that time a fully open shutter lets the same
@@ -291,7 +292,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn exposure(&self) -> f32 {
-        self.plan.exposure.area as f32
+        self.inverse.exposure.area as f32
     }
 
     /// `K = 1/A`, which makes the openness a probability density; per unit of the curve's time.
@@ -304,7 +305,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn normalization(&self) -> f32 {
-        (1.0 / self.plan.exposure.area) as f32
+        (1.0 / self.inverse.exposure.area) as f32
     }
 
     /// The shutter efficiency `A / (close_end - open_start)`, at most 1.
@@ -317,7 +318,261 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn efficiency(&self) -> f32 {
-        (self.plan.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
+        (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
+    }
+
+    /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
+    /// README says how many cycles such a tick costs at most.
+    ///
+    /// It is at most 2²². With 8 octaves it is 127 or more on typical curves, and up to twice that for each octave more.
+    /// It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on
+    /// the plateau.
+    ///
+    /// In a constant the compiler checks it:
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
+    /// ```
+    ///
+    /// A frame that would need searches does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// # use shutter_curve::{ShutterCurve, valid};
+    /// # static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const _: () = assert!(SHUTTER.direct_triggers() >= 4096);
+    /// ```
+    #[must_use]
+    pub const fn direct_triggers(&self) -> u32 {
+        direct_triggers(&self.inverse)
+    }
+
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They count
+    /// from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step back.
+    ///
+    /// Their times, in the curve's unit and to within an ulp of the fractions, are
+    /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
+    ///
+    /// `ticks_per_unit` is the number of ticks in one unit of the curve's time: the timer's rate in Hz for a curve in
+    /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds
+    /// are recommended.**
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// // The same box of 8 ms in seconds and in ms, on a timer of 1 MHz.
+    /// let in_s: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
+    /// assert!(in_s.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
+    /// let in_ms: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 8.0, 8.0));
+    /// assert!(in_ms.trigger_ticks(4, 1_000)?.eq([1000, 3000, 5000, 7000]));
+    /// // A million ticks in a millisecond are a timer of 1 GHz.
+    /// assert!(in_ms.trigger_ticks(4, 1_000_000)?.eq([1_000_000, 3_000_000, 5_000_000, 7_000_000]));
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
+    /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
+    /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`. That is an ulp of `u`
+    /// or of `1 - u`, whichever is less.
+    ///
+    /// # Errors
+    /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
+    pub const fn trigger_ticks(
+        &self,
+        n: u32,
+        ticks_per_unit: u32,
+    ) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
+        let frame = tried!(Ticks::new(&self.inverse, n, ticks_per_unit));
+        Ok(TriggerTicks { frame, left: 0..n })
+    }
+
+    /// A checked schedule: as many triggers as `ticks` has places, at the ticks of
+    /// [`trigger_ticks`](Self::trigger_ticks), no two closer than `min_gap_ticks`.
+    ///
+    /// ```
+    /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// let mut ticks = [0; 5];
+    /// SHUTTER.schedule_into(&mut ticks, 1_000_000, 1_000)?;
+    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
+    /// // Too many for a gap of 1 ms, and how many are not.
+    /// let error = SHUTTER.schedule_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
+    /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
+    /// assert_eq!(SHUTTER.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// # Ok::<(), ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A gap that is too small: then the slice holds a part of the schedule. The errors of
+    /// [`trigger_ticks`](Self::trigger_ticks): then the slice is unchanged.
+    pub const fn schedule_into(
+        &self,
+        ticks: &mut [u32],
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<(), ScheduleError> {
+        if ticks.len() > MOST_TRIGGERS as usize {
+            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+        }
+        let frame = tried!(Ticks::new(&self.inverse, ticks.len() as u32, ticks_per_unit));
+        frame.schedule_into(ticks, min_gap_ticks)
+    }
+
+    /// The schedule of [`schedule_into`](Self::schedule_into), as an array. In a constant, for a frame that never
+    /// changes, the compiler checks it.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// const TICKS: [u32; 5] = match SHUTTER.ticks(1_000_000, 1_000) {
+    ///     Ok(ticks) => ticks,
+    ///     Err(_) => panic!("the gap is not kept"),
+    /// };
+    /// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`schedule_into`](Self::schedule_into).
+    pub const fn ticks<const N: usize>(
+        &self,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<[u32; N], ScheduleError> {
+        let mut ticks = [0; N];
+        tried!(self.schedule_into(&mut ticks, ticks_per_unit, min_gap_ticks));
+        Ok(ticks)
+    }
+
+    /// The schedule of [`schedule_into`](Self::schedule_into) for `n` triggers, as a `heapless::Vec`. It takes the
+    /// feature `heapless-v0_9`.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// let ticks: heapless::Vec<u32, 16> = curve.schedule(5, 1_000_000, 1_000)?;
+    /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// More triggers than `N`, and those of [`schedule_into`](Self::schedule_into).
+    #[cfg(feature = "heapless-v0_9")]
+    pub fn schedule<const N: usize>(
+        &self,
+        n: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
+        let mut schedule = heapless::Vec::new();
+        let fits = usize::try_from(n).is_ok_and(|n| schedule.resize(n, 0).is_ok());
+        if !fits {
+            return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
+        }
+        self.schedule_into(&mut schedule, ticks_per_unit, min_gap_ticks)?;
+        Ok(schedule)
+    }
+
+    /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If the answer is less than `wanted`, one more
+    /// breaks the gap. The answer is at least 1, unless none are wanted.
+    ///
+    /// It places one frame after another, each up to the first gap that is too small: usually a few. For a gap of 0 it
+    /// places none.
+    ///
+    /// ```
+    /// use shutter_curve::{ShutterCurve, valid};
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// // A lamp that needs 1 ms between two flashes, on a timer of 1 MHz.
+    /// assert_eq!(curve.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`trigger_ticks`](Self::trigger_ticks).
+    pub const fn most_triggers(
+        &self,
+        wanted: u32,
+        ticks_per_unit: u32,
+        min_gap_ticks: u32,
+    ) -> Result<u32, ScheduleError> {
+        let frame = tried!(Ticks::new(&self.inverse, wanted, ticks_per_unit));
+        // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
+        let guess = ticks_per_unit as f32 / (self.normalization() * min_gap_ticks as f32);
+        Ok(frame.most_triggers(min_gap_ticks, guess as u32))
+    }
+
+    /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
+    /// the same dose through the shutter, `duty · A / n`. A pulse lights the middle of its share of the exposure, the
+    /// part `duty` of it (above 0, at most 1): from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
+    ///
+    /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse that is
+    /// shorter than a tick may go on and off at the same one. Ticks are counted and rounded as
+    /// [`trigger_ticks`](Self::trigger_ticks) does it, but the fraction of a pulse's end may be off by two ulp.
+    ///
+    /// ```
+    /// use shutter_curve::{Pulse, ShutterCurve, valid};
+    /// // In seconds. Next to the ends, where the shutter is half closed, a pulse takes longer.
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// let pulses: Vec<Pulse> = SHUTTER.pulse_ticks(3, 0.5, 1_000_000)?.collect();
+    /// assert_eq!(pulses[0], Pulse { on: 1414, off: 2500 });
+    /// assert_eq!(pulses[1], Pulse { on: 3500, off: 4500 });
+    /// # Ok::<(), shutter_curve::ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A duty of 0 or less, above 1, or NaN; and those of [`trigger_ticks`](Self::trigger_ticks).
+    pub const fn pulse_ticks(
+        &self,
+        n: u32,
+        duty: f32,
+        ticks_per_unit: u32,
+    ) -> Result<PulseTicks<'_, OCTAVES>, ScheduleError> {
+        let pulses = tried!(Pulses::new(&self.inverse, n, duty, ticks_per_unit));
+        Ok(PulseTicks { frame: pulses, left: 0..n })
+    }
+
+    /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of
+    /// [`pulse_ticks`](Self::pulse_ticks), none shorter than `min_pulse_ticks` and none sooner than `min_gap_ticks`
+    /// after the one before has gone off.
+    ///
+    /// ```
+    /// use shutter_curve::{Pulse, ScheduleError, ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// let mut pulses = [Pulse::default(); 3];
+    /// SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, 1_000, 1_000)?;
+    /// let error = SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, 1_001, 1_000).unwrap_err();
+    /// assert_eq!(error, ScheduleError::PulseTooShort { pulse: 1, length: 1_000, min_pulse: 1_001 });
+    /// # Ok::<(), ScheduleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A pulse or a gap that is too short: then the slice holds a part of the schedule. The errors of
+    /// [`pulse_ticks`](Self::pulse_ticks): then the slice is unchanged.
+    pub const fn pulses_into(
+        &self,
+        pulses: &mut [Pulse],
+        duty: f32,
+        ticks_per_unit: u32,
+        min_pulse_ticks: u32,
+        min_gap_ticks: u32,
+    ) -> Result<(), ScheduleError> {
+        if pulses.len() > MOST_TRIGGERS as usize {
+            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+        }
+        let frame = tried!(Pulses::new(&self.inverse, pulses.len() as u32, duty, ticks_per_unit));
+        frame.pulses_into(pulses, min_pulse_ticks, min_gap_ticks)
+    }
+
+    /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search?
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_direct(&self, u: f32) -> bool {
+        self.inverse.evaluations(u).is_none()
+    }
+
+    /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn evaluations(&self, u: f32) -> u32 {
+        self.inverse.evaluations(u).unwrap_or(0)
     }
 }
 

@@ -3,7 +3,7 @@
 use shutter_fit::report::{because, efficiency, exposure};
 use shutter_fit::trace::Refusal;
 use shutter_fit::unit::{Unit, decimals, short, trimmed};
-use shutter_fit::{Curve, Fit, From, Kind, Reason, STRAIGHT, delay};
+use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
 use crate::plan::Plan;
 use crate::planned::Planned;
@@ -30,6 +30,8 @@ pub struct Scene {
 
 /// By its rounding to `f32`, a time may be off by this share of the interval; else time 0 moves.
 const ROUNDING: f64 = 1e-6;
+/// A ramp or a plateau is at least this share of the greatest time: four times what the crate asks for.
+const LEAST: f64 = 1.0 / (1 << 22) as f64;
 /// The digits of a time, counted from the interval's first.
 const DIGITS: i32 = 8;
 /// Between triggers there are at least so many ticks, if a timer of at most 1 GHz can do that.
@@ -69,16 +71,11 @@ pub fn curve_scene(
         Zero::Trace => curve,
         Zero::Open => curve.mapped(1.0, -curve.start),
     };
-    let mut refused = String::new();
-    // Rounding may push an extreme curve beyond what the crate accepts: a little nearer to a straight line it holds.
-    for nearer in std::iter::once(0.0).chain((0..10).map(|i| 1e-7 * 4f64.powi(i))) {
-        let text = write_curve(fit, name, &pulled(&curve, nearer), unit);
-        match Plan::parse(&text) {
-            Ok(_) => return Ok(Scene { text, zero }),
-            Err(fault) => refused = fault.reason,
-        }
+    let text = write_curve(fit, name, &resolved(&curve), unit);
+    match Plan::parse(&text) {
+        Ok(_) => Ok(Scene { text, zero }),
+        Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
     }
-    Err(Refusal::NoScene { reason: refused })
 }
 
 fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
@@ -171,12 +168,16 @@ fn timer(fit: &Fit, unit: Unit, gap: f64) -> String {
     )
 }
 
-/// The curve with its control numbers so far on the way to a straight line's.
-fn pulled(curve: &Curve, by: f64) -> Curve {
-    let controls = curve
-        .controls
-        .map(|controls| std::array::from_fn(|k| controls[k] + by * (STRAIGHT[k] - controls[k])));
-    Curve { controls, ..*curve }
+/// The curve without the ramps, or the plateau, that are too short for `f32`.
+fn resolved(curve: &Curve) -> Curve {
+    let least = LEAST * curve.start.abs().max(curve.end().abs());
+    let kept = |length: f64| if length < least { 0.0 } else { length };
+    Curve {
+        opening: kept(curve.opening),
+        plateau: kept(curve.plateau),
+        closing: kept(curve.closing),
+        ..*curve
+    }
 }
 
 /// The inner control points as `shutteropening` has them.

@@ -73,8 +73,7 @@ impl Plan {
         let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
         let timer = Timer::new(&scene.timer_hz, scene.timer_bits.as_ref())?;
         let timer_hz = timer.hz;
-        let shape = scene.shape()?;
-        let curve = shape.curve().map_err(|error| scene.fault(&shape, error))?;
+        let (shape, curve) = scene.curve()?;
         // The rate is checked here, before anything is counted in ticks.
         Lamp::Triggered
             .frame(&curve, 0, timer_hz)
@@ -97,13 +96,17 @@ impl Plan {
             Ok(frame) => frame,
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
         };
-        let trigger = |((i, time), flash): ((u32, f32), &Flash)| Trigger {
-            u: (i as f32 + 0.5) / n as f32,
-            time,
-            ticks: flash.tick,
-            pulse: (asked.lamp != Lamp::Triggered).then_some((flash.on as u32, flash.off as u32)),
+        let trigger = |(i, flash): (u32, &Flash)| {
+            let u = (i as f32 + 0.5) / n as f32;
+            Trigger {
+                u,
+                time: curve.inverse_cdf(u),
+                ticks: flash.tick,
+                pulse: (asked.lamp != Lamp::Triggered)
+                    .then_some((flash.on as u32, flash.off as u32)),
+            }
         };
-        let triggers = (0..).zip(curve.trigger_times(n)).zip(&frame).map(trigger).collect();
+        let triggers = (0..).zip(&frame).map(trigger).collect();
         let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
         Ok(Self {
             shape,
@@ -295,7 +298,7 @@ impl Problem {
                 let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
                 let reason = format!("{}; {longest}{many}", self.of_equal(length, &dark));
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                return Fault { at: Some(place), reason, notes: Vec::new() };
+                return Fault::of(Some(place), reason);
             }
             (Lamp::Doses { .. }, Self::Close(i, gap)) => {
                 let apart = apart("pulses", i, gap);

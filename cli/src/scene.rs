@@ -2,8 +2,8 @@
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use shutter_curve::CurveError;
-use shutter_fit::unit::{Unit, short};
+use shutter_curve::{CurveError, Part, ShutterCurve};
+use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
@@ -111,11 +111,17 @@ pub struct Fault {
     pub reason: String,
     /// What may help, a line each.
     pub notes: Vec<String>,
+    /// From where to where among the eight numbers of `shutteropening` it is.
+    pub inner: Option<(usize, usize)>,
 }
 
 impl Fault {
     pub(crate) fn at<T>(value: &Spanned<T>, reason: impl ToString) -> Self {
-        Self { at: Some(value.span().start), reason: reason.to_string(), notes: Vec::new() }
+        Self::of(Some(value.span().start), reason)
+    }
+
+    pub(crate) fn of(at: Option<usize>, reason: impl ToString) -> Self {
+        Self { at, reason: reason.to_string(), notes: Vec::new(), inner: None }
     }
 
     /// The key that it is about, in a scene of numbers.
@@ -160,7 +166,7 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
     if let Some(at) = trigger_times_at(text) {
         let reason = "trigger_times: this scene has times as they were measured, and a curve is required here; \
                       `shutter plan` takes it";
-        return Err(Fault { at: Some(at), reason: reason.into(), notes: Vec::new() });
+        return Err(Fault::of(Some(at), reason));
     }
     read(text)
 }
@@ -186,9 +192,12 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
                 _ => format!("{key}: {reason}"),
             };
         }
-        Fault { at, reason, notes: Vec::new() }
+        Fault::of(at, reason)
     })
 }
+
+/// The digits of an inner control number: all that `f32` keeps.
+const DIGITS: i32 = 9;
 
 /// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.
 const ROUNDING: f64 = 1e-4;
@@ -202,6 +211,16 @@ impl Scene {
     /// The unit of its times.
     pub fn unit(&self) -> Unit {
         self.unit.unwrap_or(Unit::Second)
+    }
+
+    /// The curve, and its numbers.
+    ///
+    /// # Errors
+    /// What [`shape`](Self::shape) refuses, and a curve that the crate refuses.
+    pub fn curve(&self) -> Result<(Shape, ShutterCurve), Fault> {
+        let shape = self.shape()?;
+        let curve = shape.curve().map_err(|error| self.fault(&shape, error))?;
+        Ok((shape, curve))
     }
 
     /// The curve's numbers, known to be finite and kept by `f32`; what the crate makes of them is not known yet.
@@ -238,39 +257,93 @@ impl Scene {
         [&self.open_start, &self.open_end, &self.close_start, &self.close_end]
     }
 
-    /// Where the value stands that a curve's error is about, and what may help.
-    pub(crate) fn fault(&self, shape: &Shape, error: CurveError) -> Fault {
-        let times = self.times();
-        let out_of_order = || {
-            let is = |i: &usize| shape.times[*i] > shape.times[*i + 1];
-            (0..3).find(is).map(|i| times[i + 1])
+    /// Where the value stands that a curve's error is about, that value, and what may help.
+    fn fault(&self, shape: &Shape, error: CurveError) -> Fault {
+        use CurveError as E;
+        let times = shape.times;
+        // The section that it is about; its end is at fault.
+        let (from, to) = match error {
+            E::TimesOutOfOrder => {
+                let early = (1..3).find(|&i| times[i - 1] > times[i]).unwrap_or(3);
+                return Fault::at(self.times()[early], error);
+            }
+            E::TooShort(Part::Opening) => (0, 1),
+            E::TooShort(Part::Plateau) => (1, 2),
+            E::TooShort(_) => (2, 3),
+            E::IntervalUnresolved | E::IntervalOutOfRange => (0, 3),
+            _ => return self.inner_fault(shape, error),
         };
-        let time = match error {
-            CurveError::NotFinite(_)
-            | CurveError::InnerTimesTurnBack(_)
-            | CurveError::NegativeOpenness(_)
-            | CurveError::OpennessAboveOne(_) => None,
-            CurveError::TimesOutOfOrder => out_of_order(),
-            _ => Some(&self.close_end),
+        let length = self.unit().show(f64::from(times[to]) - f64::from(times[from]));
+        Fault::at(self.times()[to], format!("{error}; it lasts {length}"))
+    }
+
+    /// The same of the inner control points.
+    fn inner_fault(&self, shape: &Shape, error: CurveError) -> Fault {
+        use CurveError as E;
+        let Some(place) = &self.shutteropening else { return Fault::at(&self.close_end, error) };
+        let ramp = |part| if part == Part::Closing { 4 } else { 0 };
+        let point = |part, point: u8| ramp(part) + 2 * (usize::from(point) - 1);
+        let one =
+            |i: usize| ((i, i + 1), format!("; it is {}", short(place.get_ref()[i].get(), DIGITS)));
+        let (inner, number) = match error {
+            E::FractionOutsideRamp { part, point: at } => one(point(part, at)),
+            E::OpennessOutOfRange { part, point: at } => one(point(part, at) + 1),
+            E::NotFinite(part) | E::TimesCross(part) => {
+                ((ramp(part), ramp(part) + 4), String::new())
+            }
+            _ => ((0, 8), String::new()),
         };
-        let Some(inner) = self.shutteropening.as_ref().filter(|_| time.is_none()) else {
-            return Fault::at(time.unwrap_or(&self.close_end), error);
-        };
-        let is_time = matches!(error, CurveError::InnerTimesTurnBack(_));
-        let mut fault = Fault::at(inner, error);
+        let mut fault = Fault::at(place, format!("{error}{number}"));
+        fault.inner = Some(inner);
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        if let Some((convention, inner)) = shape.misread(self.unit()).filter(|_| is_time) {
+        let is_time = matches!(error, E::FractionOutsideRamp { .. });
+        let misread = is_time.then(|| self.misread(shape, place.get_ref())).flatten();
+        if let Some((convention, inner)) = misread {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));
         }
         fault
     }
+
+    /// Another convention by which the inner control points fit, if there is one: its name, and the same points as the
+    /// crate takes them.
+    ///
+    /// Times go first, as they fit only where the control points lie on their own ramps; small fractions of each ramp
+    /// fit easily.
+    fn misread(&self, shape: &Shape, inner: &[Number]) -> Option<(String, [String; 8])> {
+        let times = self.times().map(|time| time.get_ref().get());
+        let [open_start, open_end, close_start, close_end] = times;
+        let fraction = |time: f64| (time - open_start) / (close_end - open_start);
+        let of_ramp = |ramp: usize, x: f64| match ramp {
+            0 => open_start + x * (open_end - open_start),
+            _ => close_start + x * (close_end - close_start),
+        };
+        let as_times = |_, x| fraction(x);
+        let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
+        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] = [
+            (format!("times in {}", self.unit().name()), &as_times),
+            ("fractions of each ramp".into(), &as_ramps),
+        ];
+        conventions.into_iter().find_map(|(name, convert)| {
+            let inner: [f64; 8] = std::array::from_fn(|i| {
+                let x = inner[i].get();
+                rounded(if i % 2 == 0 { convert(i / 4, x) } else { x }, DIGITS)
+            });
+            // What is written is what has to fit.
+            let shape = Shape { inner: Some(inner.map(|x| x as f32)), ..*shape };
+            shape.curve().is_ok().then(|| (name, inner.map(|x| short(x, DIGITS))))
+        })
+    }
 }
 
 /// A time in seconds, known to be finite.
 pub(crate) fn seconds(unit: Unit, key: &str, time: &Spanned<Number>) -> Result<f64, Fault> {
-    Ok(unit.seconds(finite(key, time, time.get_ref().get())?))
+    let x = time.get_ref().get();
+    if x.is_finite() {
+        return Ok(unit.seconds(x));
+    }
+    Err(Fault::at(time, format!("{key}: a finite number is required")))
 }
 
 /// A time in seconds that has to be more than 0, if there is one.
@@ -305,13 +378,6 @@ pub(crate) fn whole(key: &str, place: &Spanned<Number>, most: u32) -> Result<u32
     Err(Fault::at(place, format!("{key}: a whole number from 1 to {most} is required")))
 }
 
-fn finite<T>(key: &str, place: &Spanned<T>, x: f64) -> Result<f64, Fault> {
-    if x.is_finite() {
-        return Ok(x);
-    }
-    Err(Fault::at(place, format!("{key}: a finite number is required")))
-}
-
 fn eight(numbers: &Spanned<Vec<Number>>) -> Result<[f32; 8], Fault> {
     let many = numbers.get_ref();
     let mut eight = [0.0; 8];
@@ -319,9 +385,12 @@ fn eight(numbers: &Spanned<Vec<Number>>) -> Result<[f32; 8], Fault> {
         let reason = format!("shutteropening: 8 numbers are required, not {}", many.len());
         return Err(Fault::at(numbers, reason));
     }
-    for (kept, number) in eight.iter_mut().zip(many) {
-        *kept = finite("shutteropening", numbers, number.get())? as f32;
-        finite("shutteropening", numbers, (*kept).into())?;
+    for (i, number) in many.iter().enumerate() {
+        eight[i] = number.get() as f32;
+        if !eight[i].is_finite() {
+            let fault = Fault::at(numbers, "shutteropening: a finite number is required");
+            return Err(Fault { inner: Some((i, i + 1)), ..fault });
+        }
     }
     Ok(eight)
 }

@@ -438,7 +438,7 @@ fn a_bad_curve_is_an_error() {
     let dir = empty_dir("curve");
     let order =
         "times out of order: open_start <= open_end <= close_start <= close_end is required";
-    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)";
+    let length = "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19); it lasts 1e30 s";
     for (key, value, at, reason) in [
         ("open_start", "nan", "open_start", "open_start: a finite number is required"),
         ("close_end", "-inf", "close_end", "close_end: a finite number is required"),
@@ -456,6 +456,30 @@ fn a_bad_curve_is_an_error() {
     }
 }
 
+#[test]
+fn what_is_too_short_for_f32_is_an_error_at_its_end() {
+    let dir = empty_dir("short");
+    let short = |part: &str| {
+        format!(
+            "{part}: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length; it lasts 1e-9 ms"
+        )
+    };
+    let far = "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; count times \
+               from a nearer origin; it lasts 1000 ms";
+    for (times, at, reason) in [
+        (["0", "1e-9", "0.75", "1"], 2, short("opening ramp")),
+        (["-1", "0", "1e-9", "1"], 3, short("plateau")),
+        (["-1", "-0.5", "-1e-9", "0"], 4, short("closing ramp")),
+        (["131071000", "131071000", "131072000", "131072000"], 4, far.into()),
+    ] {
+        let keys = ["open_start", "open_end", "close_start", "close_end"];
+        let times = keys.iter().zip(times).map(|(key, time)| format!("{key} = {time}\n"));
+        let times: String = times.collect();
+        let scene = format!("{times}unit = \"ms\"\ntriggers = 1\ntimer_hz = 1000\nmin_gap = 0\n");
+        fails(&dir, &scene, Some(at), &reason);
+    }
+}
+
 /// What is told below an error of the inner control points.
 const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 
@@ -463,21 +487,28 @@ const ORDER: &str = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].\n";
 fn wrong_control_points_are_an_error_that_names_their_convention() {
     let dir = empty_dir("convention");
     let (opening, closing) = ("opening ramp", "closing ramp");
-    let [back, closing_back] = ["t1 and t2", "t5 and t6"].map(|inner| {
-        format!(
-            "time turns back along it; {inner} are fractions of the whole interval, 0 at open_start and 1 at close_end"
-        )
-    });
-    let (back, closing_back) = (back.as_str(), closing_back.as_str());
+    let wrong = |what: &str, point: &str, rule: &str, number: &str| {
+        format!("the {what} of its {point} inner point has to {rule}; it is {number}")
+    };
+    let on_ramp =
+        "lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end";
+    let fraction = |point: &str, number: &str| wrong("time", point, on_ramp, number);
+    let openness = |point: &str, number: &str| wrong("openness", point, "be in [0, 1]", number);
+    let crossed = "its first inner point is later than its second by more than 15/16 of the ramp; move them closer";
     for (numbers, ramp, reason, hint) in [
-        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, back, ""),
-        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, closing_back, ""),
-        ("[0.1, -1, 0.15, 1, 0.85, 1, 0.9, 0]", opening, "the openness falls below 0", ""),
-        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, "the openness rises above 1", ""),
+        ("[1.9, 0, 0.15, 1, 0.85, 1, 0.9, 0]", opening, fraction("first", "1.9"), ""),
+        ("[0.1, 0, 1.2500003, 1, 0.85, 1, 0.9, 0]", opening, fraction("second", "1.2500003"), ""),
+        ("[0.1, 0, 0.15, 1, -0.1, 1, 0.9, 0]", closing, fraction("first", "-0.1"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 1, 1e9, 0]", closing, fraction("second", "1000000000"), ""),
+        ("[0.1, -1e-9, 0.15, 1, 0.85, 1, 0.9, 0]", opening, openness("first", "-1e-9"), ""),
+        ("[0.1, 0, 0.15, 1.2, 0.85, 1, 0.9, 0]", opening, openness("second", "1.2"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", closing, openness("first", "2"), ""),
+        ("[0.1, 0, 0.15, 1, 0.85, 1, 0.9, -0.5]", closing, openness("second", "-0.5"), ""),
+        ("[0.25, 0, 0, 1, 0.85, 1, 0.9, 0]", opening, crossed.into(), ""),
         (
             "[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]",
             opening,
-            back,
+            fraction("first", "0.4"),
             "  As fractions of each ramp they would fit; that is
   shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]
 ",
@@ -559,6 +590,49 @@ fn a_unit_scales_all_times() {
         assert_eq!(csv(&file), csv(&plain), "{unit}");
         let report = run([&file]).out;
         assert!(report.contains("ΔEV +0.58"), "{report}");
+    }
+}
+
+/// Decimals in or at the end of the box, some of them rounded to seven digits, on any scale and up to a hundred
+/// intervals from time 0: neither the unit's conversion nor `f32` carries one out of it.
+#[test]
+fn what_lies_in_the_box_lies_in_it_in_every_unit() {
+    let mut state = 1u64;
+    let mut below = |n: i64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (state >> 33) as i64 % n
+    };
+    for _ in 0..2000 {
+        let n = [8, 10, 12, 25, 49, 64, 80, 125, 300][below(9) as usize];
+        let mut times = [0, below(n + 1), below(n + 1), n];
+        times.sort_unstable();
+        // Of each inner time an end of its ramp, or any place on it.
+        let ramps = [[times[0], times[1]], [times[2], times[3]]];
+        let inner = ramps.map(|[from, to]| {
+            let mut inner = [0, 1].map(|_| match below(4) {
+                0 => from,
+                1 => to,
+                _ => from + below(to - from + 1),
+            });
+            inner.sort_unstable();
+            inner.map(|at| {
+                let fraction = (1e7 * at as f64 / n as f64).round() / 1e7;
+                format!("{fraction}, {}", below(11) as f64 / 10.0)
+            })
+        });
+        let (offset, power) = (below(201 * n) - 100 * n, below(7) - 3);
+        for (unit, more) in [("s", -3), ("ms", 0), ("us", 3), ("ns", 6)] {
+            let keys = ["open_start", "open_end", "close_start", "close_end"].iter().zip(times);
+            let times = keys
+                .map(|(key, time)| format!("{key} = {}e{}\n", offset + time, power + more))
+                .collect::<String>();
+            let text = format!(
+                "unit = \"{unit}\"\n{times}shutteropening = [{}]\ntriggers = 1\ntimer_hz = 1\nmin_gap = 0\n",
+                inner.as_flattened().join(", ")
+            );
+            let curve = shutter::scene::parse(&text).and_then(|scene| scene.curve());
+            assert!(curve.is_ok(), "{}", curve.unwrap_err().locate("scene", &text));
+        }
     }
 }
 

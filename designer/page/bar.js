@@ -21,8 +21,7 @@ export function draw({ wrong, busy, note, view, now: { scene } }) {
     $('busy').hidden = !busy;
     if (busy) write($('busy').firstElementChild, `${busy.words} …`);
   }
-  const ramp = wrong?.ramp === 'closing' ? INNER.slice(4) : INNER.slice(0, 4);
-  const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.key === 'shutteropening' || wrong.ramp ? ramp : [wrong.key];
+  const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
   if (at.some((id) => INNER.includes(id))) $('inner').open = true;
   for (const id of NUMBERS) {
     const isWrong = at.includes(id);

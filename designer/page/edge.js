@@ -1,4 +1,4 @@
-// Where a handle may be: it slides along the border of what is allowed.
+// Where a handle may be: in its box, and there as far in time as is allowed.
 
 import { INNER, TIMES, innerOf, tidy, withInner, withTimes } from './scene.js';
 
@@ -44,27 +44,13 @@ function reach(from, to, step, isGood) {
 }
 
 /**
- * The scene with handle `i` as near to [t, y] as is allowed, on the way from where it is in `scene`, which is good. `steps`
- * are those of a time and of an openness.
+ * The scene with handle `i` as near to [t, y] as is allowed, on the way from where it is in `scene`, which is good. `step` is
+ * that of a time.
  */
-export function slide(scene, i, [t, y], steps, isGood) {
-  const [t0, y0] = placeOf(scene, i);
-  if (i < 4) {
-    const [least, most] = limits(scene, i);
-    t = Math.min(Math.max(t, i ? least : t), i < 3 ? most : t);
-  }
-  const good = (t, y) => isGood(moved(scene, i, t, y));
-  if (good(t, y)) return moved(scene, i, t, y);
-  const alongT = (y) => reach(t0, t, steps[0], (t) => good(t, y));
-  // The crate forgives a rounding beyond 0 or 1: no one means it.
-  const alongY = (t) => {
-    const far = reach(y0, y, steps[1], (y) => good(t, y));
-    const within = Math.min(Math.max(far, 0), 1);
-    return Math.abs(far - within) < 0.01 && good(t, within) ? within : far;
-  };
-  if (i < 4) return moved(scene, i, alongT(y), y);
-  const [t1, y2] = [alongT(y0), alongY(t0)];
-  const far = ([tx, yx]) => Math.hypot((tx - t) / steps[0], (yx - y) / steps[1]);
-  const [first, second] = [[t1, alongY(t1)], [alongT(y2), y2]];
-  return moved(scene, i, ...(far(first) <= far(second) ? first : second));
+export function slide(scene, i, [t, y], step, isGood) {
+  const [least, most] = limits(scene, i);
+  const within = (x, [low, high]) => Math.min(Math.max(x, low), high);
+  t = within(t, [i ? least : -Infinity, i === 3 ? Infinity : most]);
+  y = i < 4 ? y : within(y, [0, 1]);
+  return moved(scene, i, reach(placeOf(scene, i)[0], t, step, (t) => isGood(moved(scene, i, t, y))), y);
 }

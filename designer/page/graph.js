@@ -173,20 +173,19 @@ export class Graph {
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
     const per = this.perUnit;
-    const points = [this.view, ...(this.other ? [this.other] : [])].flatMap((view) => view.ramps.flat());
+    const ends = [this.view, ...(this.other ? [this.other] : [])].flatMap(({ times }) => [times[0], times[3]]);
     // A trace is seen whole, as far as there is light.
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
     const lit = light.length ? [light[0], light.at(-1)] : [];
-    const times = [...points, ...lit, ...this.view.marks.slice(0, 1), ...this.view.marks.slice(-1)].map(([t]) => t * per);
-    const heights = [...points.map(([, y]) => y), ...(this.samples ? [Math.max(...light.map(([, o]) => o), 1)] : [])];
+    const seen = [...lit, ...this.view.marks.slice(0, 1), ...this.view.marks.slice(-1)].map(([t]) => t);
+    const times = [...ends, ...seen].map((t) => t * per);
     const room = 0.05 * (Math.max(...times) - Math.min(...times));
-    const ends = [Math.min(...times) - room, Math.max(...times) + room];
-    const [low, high] = [Math.min(-0.1, ...heights.map((y) => y - 0.08)), Math.max(1.12, ...heights.map((y) => y + 0.08))];
+    const range = [Math.min(...times) - room, Math.max(...times) + room];
+    const [low, high] = [-0.1, Math.max(1.12, ...light.map(([, o]) => o + 0.08))];
     // While a handle is dragged the range follows it, but does not shrink under it.
-    if (this.dragged) {
-      this.range = [Math.min(ends[0], this.range[0]), Math.max(ends[1], this.range[1])];
-      [this.low, this.high] = [Math.min(low, this.low), Math.max(high, this.high)];
-    } else Object.assign(this, { range: ends, low, high });
+    if (this.dragged) this.range = [Math.min(range[0], this.range[0]), Math.max(range[1], this.range[1])];
+    else this.range = range;
+    Object.assign(this, { low, high });
     const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit} ${this.samples && this.zoom()}`;
     if (size === this.size) return;
     this.size = size;

@@ -39,7 +39,7 @@ export class Handles {
   slid(scene, i, place) {
     const { graph } = this;
     const fine = 10 ** Math.floor(Math.log10(graph.perPixel / 20));
-    const next = slide(scene, i, place, [fine, 1e-4], (scene) => allowed(scene, false) > 0);
+    const next = slide(scene, i, place, fine, (scene) => allowed(scene, false) > 0);
     const asked = moved(scene, i, ...place);
     const isShort = String(placeOf(next, i)) !== String(placeOf(asked, i));
     if (scene.measured || allowed(next, true) > 1 || allowed(scene, true) < 2) return { next, tried: isShort ? asked : null };
@@ -175,9 +175,8 @@ export class Handles {
       set('transform', `translate(${at[i]})`);
       set('aria-valuetext', `${short(t)} ${scene.unit}${i < 4 ? '' : `, openness ${short(o)}`}`);
       set('aria-valuenow', short(t));
-      // A control point of a steep ramp may lie beside it.
-      set('aria-valuemin', short(Math.min(least, t)));
-      set('aria-valuemax', short(Math.max(most, t)));
+      set('aria-valuemin', short(least));
+      set('aria-valuemax', short(most));
     });
     const arms = [[0, 4], [1, 5], [2, 6], [3, 7]].filter((pair) => pair.every((i) => isDrawn[i]));
     graph.paths.arms.setAttribute('d', arms.map(([a, b]) => `M${at[a]}L${at[b]}`).join(''));

@@ -14,8 +14,8 @@ function heldBy(scene, i) {
   const answer = view(scene);
   const wrong = answer.Err ?? answer.Ok.plan.Err;
   const [t, o] = placeOf(scene, i);
+  const [least, most] = limits(scene, i);
   if (i < 4) {
-    const [least, most] = limits(scene, i);
     if (i && t < least) return { words: `It cannot come before ${NAMES[i - 1]}, at ${short(least)} ${scene.unit}.`, remedies: [] };
     if (i < 3 && t > most) return { words: `It cannot come after ${NAMES[i + 1]}, at ${short(most)} ${scene.unit}.`, remedies: [] };
   }
@@ -24,9 +24,9 @@ function heldBy(scene, i) {
     return { words, remedies: remedies(scene) };
   }
   const reason = wrong?.reason ?? 'Further is not possible.';
-  if (/back/.test(reason)) return { words: 'Further, the curve would run back in time.', remedies: [] };
-  if (o > 1 || /above 1/.test(reason)) return { words: 'Fully open is 1: the curve cannot go above.', remedies: [] };
-  if (o < 0 || /below 0/.test(reason)) return { words: 'Closed is 0: the curve cannot go below.', remedies: [] };
+  if (t < least || t > most) return { words: `It stays on its ramp, from ${short(least)} to ${short(most)} ${scene.unit}.`, remedies: [] };
+  if (o > 1) return { words: 'Fully open is 1: it cannot go above.', remedies: [] };
+  if (o < 0) return { words: 'Closed is 0: it cannot go below.', remedies: [] };
   return { words: inWords(reason, scene), remedies: answer.Ok ? remedies(scene) : [] };
 }
 

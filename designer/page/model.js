@@ -15,7 +15,7 @@ export const model = {
   now: null,
   /** What the engine tells of the scene; null where it has no curve. And the last scene that had one, with its view. */
   view: null, last: null, good: null,
-  /** What is wrong: { reason, notes, key, ramp }; with `id` where a text is no number, with `isLink` where a link is none. */
+  /** What is wrong: { reason, notes, key, inner }; with `id` where a text is no number, with `isLink` where a link is none. */
   wrong: null,
   /** A time in seconds that is pointed at; is it that of an exposure that plays? */
   cursor: null, isPlaying: false,

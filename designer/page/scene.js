@@ -82,18 +82,13 @@ function relative(inner, times) {
   });
 }
 
-/** Parts of ramps as fractions of the interval; what lies on its ramp stays there in spite of the rounding. */
+/** Parts of ramps as fractions of the interval. */
 function placed(parts, times) {
   const length = times[3] - times[0];
-  const fraction = (t) => (length > 0 ? (t - times[0]) / length : 0);
   return parts.map((x, i) => {
     if (i % 2) return x;
     const [from, to] = i < 4 ? times : times.slice(2);
-    const exact = fraction(from + x * (to - from));
-    const rounded = Math.round(exact * 1e6) / 1e6;
-    if (x <= 1 && rounded > fraction(to)) return x < 1 ? Math.floor(exact * 1e6) / 1e6 : tidy(fraction(to), 9);
-    if (x >= 0 && rounded < fraction(from)) return x > 0 ? Math.ceil(exact * 1e6) / 1e6 : tidy(fraction(from), 9);
-    return rounded;
+    return length > 0 ? tidy((from + x * (to - from) - times[0]) / length, 7) : 0;
   });
 }
 

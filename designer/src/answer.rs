@@ -11,21 +11,21 @@ pub struct Wrong {
     /// The key in the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub key: Option<&'static str>,
-    /// The ramp of the curve.
+    /// From where to where among the numbers of `shutteropening`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub ramp: Option<&'static str>,
+    pub inner: Option<(usize, usize)>,
 }
 
 /// Of a scene of numbers.
 impl From<Fault> for Wrong {
     fn from(fault: Fault) -> Self {
-        Self { key: fault.key(), ramp: None, reason: fault.reason, notes: fault.notes }
+        Self { key: fault.key(), inner: fault.inner, reason: fault.reason, notes: fault.notes }
     }
 }
 
 impl From<String> for Wrong {
     fn from(reason: String) -> Self {
-        Self { reason, notes: Vec::new(), key: None, ramp: None }
+        Self { reason, notes: Vec::new(), key: None, inner: None }
     }
 }
 

@@ -7,7 +7,7 @@ use shutter::scene::Scene;
 use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
 use shutter::times::Times;
-use shutter_curve::{CubicBezier, CurveError, Part as CurvePart};
+use shutter_curve::CubicBezier;
 use shutter_fit::unit::Unit;
 
 use crate::answer::{Wrong, json};
@@ -106,7 +106,7 @@ pub fn allowed(question: &[u8], deep: bool) -> u32 {
     let scene = Question::read(question)
         .map(|question| question.scene)
         .ok()
-        .filter(|scene| scene.shape().is_ok_and(|shape| shape.curve().is_ok()));
+        .filter(|scene| scene.curve().is_ok());
     scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
 }
 
@@ -117,15 +117,7 @@ impl View {
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
     fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
         let Question { scene, measured } = question;
-        let planned = Plan::new(&scene);
-        let shape = scene.shape()?;
-        let curve = match shape.curve() {
-            Ok(curve) => curve,
-            Err(error) => {
-                let fault = planned.err().ok_or_else(|| error.to_string())?;
-                return Err(Wrong { ramp: ramp(error), ..fault.into() });
-            }
-        };
+        let (shape, curve) = scene.curve()?;
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
         let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
         let points = ramps(&shape).map(|ramp| ramp.points());
@@ -153,11 +145,14 @@ impl View {
         }
         let n = scene.triggers().min(MOST_TRIGGERS);
         let u = |i: f32| i / n as f32;
-        let marks = (0..n).zip(curve.trigger_times(n));
         Ok(Self {
             edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
-            marks: numbers.put(marks.flat_map(|(i, t)| [t, curve.openness(t), u(i as f32 + 0.5)])),
-            plan: planned.map(|plan| Planned::new(plan, numbers)).map_err(Wrong::from),
+            marks: numbers.put((0..n).flat_map(|i| {
+                let u = u(i as f32 + 0.5);
+                let t = curve.inverse_cdf(u);
+                [t, curve.openness(t), u]
+            })),
+            plan: Plan::new(&scene).map(|plan| Planned::new(plan, numbers)).map_err(Wrong::from),
             ..common
         })
     }
@@ -211,20 +206,4 @@ fn ramps(shape: &Shape) -> [CubicBezier; 2] {
         CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
         CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
     ])
-}
-
-/// The ramp that an error is about.
-fn ramp(error: CurveError) -> Option<&'static str> {
-    use CurveError as E;
-    match error {
-        E::NotFinite(ramp)
-        | E::TimeTurnsBack(ramp)
-        | E::InnerTimesTurnBack(ramp)
-        | E::NegativeOpenness(ramp)
-        | E::OpennessAboveOne(ramp) => Some(match ramp {
-            CurvePart::Opening => "opening",
-            CurvePart::Closing => "closing",
-        }),
-        _ => None,
-    }
 }

@@ -67,8 +67,8 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
   await open();
   const before = await curve();
   for (const [id, text, message] of [
-    ['t1', '2', /opening ramp: time turns back/],
-    ['y6', '-1', /closing ramp: the openness falls below 0/],
+    ['t1', '2', /opening ramp: the time of its first inner point has to lie on the ramp, .* 0 at the start, 1 at the end; it is 2/],
+    ['y6', '-1', /closing ramp: the openness of its second inner point has to be in \[0, 1\]; it is -1/],
     ['open_end', 'NaN', /“NaN” is no number/],
     ['close_end', '1e400', /^is closed: a finite number is required/],
     ['close_start', '-4', /times out of order/],

@@ -54,7 +54,6 @@ pub use errors::Measured;
 use frame::FrameFits;
 pub use json::json;
 pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
-pub use ramp::STRAIGHT;
 pub use report::{because, text};
 use shots::Shots;
 pub use signal::{Flicker, Hum, Kind, Signal};

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::curve::{CONTROLS, Collected, Curve, Exposure, PARAMETERS, PLATEAU, START};
-use crate::ramp::STRAIGHT;
+use crate::ramp::{BOUNDS, STRAIGHT};
 
 /// The candidates, simplest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -257,11 +257,11 @@ impl Signal {
         }
     }
 
-    /// The bounds of each: no length below 0, control numbers in [0, 1], a hum's frequency in its range.
+    /// The bounds of each: no length below 0, control numbers and a hum's frequency in their range.
     pub(super) fn bounds(&self) -> Vec<Bounds> {
         let mut bounds = vec![ANY; self.len()];
         for (k, bound) in bounds.iter_mut().enumerate().take(self.kind.parameters()).skip(1) {
-            *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { (0.0, 1.0) };
+            *bound = if k < CONTROLS { (0.0, f64::INFINITY) } else { BOUNDS[(k - CONTROLS) % 4] };
         }
         if let Some(hum) = self.hum {
             bounds[self.kind.parameters() + 2 + self.drift.map_or(0, |_| 1)] = hum.range;

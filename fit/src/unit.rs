@@ -80,7 +80,9 @@ pub fn count(n: impl Into<u64>, thing: &str) -> String {
 /// `x` to so many significant digits, without the zeros that say nothing.
 pub fn short(x: f64, digits: i32) -> String {
     if x != 0.0 && !(1e-6..1e12).contains(&x.abs()) {
-        return format!("{x:.0$e}", digits as usize - 1);
+        let text = format!("{x:.0$e}", digits as usize - 1);
+        let Some((digits, exponent)) = text.split_once('e') else { return text };
+        return format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'));
     }
     trimmed(x, decimals(x, digits))
 }

@@ -1,13 +1,12 @@
-//! The greatest error of a polynomial on a stretch, bounded from samples (docs/internals/proofs.md, "An octave's
-//! certificate", 1 to 4).
+//! The greatest error of a polynomial on a stretch, bounded from samples.
 //!
 //! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
-//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times a weight has degree 51, and a polynomial of
+//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times a weight has degree 8 · 6 + 3 = 51, and a polynomial of
 //! degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and Zeller 1964).
 
-use crate::number::units::{WORD, fixed_f64};
+use crate::number::units::{WORD, fixed_towards_0};
 use crate::octave::Octave;
-use crate::octave::path::{Path, absolute};
+use crate::octave::path::absolute;
 
 /// N, and `cos(π / N)`.
 const POINTS: usize = 192;
@@ -20,14 +19,14 @@ pub(crate) const FIRST_STRIDE: usize = 2;
 const COSINES: &[i32; POINTS / 2 + 1] = &{
     let (mut cosines, mut cosine, mut last, mut i) = ([0; POINTS / 2 + 1], 1.0, COSINE, 0);
     while i < cosines.len() {
-        cosines[i] = (cosine * PLACE as f64 + 0.5) as i32;
+        cosines[i] = (cosine * ONE as f64 + 0.5) as i32;
         (cosine, last) = (2.0 * COSINE * cosine - last, cosine);
         i += 1;
     }
     cosines
 };
-/// `s = 1` as a place. (In this file a place is the `s` of a sample, in 2⁻³⁰, not a parameter of the Bezier.)
-const PLACE: f32 = (1 << 30) as f32;
+/// `s = 1`, where `s` counts 2⁻³⁰.
+const ONE: f32 = (1 << 30) as f32;
 
 /// `1 / cos(51 π stride / 2N)`, by the stride.
 // proofs/certificate.py
@@ -38,28 +37,28 @@ const FACTOR: [f32; FIRST_STRIDE + 1] = [0.0, 1.093_840_9, 1.489_072_5];
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
 /// The number of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time, whose weight
-/// is 1; that in exposure, by the openness; and that relative to the time, by a bound of 1 / size.
-pub(crate) const KINDS: usize = 3;
+/// is 1; and that in exposure, by the openness.
+pub(crate) const KINDS: usize = 2;
 
-/// A sample's fraction counts 2⁻²⁰ of a position, its time 2⁻²⁴ of the coefficients' unit.
-const FRACTION_BITS: i32 = 20;
+/// A sample's position counts 2⁻²⁰ of one, its time 2⁻²⁴ of a step.
+const POSITION_BITS: i32 = 20;
 const TIME_BITS: i32 = 24;
 /// What a sample's time loses at most, by three products and four numbers that are cut (`proofs/certificate.py`).
 pub(crate) const SAMPLE_OFF: f32 = 7.0 / (1 << TIME_BITS) as f32;
 
 /// A stretch in integers, which take a tenth of the time where doubles are emulated.
 pub(crate) struct Sampled {
-    fraction: [i64; 7],
+    position: [i64; 7],
     time: [i64; 4],
 }
 
 impl Sampled {
-    /// Of a stretch as a certificate has it. None for a NaN, and for numbers greater than those of any served stretch.
-    pub(crate) const fn new(along: &Path) -> Option<Self> {
-        let (mut fraction, mut time) = ([0; 7], [0; 4]);
-        let is_sampled = count(&along.fraction, FRACTION_BITS, &mut fraction)
-            & count(&along.time, TIME_BITS, &mut time);
-        if is_sampled { Some(Self { fraction, time }) } else { None }
+    /// Of a stretch. None for a NaN, and for numbers greater than those of any served stretch.
+    pub(crate) const fn new(position: &[f64; 7], time_steps: &[f64; 4]) -> Option<Self> {
+        let (mut sampled, mut time) = ([0; 7], [0; 4]);
+        let is_sampled =
+            count(position, POSITION_BITS, &mut sampled) & count(time_steps, TIME_BITS, &mut time);
+        if is_sampled { Some(Self { position: sampled, time }) } else { None }
     }
 }
 
@@ -68,28 +67,28 @@ impl Sampled {
 const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     let (mut are_counted, mut k) = (true, 0);
     while k < c.len() && k < counted.len() {
-        counted[k] = fixed_f64(c[k], -bits);
+        counted[k] = fixed_towards_0(c[k], -bits);
         are_counted &= counted[k].unsigned_abs() >> 60 == 0;
         k += 1;
     }
     are_counted
 }
 
-/// The value at a place, in 2⁻³⁰. Each product is rounded down; as |place| <= 1, a loss does not grow.
+/// The value, in the coefficients' unit, at `s`, which counts 2⁻³⁰. Each product is rounded down; as |s| <= 1, a loss does not grow.
 #[inline(never)]
-pub(crate) const fn at(c: &[i64], place: i32) -> i64 {
+pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     let (mut value, mut c) = (0, c);
     while let [lower @ .., next] = c {
         // By words: the product has 93 bits.
         let (high, low) = (value >> 32, value & 0xFFFF_FFFF);
-        value = 4 * (high * place as i64) + ((low * place as i64) >> 30) + *next;
+        value = 4 * (high * s as i64) + ((low * s as i64) >> 30) + *next;
         c = lower;
     }
     value
 }
 
-/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point; in the
-/// unit of the coefficients. `x` is the offset in widths. Samples are off by at most `noise`.
+/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: in steps, and
+/// over its limit. Samples are off by at most `noise` steps.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -100,27 +99,27 @@ pub(crate) const fn errors(
 ) -> ([f32; KINDS], [f32; KINDS]) {
     let (mut seen, mut i) = ([0.0; KINDS], 0);
     while i < COSINES.len() {
-        let mut place = COSINES[i];
+        let mut s = COSINES[i];
         // At the cosine and at its negative.
         loop {
             // The nearest position; it wraps.
-            let half = 1 << (FRACTION_BITS - 1);
-            let position = ((at(&along.fraction, place) + half) >> FRACTION_BITS) as i32;
+            let half = 1 << (POSITION_BITS - 1);
+            let position = ((at(&along.position, s) + half) >> POSITION_BITS) as i32;
             let value = octave.polynomial(octave.offset(position));
-            let error = (((value as i64) << TIME_BITS) - at(&along.time, place)).unsigned_abs();
+            let error = (((value as i64) << TIME_BITS) - at(&along.time, s)).unsigned_abs();
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;
             let mut kind = 0;
             while kind < KINDS {
-                let error = error * single(&weights[kind], place as f32 / PLACE).abs();
+                let error = error * single(&weights[kind], s as f32 / ONE).abs();
                 // A NaN stays, and is refused.
                 seen[kind] = if error > seen[kind] || error.is_nan() { error } else { seen[kind] };
                 kind += 1;
             }
-            if place <= 0 {
+            if s <= 0 {
                 break;
             }
-            place = -place;
+            s = -s;
         }
         i += stride;
     }

@@ -1,7 +1,7 @@
 //! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
-use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
-use crate::octave::path::{Path, View, root, singles, value};
+use crate::number::units::{exponent, fixed_down, fixed_towards_0, power_of_two_f64};
+use crate::octave::path::{Stretch, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
@@ -28,102 +28,98 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The octave's middle as a time since the side's end.
     pub(crate) middle: f64,
-    /// The unit of the coefficients, as a time: `2^unit` times the factor's size.
+    /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these *steps*.
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
-    pub(crate) steep: f32,
-    /// What rounding adds to its time, in steps: Horner's, a unit of time to which the side's end is cut, and two by
-    /// which a search for a neighbour may be early ([`Moment::in_units`](crate::number::moment::Moment::in_units)).
-    pub(crate) truncated: f32,
+    pub(crate) slope_bound_steps: f32,
+    /// What rounding adds to its time, in steps: Horner's; a unit of time, to which the side's end is cut; and two units,
+    /// by which `Moment::in_units` may cut the time of a neighbour that is searched, and which has to stay in order.
+    pub(crate) truncation_steps: f32,
 }
 
-impl View<'_> {
-    /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which
-    /// Horner's sums fit 32 bits, but at least the plan's unit. None if its numbers are out of range.
-    #[inline(always)]
-    pub(crate) const fn candidate(&self, span: &Span, stretch: &Path) -> Option<Candidate> {
-        let c = span.interpolated(stretch);
-        // |x| <= reach, with room for a center's rounding.
-        let reach = span.half / span.width + 0.01;
-        // Horner's rule without signs, for the values and the slope.
-        let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
-        while k > 0 {
-            steep = steep * reach + bound;
-            bound = c[k].abs() as f32 + bound * reach;
-            // A NaN stays.
-            most = if bound <= most { most } else { bound };
-            k -= 1;
-        }
-        steep = steep * reach + bound;
-        // All of Horner's sums are at most `most`, with what rounding adds.
-        most *= 1.0 + 1.0 / (1 << 16) as f32;
-        if !(most > 0.0 && most < f32::MAX) {
-            return None;
-        }
-        let exponent = exponent(most) - 30;
-        let exponent = if exponent < self.unit { self.unit } else { exponent };
-        // The factor is an `i32`.
-        if exponent - self.unit > 30 {
-            return None;
-        }
-        let step = power_of_two_f64(exponent);
-        let factor = 1 << (exponent - self.unit);
-        let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
-        let mut k = DEGREE;
-        while k > 0 {
-            octave.c[DEGREE - k] = rounded(c[k], exponent);
-            k -= 1;
-        }
-        let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);
-        // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
-        if middle.unsigned_abs() > 1 << 62 {
-            return None;
-        }
-        let end = fixed(self.exposure.end(self.side), self.unit);
-        octave.middle = if self.side.is_end() { end - middle } else { end + middle };
-        octave.factor = if self.side.is_end() { -factor } else { factor };
-        Some(Candidate {
-            octave,
-            middle: middle as f64 * power_of_two_f64(self.unit),
-            step,
-            steep: steep / step as f32,
-            truncated: HALF_TRUNCATION + 3.0 / factor as f32,
-        })
+/// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
+/// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
+#[inline(always)]
+pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Option<Candidate> {
+    let c = interpolated(span, stretch);
+    // |x| <= reach, with room for a center's rounding.
+    let reach = span.half / span.width + 0.01;
+    // Horner's rule without signs, for the values and the slope.
+    let (mut bound, mut most, mut slope_bound, mut k) = (0.0, 0.0, 0.0, DEGREE);
+    while k > 0 {
+        slope_bound = slope_bound * reach + bound;
+        bound = c[k].abs() as f32 + bound * reach;
+        // A NaN stays.
+        most = if bound <= most { most } else { bound };
+        k -= 1;
     }
+    slope_bound = slope_bound * reach + bound;
+    // All of Horner's sums are at most `most`, with what rounding adds.
+    most *= 1.0 + 1.0 / (1 << 16) as f32;
+    if !(most > 0.0 && most < f32::MAX) {
+        return None;
+    }
+    let exponent = exponent(most) - 30;
+    let exponent = if exponent < view.unit_exponent { view.unit_exponent } else { exponent };
+    // The factor is an `i32`.
+    if exponent - view.unit_exponent > 30 {
+        return None;
+    }
+    let step = power_of_two_f64(exponent);
+    let factor = 1 << (exponent - view.unit_exponent);
+    let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
+    let mut k = DEGREE;
+    while k > 0 {
+        octave.c[DEGREE - k] = rounded(c[k], exponent);
+        k -= 1;
+    }
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, view.unit_exponent);
+    // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
+    if middle.unsigned_abs() > 1 << 62 {
+        return None;
+    }
+    let end = fixed_down(view.exposure.end_time(view.side), view.unit_exponent);
+    octave.middle = if view.side.is_end() { end - middle } else { end + middle };
+    octave.factor = if view.side.is_end() { -factor } else { factor };
+    Some(Candidate {
+        octave,
+        middle: middle as f64 * power_of_two_f64(view.unit_exponent),
+        step,
+        slope_bound_steps: slope_bound / step as f32,
+        truncation_steps: HALF_TRUNCATION + 3.0 / factor as f32,
+    })
 }
 
-impl Span {
-    /// The time since the side's end as a polynomial of `x` in widths, coefficients from the constant up.
-    #[inline(never)]
-    const fn interpolated(&self, along: &Path) -> [f64; DEGREE + 1] {
-        let (center, per_position) = self.offsets();
-        let mut offset = singles(&along.fraction, center, per_position);
-        let [x0, x1, x2, x3, x4, x5, x6] = offset;
-        // x(±1) = even ± odd: the node `n` is at x = even + odd n.
-        let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
-        let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0);
-        while i <= DEGREE {
-            // Single precision is enough: any nodes interpolate, and near Chebyshev's the error is small.
-            offset[0] = x0 - (even + odd * NODES[i]);
-            let (place, _) = root(&offset, [-1.0, 1.0], NODES[i]);
-            let place = place as f64;
-            x[i] = (value(&along.fraction, place) - center) * per_position;
-            d[i] = value(&along.time, place);
-            i += 1;
-        }
-        let mut order = 1;
-        while order <= DEGREE {
-            divided_differences(&mut d, &x, order);
-            order += 1;
-        }
-        // Newton's form, multiplied out: c = d[0] + (x - x[0]) (d[1] + (x - x[1]) (d[2] + ...)).
-        let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
-        while i > 0 {
-            i -= 1;
-            multiply(&mut c, x[i], d[i]);
-        }
-        c
+/// The time since the side's end as a polynomial of `x` in widths, coefficients from the constant up.
+#[inline(never)]
+const fn interpolated(span: &Span, stretch: &Stretch) -> [f64; DEGREE + 1] {
+    let (center, per_position) = span.offsets();
+    let mut offset = singles(&stretch.position, center, per_position);
+    let [x0, x1, x2, x3, x4, x5, x6] = offset;
+    // x(±1) = even ± odd: the node `n` is at x = even + odd n.
+    let (even, odd) = (x0 + x2 + x4 + x6, x1 + x3 + x5);
+    let (mut x, mut d, mut i) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], 0);
+    while i <= DEGREE {
+        // Single precision is enough: any nodes interpolate, and near Chebyshev's the error is small.
+        offset[0] = x0 - (even + odd * NODES[i]);
+        let (place, _) = root(&offset, [-1.0, 1.0], NODES[i]);
+        let place = place as f64;
+        x[i] = (value(&stretch.position, place) - center) * per_position;
+        d[i] = value(&stretch.time, place);
+        i += 1;
     }
+    let mut order = 1;
+    while order <= DEGREE {
+        divided_differences(&mut d, &x, order);
+        order += 1;
+    }
+    // Newton's form, multiplied out: c = d[0] + (x - x[0]) (d[1] + (x - x[1]) (d[2] + ...)).
+    let (mut c, mut i) = ([0.0; DEGREE + 1], DEGREE + 1);
+    while i > 0 {
+        i -= 1;
+        multiply(&mut c, x[i], d[i]);
+    }
+    c
 }
 
 /// From one order of divided differences to the next: `d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - order])`.
@@ -155,6 +151,6 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
 
 /// `x` in units of `2^e`, to the nearest; halves away from 0.
 const fn rounded(x: f64, e: i32) -> i32 {
-    let halves = fixed_f64(x, e - 1);
+    let halves = fixed_towards_0(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32
 }

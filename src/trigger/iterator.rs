@@ -1,5 +1,60 @@
-//! The iterators over a frame, which is the triggers or the pulses of one exposure: any item in constant time, from
-//! either end.
+//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item at once.
+
+use core::ops::Range;
+
+use crate::trigger::pulse::{Pulse, Pulses};
+use crate::trigger::ticks::Ticks;
+
+/// An iterator over the ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It goes from either end, and
+/// to any trigger at once.
+///
+/// If the curve is a `static`, a `static` can hold the iterator, too. An interrupt handler takes one tick after the
+/// other from it:
+///
+/// ```
+/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
+/// use std::sync::Mutex;
+///
+/// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
+/// static FRAME: Mutex<Option<TriggerTicks<'static>>> = Mutex::new(None);
+///
+/// fn begin() -> Result<(), ScheduleError> {
+///     *FRAME.lock().unwrap() = Some(SHUTTER.trigger_ticks(16, 1_000_000)?);
+///     Ok(())
+/// }
+///
+/// fn on_interrupt(base: u32, set_compare: impl Fn(u32)) {
+///     if let Some(tick) = FRAME.lock().unwrap().as_mut().and_then(Iterator::next) {
+///         set_compare(base.wrapping_add(tick));
+///     }
+/// }
+/// # begin()?;
+/// # on_interrupt(5, |tick| assert_eq!(tick, 5 + 1083));
+/// # Ok::<(), ScheduleError>(())
+/// ```
+#[derive(Clone)]
+pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
+    pub(crate) frame: Ticks<'a, OCTAVES>,
+    pub(crate) left: Range<u32>,
+}
+
+/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It goes from
+/// either end, and to any pulse at once.
+#[derive(Clone)]
+pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
+    pub(crate) frame: Pulses<'a, OCTAVES>,
+    pub(crate) left: Range<u32>,
+}
+
+impl<const OCTAVES: usize> TriggerTicks<'_, OCTAVES> {
+    /// Is trigger `i` of the frame placed without a search?
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_direct(&self, i: u32) -> bool {
+        self.frame.is_direct(i)
+    }
+}
 
 /// The iterator `$name`, whose fields are a `frame`, of which item `i` is `frame.at(i)`, and the range of those that
 /// are `left`.
@@ -24,16 +79,6 @@ macro_rules! iterate {
             #[inline]
             fn size_hint(&self) -> (usize, Option<usize>) {
                 self.left.size_hint()
-            }
-
-            #[inline]
-            fn count(self) -> usize {
-                self.left.count()
-            }
-
-            #[inline]
-            fn last(mut self) -> Option<$item> {
-                self.next_back()
             }
         }
 
@@ -77,4 +122,6 @@ macro_rules! iterate {
         }
     };
 }
-pub(crate) use iterate;
+
+iterate!(TriggerTicks, u32);
+iterate!(PulseTicks, Pulse);

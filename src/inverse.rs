@@ -1,0 +1,329 @@
+//! From a fraction of the exposure to its time.
+//!
+//! The steps of [`Inverse::inverse_cdf`], with the file of each:
+//!
+//! 1. On the plateau, above `u = 1/512`, the time is on a line: `t = base + A u`. Go to 10.
+//! 2. Else `a = min(u, 1 - u)` is counted from the nearer end of the curve, its *side* ([`fraction`](crate::fraction)).
+//! 3. If the octave of `a` has a polynomial ([`octave`]), that gives the time. Go to 10.
+//! 4. Else a search begins: `a` becomes a pair of `f32` ([`pair`](crate::number::pair)).
+//! 5. The section where `a` is collected ([`exposure`](crate::exposure)): the plateau gives the time at once. Go to 10.
+//! 6. A ramp is seen from the end that faces the side ([`ramp`](crate::ramp)).
+//! 7. The search starts from the end of the ramp whose mass is nearer, its *anchor*.
+//! 8. The first guess: the least distance at which one term of the mass is enough ([`guess`](crate::search::guess)).
+//! 9. Halley's steps; what they leave, measured in pairs; a last step with a bounded error ([`solve`](crate::search)).
+//! 10. One rounding to `f32`.
+//!
+//! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
+//! search by less than a quarter, and on the line `A u` is rounded down.
+//!
+//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step 1,
+//! too: there the line begins 1/512 from either end.
+
+use crate::error::{CurveError, tried};
+use crate::exposure::Exposure;
+use crate::fraction::Fraction;
+use crate::fraction::Side::{self, End, Start};
+use crate::number::units::{
+    FINE, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent,
+};
+use crate::octave::span::Span;
+use crate::octave::{self, Octave, build};
+use crate::ramp::bezier::CubicBezier;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Inverse<const OCTAVES: usize> {
+    pub(crate) exposure: Exposure,
+    /// Times in *units* count `2^unit_exponent`, the power of two of which the curve's greatest |time|, or its length if
+    /// that is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
+    pub(crate) unit_exponent: i32,
+    /// The time of 2³² units.
+    time_of_word: f32,
+    /// By side: the bits of the last `f32` at or before the far ramp's join. One with greater bits is on the far ramp.
+    line_last_bits: [u32; 2],
+    /// By side: how many `f32` are on the line: the one with `line_last_bits`, and those next below it; 0 without a
+    /// line.
+    line_len: [u32; 2],
+    /// The plateau's line: its time continued to `u = 0`, and its slope, the area.
+    line_base_units: i64,
+    line_slope_units: i64,
+    /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so
+    /// that `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    tops: [[u8; 2]; 2],
+    /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
+    octaves: [[Octave; OCTAVES]; 2],
+}
+
+/// Where a fraction lies.
+enum Section {
+    /// On the plateau's line: the time, in units.
+    Line(i64),
+    /// On the ramp at a side; or on the plateau, but too near to an end for the line.
+    Ramp(Side),
+}
+
+impl<const OCTAVES: usize> Inverse<OCTAVES> {
+    pub(crate) const fn new(
+        opening: &CubicBezier,
+        closing: &CubicBezier,
+    ) -> Result<Self, CurveError> {
+        // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
+        const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
+        let (exposure, shapes) = tried!(Exposure::new(opening, closing));
+        let unit_exponent = time_exponent(exposure.end_time(Start), exposure.end_time(End));
+        let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
+        let mut this = Self {
+            exposure,
+            unit_exponent,
+            time_of_word: power_of_two(unit_exponent + 32),
+            line_last_bits: [last_before(from_start[1]), last_before(from_end[1])],
+            line_len: [0; 2],
+            line_base_units: 0,
+            line_slope_units: 0,
+            tops: [[0; 2]; 2],
+            octaves: [[Octave::NONE; OCTAVES]; 2],
+        };
+        if this.exposure.has_plateau() {
+            // The line at u = 0 and at u = 1, as if the shutter opened and closed at once, with the same exposure. It is
+            // off by a few units. An ulp of the least `u` on it, 2⁻³², takes 2⁸ of them, as by the rules of `domain` its
+            // slope is at least 2⁴⁰ (proofs/domain.py).
+            let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
+            let first =
+                fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
+            let last =
+                fixed_down(close, unit_exponent) + fixed_towards_0(shapes[1].area(), unit_exponent);
+            (this.line_base_units, this.line_slope_units) = (first, last - first);
+            this.line_len = [
+                this.line_last_bits[0].saturating_sub(last_before_line(from_start[0])),
+                this.line_last_bits[1].saturating_sub(last_before_line(from_end[0])),
+            ];
+        }
+        let mut side = 0;
+        // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
+        while OCTAVES > 0 && side < 2 {
+            let octaves = &mut this.octaves[side];
+            this.tops[side] =
+                build::build(&this.exposure, &shapes, unit_exponent, Side::BOTH[side], octaves);
+            side += 1;
+        }
+        Ok(this)
+    }
+
+    /// The time of the curve's end at a side, in units.
+    pub(crate) const fn end_units(&self, side: Side) -> i64 {
+        fixed_down(self.exposure.end_time(side), self.unit_exponent)
+    }
+
+    /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
+    ///
+    /// The early return keeps register saves off the plateau, whose answers then take a third fewer cycles.
+    #[inline(always)]
+    pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
+        // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
+        let ramp = match self.section(Start, u.to_bits()) {
+            Section::Line(time) => {
+                return match upper_word(time) {
+                    Some(time) => time as f32 * self.time_of_word,
+                    None => self.rounded_near_0_cold(time),
+                };
+            }
+            Section::Ramp(ramp) => ramp,
+        };
+        let fraction = Fraction::new(u);
+        let (time, scale) = match self.by_octave(fraction, ramp) {
+            Some(time) => match upper_word(time) {
+                Some(time) => (time as f32, self.time_of_word),
+                None => (self.rounded_near_0(time), 1.0),
+            },
+            None => (f32::from_bits(self.searched_bits(fraction)), 1.0),
+        };
+        // One product and one return for all three.
+        time * scale
+    }
+
+    /// The time at a fraction, in units.
+    #[inline(always)]
+    pub(crate) const fn time_units(&self, fraction: Fraction) -> i64 {
+        match self.direct_units(fraction) {
+            Some(time) => time,
+            None => self.searched_units(fraction),
+        }
+    }
+
+    /// The time at a fraction, in units, if the plateau's line or a polynomial has it.
+    #[inline(always)]
+    pub(crate) const fn direct_units(&self, fraction: Fraction) -> Option<i64> {
+        match self.section(fraction.side, fraction.bits) {
+            Section::Line(time) => Some(time),
+            Section::Ramp(ramp) => self.by_octave(fraction, ramp),
+        }
+    }
+
+    /// How many evaluations of the mass [`inverse_cdf`](Self::inverse_cdf) takes; none where it does not search.
+    pub(crate) fn evaluations(&self, u: f32) -> Option<u32> {
+        let Section::Ramp(ramp) = self.section(Start, u.to_bits()) else { return None };
+        let fraction = Fraction::new(u);
+        let is_direct = self.by_octave(fraction, ramp).is_some();
+        if is_direct { None } else { Some(self.exposure.evaluations(fraction)) }
+    }
+
+    /// The section of a fraction from a side, which has these bits.
+    #[inline(always)]
+    const fn section(&self, side: Side, bits: u32) -> Section {
+        // On the line: line_last_bits - line_len < bits <= line_last_bits. Beyond it `until_far` has wrapped, and its
+        // bit 31 is set. What is negative or NaN is never on the line; on either ramp it has no octave.
+        let until_far = self.line_last_bits[side as usize].wrapping_sub(bits);
+        if until_far < self.line_len[side as usize] {
+            let word = in_line_units(bits);
+            // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
+            Section::Line(self.on_line(if side.is_end() { word.wrapping_neg() } else { word }))
+        } else {
+            Section::Ramp(side.other_if(until_far >> 31 == 1))
+        }
+    }
+
+    /// The time on the plateau's line, in units, at a `u` in units of 2⁻³².
+    // proofs/words.py
+    #[inline(always)]
+    const fn on_line(&self, u: u32) -> i64 {
+        let slope = self.line_slope_units as u64;
+        let (high, low) = (slope >> 32, slope & 0xFFFF_FFFF);
+        let way = high * u as u64 + ((low * u as u64) >> 32);
+        self.line_base_units.wrapping_add(way as i64)
+    }
+
+    /// The time by a polynomial of a ramp, in units.
+    // proofs/octaves.py: the look-up finds the octave that was built
+    #[inline(always)]
+    const fn by_octave(&self, fraction: Fraction, ramp: Side) -> Option<i64> {
+        match self.look_up(fraction, ramp) {
+            // Tested before any coefficient is loaded, or the compiler loads all at once and saves registers for them.
+            Some((octave, position)) if octave.exists() => {
+                Some(octave.time(octave.offset(position)))
+            }
+            _ => None,
+        }
+    }
+
+    /// The octave of a fraction on a ramp, and its position there. None for 0, outside [0, 1] and for NaN.
+    #[inline(always)]
+    pub(crate) const fn look_up(&self, fraction: Fraction, ramp: Side) -> Option<(&Octave, i32)> {
+        let Fraction { side, bits } = fraction;
+        let top = octave::top(self.tops[side as usize][ramp as usize]);
+        let below = top.wrapping_sub(bits);
+        let index = (below >> 23) as usize;
+        if index >= OCTAVES {
+            return None;
+        }
+        let octave = &self.octaves[side as usize][index];
+        // Let a = (1 + f) 2^e. If 2^e is the octave's power, the position is f. If it is half of that, the position is
+        // (f - 1) / 2. That is where `top - bits` borrows from the exponent: where bit 23 of top ^ bits ^ below is 1.
+        // With f in the upper bits of a word, and that bit as its sign, the word is f / 2 or (f - 1) / 2 in 2⁻³². So it
+        // is doubled if it is not negative:
+        //   top    0.375   0 01111101 100...
+        //   bits   0.3     0 01111101 00110...   no borrow:  0.2 / 2, and the position is 0.2
+        //   bits   0.2     0 01111100 10011...   a borrow:  (0.6 - 1) / 2 = -0.2, which is the position
+        let borrowed = (top ^ below) & 1 << 23;
+        let word = ((bits ^ borrowed) << 8) as i32;
+        Some((octave, word.wrapping_add(word & !(word >> 31))))
+    }
+
+    /// The time at a fraction, in units, by a search.
+    #[cold]
+    #[inline(never)]
+    const fn searched_units(&self, fraction: Fraction) -> i64 {
+        self.exposure.moment(fraction).in_units(self.unit_exponent)
+    }
+
+    /// The time at a fraction, by a search. Out of line: direct answers save no registers for it. It returns bits, not a
+    /// float, so that the caller cannot tail-call it: all answers on ramps share one return.
+    #[cold]
+    #[inline(never)]
+    fn searched_bits(&self, fraction: Fraction) -> u32 {
+        self.exposure.moment(fraction).time().to_bits()
+    }
+
+    /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the user's unit, rounded once.
+    // proofs/words.py
+    #[inline(always)]
+    fn rounded_near_0(&self, time: i64) -> f32 {
+        // A time of one word moves up by 31, which keeps its sign.
+        let sign = (time >> 63) as i32;
+        let is_word = (time >> 32) as i32 == sign;
+        let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
+        let (high, low) = ((time >> 32) as i32, time as u32);
+        // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
+        let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
+        let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
+        // Two factors: their product may not be a normal number.
+        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.time_of_word
+    }
+
+    /// [`rounded_near_0`](Self::rounded_near_0) for the plateau, which seldom needs it.
+    #[cold]
+    #[inline(never)]
+    fn rounded_near_0_cold(&self, time: i64) -> f32 {
+        self.rounded_near_0(time)
+    }
+
+    /// No fraction from a side that is above this, up to 1/2, needs a search.
+    pub(crate) const fn least_direct(&self, side: Side) -> f64 {
+        let [near, far] = self.exposure.join_fractions(side);
+        let mut least = self.least_served(side, side.other(), 0.5);
+        if least <= far && near < far && near < least {
+            // The plateau, by its line.
+            if self.line_len[side as usize] == 0 {
+                return least;
+            }
+            least = if near < FINE as f64 { FINE as f64 } else { near };
+        }
+        if least <= far { self.least_served(side, side, least) } else { least }
+    }
+
+    /// What [`least_direct`](Self::least_direct) is with one ramp's octaves, if it is `least` without them.
+    const fn least_served(&self, side: Side, ramp: Side, mut least: f64) -> f64 {
+        let part = build::range(&self.exposure, side, ramp);
+        let top = octave::top(self.tops[side as usize][ramp as usize]);
+        let mut index = 0;
+        while index < OCTAVES {
+            if let Some(span) = Span::new(part, octave::below(top, index)) {
+                if !self.octaves[side as usize][index].exists() {
+                    break;
+                }
+                least = span.from;
+            }
+            index += 1;
+        }
+        least
+    }
+}
+
+/// The bits of the last `f32` at or before a join, but below 1: the fraction 1 has the exact end.
+const fn last_before(join: f64) -> u32 {
+    let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
+    if join < before_end { join } else { before_end }
+}
+
+/// The bits of the last `f32` before the line, which begins at a join, but above [`FINE`].
+const fn last_before_line(join: f64) -> u32 {
+    let join = floor_bits(join);
+    if join < FINE.to_bits() { FINE.to_bits() } else { join }
+}
+
+/// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².
+// proofs/words.py
+#[inline(always)]
+const fn in_line_units(bits: u32) -> u32 {
+    let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
+    (bits << 8 | 1 << 31) >> (shift & 31)
+}
+
+/// The upper word of a time, which rounds to the same `f32` as both words: a small processor converts 32 bits, not 64.
+/// None if it has fewer than 26 bits. With 26, two more than an `f32`, all that counts of the lower word is whether it
+/// is 0: the *sticky bit*.
+// proofs/words.py
+#[inline(always)]
+fn upper_word(time: i64) -> Option<i32> {
+    let high = (time >> 32) as i32;
+    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26;
+    has_enough.then_some(high | (time as u32 != 0) as i32)
+}
