@@ -194,8 +194,9 @@ fn errors_are_measured_in_ulp() {
     // The density touches 0 between two samples of time.
     let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));
     assert_eq!(dip.near(0.375).openness_ulp(0.0, 0.0), 0.0);
-    // An ulp is at least that of a floor.
-    assert_eq!(exact.near(0.5).openness_ulp(1.0 + 2.0 * f32::EPSILON, 4.0), 0.5);
+    // An ulp is at least a floor of the greatest openness.
+    let ramp = Exact::new(&Curve::single([(0.0, 0.0), (1.0, 0.0), (2.0, 0.25), (3.0, 0.5)]));
+    assert_eq!(ramp.near(0.0).openness_ulp(0.125, 0.25), 1.0);
 }
 
 /// The random curves are accepted, the same every time, and do hold what they are there for.

@@ -7,14 +7,14 @@
 mod support;
 
 use support::aimed::{FAMILIES, aimed};
-use support::cases::CASES;
+use support::cases::{CASES, shutter};
 use support::curves::{
-    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, hard_us, named,
-    random_density, random_hard, random_typical,
+    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, hard_us,
+    instant, line, named, random_density, random_hard, random_typical,
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{FORWARD_MEAN, Figures, Questions, Reach};
+use support::promise::{FORWARD_MEAN, Figures, Questions, Reach, neighbours};
 use support::times;
 
 const SEED: u64 = 13;
@@ -200,6 +200,111 @@ families! {
     designs_joins_at_thirds_fifths_tenths: 4,
     designs_handles_to_the_end: 5,
     designs_other_units_and_levels: 6,
+    designs_joins_next_to_time_0: 7,
+}
+
+/// Curves on which a version failed, or that an attack had in the source's rules, as far as they are accepted.
+#[test]
+fn faults() {
+    let mut figures = Figures::default();
+    let quick = Reach { denominator: 16, frame: 16, ..ALL };
+    let smooth = |start: f32, end: f32, [from, to]: [f32; 2]| {
+        let handle = (end - start) / 4.0;
+        [(start, from), (start + handle, from), (end - handle, to), (end, to)]
+    };
+    let mut curves = Vec::new();
+    for [open, close] in [[0.0, -0.0], [-0.0, 0.0], [-0.0, -0.0], [0.0, 0.0]] {
+        curves.push(Curve::shutter(instant(open), line((close, 1.0), (1.0, 0.0))));
+    }
+    let opening = [(-0.25, 0.0), (-0.16, 0.0), (-0.09, 1.0), (0.0, 1.0)];
+    let closing = [(0.0, 1.0), (0.095, 1.0), (0.155, 0.0), (0.25, 0.0)];
+    for scale in [1.0, 4e7, exp2(65) as f32] {
+        curves.push(Curve::shutter(opening, closing).scaled(scale));
+    }
+    // Time stands nearly still at time 0.
+    curves.push(Curve::shutter(
+        [(-1.0, 0.0), (0.875, 0.0), (-1.0, 1.0), (1.0, 1.0)],
+        [(1.0, 1.0), (1.25, 1.0), (1.5, 0.0), (2.0, 0.0)],
+    ));
+    // Many lengths from time 0.
+    curves.push(Curve::shutter(
+        [(16.0, 0.23115787), (16.069315, 0.9636907), (16.188118, 0.94166076), (16.204382, 1.0)],
+        [(16.204382, 1.0), (16.933697, 0.4028296), (16.949995, 0.9828322), (17.0, 0.09975028)],
+    ));
+    // Subnormal times.
+    let closing =
+        [(2.6020853e-19, 1.0), (4.3368087e-19, 0.7), (6.938894e-19, 0.3), (8.6736174e-19, 0.0)];
+    curves.push(Curve::shutter(instant(-1.1912527e-38), closing));
+    let opening = [(-6e-20, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)];
+    curves.push(Curve::shutter(opening, instant(1e-20)));
+    // The join at half of the light, and a plateau across time 0, each as short as it may be.
+    let [least, unit] = [exp2(-24) as f32, exp2(-26) as f32];
+    let half = line((-unit, 1.0), (least - unit, 0.0));
+    curves.push(Curve::shutter(line((-1.0, 0.0), (-unit, 1.0)), half));
+    let plateau = [-1.75 * unit, 0.75 * unit];
+    curves.push(Curve::shutter(
+        line((-0.5, 0.0), (plateau[0], 1.0)),
+        line((plateau[1], 1.0), (0.5, 0.0)),
+    ));
+    // The line, counted from either end.
+    for [open, close] in [[0.001, 0.9995], [0.3, 0.999], [0.0, 1.0], [0.002, 0.6]] {
+        let [opening, closing] = [line((0.0, 0.0), (open, 1.0)), line((close, 1.0), (1.0, 0.0))];
+        curves.push(Curve::shutter(opening, closing));
+    }
+    // 1/2 to 1/1024 of the light, and some 2⁻²⁵ of that more: between the top of an octave and the join.
+    for k in 1..=10 {
+        let mut opening = smooth(-2.0, 0.0, [0.0, 1.0]);
+        opening[0].1 = exp2(-24) as f32;
+        curves.push(Curve::shutter(opening, smooth(0.0, 2.0 * exp2(k) as f32 - 2.0, [1.0, 0.0])));
+    }
+    for (turn, curve) in curves.into_iter().enumerate() {
+        for curve in [curve, curve.mirrored()] {
+            ask(&mut figures, &accepted(curve), turn < 16, Reach { turn, ..quick });
+        }
+    }
+    // Boxes in which the middle of two fractions is where the time since the start gains a last bit.
+    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)]
+    {
+        let ours = shutter::<8>(&Curve::shutter(instant(start), instant(end)));
+        let first = (exp2(-24) as f32).to_bits() - 200;
+        let values: Vec<f32> = (first..first + 400).map(|t| ours.cdf(f32::from_bits(t))).collect();
+        assert!(values.is_sorted(), "from {start} to {end}");
+    }
+    // Parts of frames: hardly any light precedes a closing ramp; the last of 2³¹ ticks; a first pulse next to the start.
+    let third = 1.0 / 3.0;
+    let late = Curve::shutter(
+        [(0.0, 0.0), (3e-5, 0.3), (6e-5, 0.6), (1e-4, 1.0)],
+        [(1e-4, 1.0), (0.33, 0.0), (0.66, 0.0), (1.0, 0.0)],
+    );
+    let last = Curve::shutter(
+        [(-1.0, 0.0), (-1.0, 1.472065e-5), (-1.0, 1.768388e-5), (0.0, 1.0)],
+        instant(0.16237123),
+    );
+    let first =
+        Curve::shutter([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)], instant(1.0));
+    let all = 1 << 22;
+    for (curve, n, duty, at, count, hz) in [
+        (late, all / 4, None, all / 4 - 2000, 2000, 1 << 31),
+        (late, all, None, all - 2000, 2000, 1 << 31),
+        (late, all, None, all - 2000, 2000, 1 << 24),
+        (last, all, None, all - 30, 30, 1_847_502_402),
+        (first, all - 1, Some(1.0 - f32::EPSILON / 2.0), 0, 1, 2_147_483_448),
+        (first, 1_000_007, Some(1.0 - f32::EPSILON), 0, 1, 2_147_483_448),
+    ] {
+        let exact = Exact::new(&curve);
+        figures.asked::<8>(&exact, &Questions::frame(&exact, n, duty, at, count, hz));
+    }
+    // The most typical curves that there are, and more than 0.6 ulp wrong.
+    let ramp = smooth(0.0, 10.0, [0.0, 1.0]);
+    for (curve, u) in [
+        (Curve::shutter(ramp, smooth(10.0, 20.0, [1.0, 0.0])), 10.0 / 39.0),
+        (Curve::shutter(instant(0.0), line((1.0, 1.0), (19.0, 0.0))), 0.5),
+    ] {
+        let exact = Exact::new(&curve);
+        let us = neighbours(u, 20_000).collect();
+        figures.asked::<8>(&exact, &Questions::fractions(&exact, us, true));
+    }
+    report("faults", &figures);
 }
 
 /// The families do meet what they are aimed at.

@@ -282,7 +282,7 @@ fn rule_2_openness_lies_between_0_and_1() {
             both(with(edge), CLOSES, at_edge);
             both(with(beyond), CLOSES, Err(error(Opening)));
             assert_eq!(density(with(edge)), Ok(()));
-            assert_eq!(density(with(beyond)), Err(E::DensityOutOfRange { point: point as u8 }));
+            assert_eq!(density(with(beyond)), Err(E::DensityOutOfRange));
             // A ramp without length, too.
             let mut at_once = instant(0.0);
             at_once[point].1 = beyond;
@@ -553,19 +553,19 @@ fn messages() {
         ),
         (
             inner(0, 0.4),
-            "opening ramp: t1 does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at close_end",
+            "opening ramp: the time of its first inner point has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end",
         ),
         (
             inner(2, 0.6),
-            "opening ramp: t2 does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at close_end",
+            "opening ramp: the time of its second inner point has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end",
         ),
         (
             inner(4, 0.4),
-            "closing ramp: t5 does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at close_end",
+            "closing ramp: the time of its first inner point has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end",
         ),
         (
             inner(6, 1.2),
-            "closing ramp: t6 does not lie on the ramp; it is a fraction of the whole interval, 0 at open_start and 1 at close_end",
+            "closing ramp: the time of its second inner point has to lie on the ramp, as a fraction of the whole interval: 0 at open_start, 1 at close_end",
         ),
         (
             verdict(crossed(0.0), instant(1.0)),
@@ -600,20 +600,8 @@ fn messages() {
             "closing ramp: the openness of its last point has to be in [0, 1]",
         ),
         (
-            dense(0),
-            "the density at its first point has to be in [0, 1]; scale it down (CubicBezier::scaled)",
-        ),
-        (
-            dense(1),
-            "the density at its first inner point has to be in [0, 1]; scale it down (CubicBezier::scaled)",
-        ),
-        (
             dense(2),
-            "the density at its second inner point has to be in [0, 1]; scale it down (CubicBezier::scaled)",
-        ),
-        (
-            dense(3),
-            "the density at its last point has to be in [0, 1]; scale it down (CubicBezier::scaled)",
+            "the density has to be in [0, 1] at each control point; scale a greater one down (CubicBezier::scaled)",
         ),
         (verdict(dim[0], CLOSES), "opening ramp: it has to end fully open, at openness 1"),
         (verdict(OPENS, dim[1]), "closing ramp: it has to begin fully open, at openness 1"),

@@ -4,7 +4,7 @@
 
 use shutter_curve::CubicBezier;
 
-use super::curves::{Rng, Shape, accepted, settled, shape};
+use super::curves::{Rng, Shape, accepted, placed, settled, shape};
 use super::oracle::{Curve, Points, exp2};
 use super::promise::Reach;
 
@@ -29,7 +29,7 @@ const fn family(name: &'static str, designs: u64, draw: fn(&mut Rng) -> Curve) -
     Family { name, designs, reach, all_octaves: false, draw }
 }
 
-pub const DESIGNS: [Family; 7] = [
+pub const DESIGNS: [Family; 8] = [
     family("whole ms", 90, |rng| {
         let lengths = [length(rng), length(rng), length(rng)];
         shutter_of(rng, lengths, ramp, 1.0)
@@ -72,6 +72,19 @@ pub const DESIGNS: [Family; 7] = [
             *f = (low + (1.0 - low) * f64::from(*f)) as f32;
         }
         settled(Curve { opening, closing })
+    }),
+    // In thousandths, and ramps across it.
+    family("joins next to time 0", 60, |rng| {
+        let mut decimal = |most| 0.001 * whole(rng, 1, most);
+        let (open, join, end) = (decimal(4000), decimal(4000), decimal(6000));
+        let plateau = [0.0, 0.0, join, 0.001][rng.below(4) as usize];
+        let handle = [0.25, 0.5, 0.75, 31.0 / 32.0][rng.below(4) as usize];
+        let times = [0.0, handle, 1.0 - handle, 1.0];
+        let curve = settled(Curve::shutter(
+            placed(shape(times, SMOOTH), false, -join - open, open),
+            placed(shape(times, SMOOTH), true, plateau - join + end, end),
+        ));
+        if rng.chance(0.5) { curve.mirrored() } else { curve }
     }),
 ];
 

@@ -21,8 +21,8 @@ pub const VALUE: f64 = 1.0;
 pub const SCALAR: f64 = 1.0;
 /// An ulp of the cdf is at least that of this.
 pub const CDF_FLOOR: f64 = 1.0 / (1 << 24) as f64;
-/// An ulp of the openness is at least that of this; of the pdf that of `K` times this, if that is more.
-pub const DENSITY_FLOOR: f64 = 1.0 / (1u128 << 125) as f64;
+/// An ulp of the openness and the pdf is at least this share of the greatest on their ramp.
+pub const DENSITY_FLOOR: f64 = 1.0 / (1u64 << 38) as f64;
 /// In ticks, from the exact time of a fraction within [`TRIGGER_ULP`] or [`EDGE_ULP`] of the one that is asked for.
 pub const TICK: f64 = 0.52;
 /// In ulp of the lesser of the fraction and its rest to 1: half for the `f32`, and half for the inverse.

@@ -211,6 +211,8 @@ fn cubic(d: [Dd; 3]) -> [Dd; 3] {
 struct Ramp {
     ends: [End; 2],
     mass: Dd,
+    /// The greatest openness on the ramp.
+    greatest: f64,
 }
 
 /// A place on a ramp: the end from which it counts, and the distance.
@@ -225,7 +227,9 @@ impl Ramp {
         let [a, b, c, d] = points;
         let ends = [End::new(points, 1.0), End::new([d, c, b, a], -1.0)];
         let mass = ends[0].mass.at(Dd::ONE);
-        Self { ends, mass }
+        let mut ramp = Self { ends, mass, greatest: 0.0 };
+        ramp.greatest = ramp.turns().iter().fold(0.0, |most, turn| most.max(turn[1].hi));
+        ramp
     }
 
     fn is_empty(&self) -> bool {
@@ -572,7 +576,7 @@ impl Near<'_> {
         value_ulp(got, values, |value| ulp_f32(value.max(floor)))
     }
 
-    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least that of `floor`.
+    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor` of the ramp's greatest openness.
     pub fn openness_ulp(&self, got: f32, floor: f64) -> f64 {
         self.density_ulp(got, Dd::ONE, floor)
     }
@@ -589,8 +593,9 @@ impl Near<'_> {
         let reach = exact.ulp_of_time(t);
         let turns = exact.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
         let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
-        let floor = floor * scale.hi.max(1.0);
-        value_ulp(got, values, |value| ulp_f32(value.max(floor)))
+        let ramp = if exact.opens_at(t) { &exact.opening } else { &exact.closing };
+        let least = floor * ramp.greatest * scale.hi;
+        value_ulp(got, values, |value| ulp_f32(value).max(least))
     }
 
     /// From the middle outwards: most answers are settled after few.
