@@ -83,11 +83,8 @@ impl Exposure {
     #[inline(always)]
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());
-        if a.is_nan() {
-            return Moment::at(self.end_time(Side::Start));
-        }
-        if a <= 0.0 {
-            return Moment::at(self.end_time(side));
+        if a.is_nan() || a <= 0.0 {
+            return Moment::at(self.end_time(if a.is_nan() { Side::Start } else { side }));
         }
         match self.sought(fraction) {
             Sought::Plateau(past_near) => {

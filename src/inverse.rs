@@ -24,7 +24,7 @@ use crate::exposure::Exposure;
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
 use crate::number::units::{
-    FINE, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent,
+    FINE, exponent, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent,
 };
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
@@ -33,10 +33,8 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// Times in *units* count `2^unit_exponent`, the power of two of which the curve's greatest |time|, or its length if
-    /// that is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
-    pub(crate) unit_exponent: i32,
-    /// The time of 2³² units.
+    /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that is
+    /// more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
     time_of_word: f32,
     /// By side: the bits of the last `f32` at or before the far ramp's join. One with greater bits is on the far ramp.
     line_last_bits: [u32; 2],
@@ -73,7 +71,6 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
         let mut this = Self {
             exposure,
-            unit_exponent,
             time_of_word: power_of_two(unit_exponent + 32),
             line_last_bits: [last_before(from_start[1]), last_before(from_end[1])],
             line_len: [0; 2],
@@ -108,9 +105,14 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         Ok(this)
     }
 
+    /// The exponent of a unit.
+    pub(crate) const fn unit_exponent(&self) -> i32 {
+        exponent(self.time_of_word) - 32
+    }
+
     /// The time of the curve's end at a side, in units.
     pub(crate) const fn end_units(&self, side: Side) -> i64 {
-        fixed_down(self.exposure.end_time(side), self.unit_exponent)
+        fixed_down(self.exposure.end_time(side), self.unit_exponent())
     }
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
@@ -231,7 +233,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     const fn searched_units(&self, fraction: Fraction) -> i64 {
-        self.exposure.moment(fraction).in_units(self.unit_exponent)
+        self.exposure.moment(fraction).in_units(self.unit_exponent())
     }
 
     /// The time at a fraction, by a search. Out of line: direct answers save no registers for it. It returns bits, not a

@@ -24,9 +24,8 @@ use crate::search::{Anchor, Found, solve};
 /// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
-/// A time this near to an end, in the ramp's unit, counts as the end: less than 2⁻¹²⁸ of the ramp, where places may be
-/// subnormal. What is lost is far below the error of any answer.
-const NEXT_TO_END: f32 = power_of_two(-64);
+/// A place below this, 2⁻¹⁴⁷ of the ramp, counts as the end: as a subnormal number it could not be exact enough.
+const LEAST_PLACE: f32 = power_of_two(-117);
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,11 +159,12 @@ impl Ramp {
     /// The place by which `target` has passed since the end that faces a side, within [`TIME_ERROR`].
     #[inline(never)]
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
-        if target.hi < NEXT_TO_END {
+        let series = self.time_since(side);
+        let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
+        if target.hi < LEAST_PLACE * c[0] {
             return Pair::ZERO;
         }
-        let series = self.time_since(side);
-        let anchor = Anchor::same_end([series.c[0].hi, series.c[1].hi, series.last.hi], target.hi);
+        let anchor = Anchor::same_end(c, target.hi);
         solve(series, target, &anchor, TIME_ERROR * target.hi).place
     }
 }

@@ -31,7 +31,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent);
+        let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent());
         let length = (inverse.end_units(Side::End) - start) as u64;
         if exponent_of_ticks(length, ticks_per_unit, exponent) > TICK_BITS {
             return Err(too_high(length, ticks_per_unit, exponent));
