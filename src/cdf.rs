@@ -114,8 +114,8 @@ fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     fraction / WHOLE
 }
 
-/// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded to
-/// a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+/// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded
+/// to a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
 #[inline]
 fn on_grid(exposure: &Exposure, t: f32) -> f32 {
     let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];

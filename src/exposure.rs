@@ -78,8 +78,8 @@ impl Exposure {
     }
 
     /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
-    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end itself,
-    /// though no light may fall there; of what is negative, too, and of NaN the start.
+    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end
+    /// itself, though no light may fall there; of what is negative, too, and of NaN the start.
     #[inline(always)]
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());

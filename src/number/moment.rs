@@ -3,9 +3,9 @@
 use crate::number::pair::Pair;
 use crate::number::units::{fixed_down, power_of_two};
 
-/// `base + way 2^exponent`, or `base - way 2^exponent` where `back`, rounded once. `way` is at most 2¹⁰⁵. The exponent is at
-/// least -252, so that half of it is that of a normal number; and unless `way` is 0 at most 22, so that `way 2^exponent`
-/// is at most 2¹²⁷.
+/// `base + way 2^exponent`, or `base - way 2^exponent` where `back`, rounded once. `way` is at most 2¹⁰⁵. The exponent
+/// is at least -252, so that half of it is that of a normal number; and unless `way` is 0 at most 22, so that `way
+/// 2^exponent` is at most 2¹²⁷.
 // proofs/rounding.py
 #[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, exponent: i32, back: bool) -> f32 {

@@ -18,15 +18,15 @@ use crate::number::units::{
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
-/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance between
-/// neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most the greater
+/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance
+/// between neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most
+/// the greater
 /// |time| next to it, so neighbours are at least 2⁻²⁴ `d` apart. Else times are on a grid, at least 2⁻²⁶ `d` apart
 /// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
-/// A time this near to an end, in the ramp's unit, counts as the end: less than 2⁻¹²⁸ of the ramp, where places may be
-/// subnormal. What is lost is far below the error of any answer.
-const NEXT_TO_END: f32 = power_of_two(-64);
+/// A place below this, 2⁻¹⁴⁷ of the ramp, counts as the end: as a subnormal number it could not be exact enough.
+const LEAST_PLACE: f32 = power_of_two(-117);
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,11 +160,12 @@ impl Ramp {
     /// The place by which `target` has passed since the end that faces a side, within [`TIME_ERROR`].
     #[inline(never)]
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
-        if target.hi < NEXT_TO_END {
+        let series = self.time_since(side);
+        let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
+        if target.hi < LEAST_PLACE * c[0] {
             return Pair::ZERO;
         }
-        let series = self.time_since(side);
-        let anchor = Anchor::same_end([series.c[0].hi, series.c[1].hi, series.last.hi], target.hi);
+        let anchor = Anchor::same_end(c, target.hi);
         solve(series, target, &anchor, TIME_ERROR * target.hi).place
     }
 }
@@ -177,8 +178,8 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl RampPoint<'_> {
-    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's time
-    /// has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
+    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's
+    /// time has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
     #[inline(always)]
     const fn place_from(&self, side: Side) -> Pair {
         if self.side.is(side) {
