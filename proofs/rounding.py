@@ -43,7 +43,7 @@ def wrong(p, halves):
     found = 0
     for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
         # In parts that fit the cache.
-        for lo in np.array_split(los[None, :], len(los) // 32 + 1, axis=1):
+        for lo in np.array_split(los[None, :], len(los) // 6 + 1, axis=1):
             total = rounded(bases + hi, p)
             answer = rounded(total + odd_sum(bases + hi - total, lo, p), p)
             found += int((answer != rounded(bases + hi + lo, p)).sum())

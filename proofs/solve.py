@@ -9,7 +9,7 @@ from majorant import *
 
 pinned("""
 search/mod.rs mirrored b82cf3df Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left 099b0969 solve 00ecc2bd approach bcc2ca23
-ramp/mod.rs place_of_part d7e002b3 place_of_time 48a5f503
+ramp/mod.rs place_of_part d7e002b3 place_of_time b1567883
 number/pair.rs difference c74b730c
 """)
 
