@@ -1,8 +1,8 @@
-//! From a time: the openness, the density, and the cdf.
+//! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the mass collected until the place at which the time is reached, counted from the nearer end of the curve, as
-//! the inverse counts. So it loses some 2⁻³⁹ of the lesser of the fraction and its rest, and times next to each other are
-//! farther apart than that: it never steps back (proofs/cdf.py).
+//! A cdf is the part of the exposure until the place at which the time is reached, counted from the nearer end of the
+//! curve, as the inverse counts. Its place may be off by a quarter of the distance to the next time, and measuring the
+//! part there loses far less than lies between two times: so it never steps back (proofs/cdf.py).
 
 use crate::exposure::Exposure;
 use crate::fraction::Side::{self, End, Start};
@@ -21,8 +21,8 @@ enum Section {
 /// The section of a time, which is [`on_grid`].
 #[inline]
 fn section(exposure: &Exposure, t: f32) -> Section {
-    let [start, end] = [exposure.end(Start), exposure.end(End)];
-    let [open, close] = [exposure.join(Start), exposure.join(End)];
+    let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];
+    let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
     if t < open {
         if t >= start { Section::Ramp(Start) } else { Section::Outside }
     } else if t > close {
@@ -56,10 +56,10 @@ pub(crate) fn openness(exposure: &Exposure, t: f32) -> f32 {
 
 /// The openness at `t` over the exposure.
 #[inline]
-pub(crate) fn density(exposure: &Exposure, t: f32) -> f32 {
-    let (f, unit) = openness_pair(exposure, t);
+pub(crate) fn pdf(exposure: &Exposure, t: f32) -> f32 {
+    let (f, f_exponent) = openness_pair(exposure, t);
     let (area, exponent) = significand(exposure.area);
-    rounded((f.over(area), unit - exponent))
+    rounded((f.over(area), f_exponent - exponent))
 }
 
 /// The fraction of the exposure collected by `t`.
@@ -67,7 +67,7 @@ pub(crate) fn density(exposure: &Exposure, t: f32) -> f32 {
 pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
     let t = on_grid(exposure, t);
     match section(exposure, t) {
-        Section::Outside if t > exposure.end(End) => 1.0,
+        Section::Outside if t > exposure.end_time(End) => 1.0,
         Section::Outside => 0.0,
         Section::Plateau => cdf_on_plateau(exposure, t),
         Section::Ramp(side) => cdf_on_ramp(exposure, side, t),
@@ -79,7 +79,7 @@ pub(crate) fn cdf(exposure: &Exposure, t: f32) -> f32 {
 fn cdf_on_plateau(exposure: &Exposure, t: f32) -> f32 {
     let (area, exponent) = significand(exposure.area);
     from_nearer_end(|side| {
-        let join = exposure.join(side);
+        let join = exposure.join_time(side);
         let way = if side.is(Start) { Pair::sum(t, -join) } else { Pair::sum(join, -t) };
         // Scaled first: a quotient of a subnormal way has too few bits.
         let way = way.shifted(WHOLE_EXPONENT - exponent);
@@ -91,7 +91,7 @@ fn cdf_on_plateau(exposure: &Exposure, t: f32) -> f32 {
 fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     let point = exposure.ramp(ramp).at_time(t);
     from_nearer_end(|side| {
-        let part = point.mass(side);
+        let part = point.fraction(side);
         if ramp.is(side) {
             part
         } else {
@@ -100,25 +100,25 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     })
 }
 
-/// The fraction collected, by the mass since a side's end, in [`WHOLE`]: that from the start where it is below half, else
-/// the rest of that from the end.
+/// The fraction collected since the start, by those since a side's end, in [`WHOLE`]: that since the start where it is
+/// below half, else the rest of that since the end.
 #[inline(always)]
-fn from_nearer_end(mass_since: impl Fn(Side) -> Pair) -> f32 {
+fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
-    let from_start = mass_since(Start).rounded();
+    let from_start = fraction_since(Start).rounded();
     let fraction = if from_start < HALF {
         from_start.max(0.0)
     } else {
-        Pair::new(WHOLE).minus(mass_since(End)).rounded().clamp(HALF, WHOLE)
+        Pair::new(WHOLE).minus(fraction_since(End)).rounded().clamp(HALF, WHOLE)
     };
     fraction / WHOLE
 }
 
-/// The time `t`. Inside a curve across time 0, where `f32` are denser than a measurement is exact, it is rounded to a
-/// multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+/// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded
+/// to a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
 #[inline]
 fn on_grid(exposure: &Exposure, t: f32) -> f32 {
-    let [start, end] = [exposure.end(Start), exposure.end(End)];
+    let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];
     if start < 0.0 && end > 0.0 && t > start && t < end { gridded(start, end, t) } else { t }
 }
 

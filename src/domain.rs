@@ -1,8 +1,8 @@
 //! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons.
 //!
-//! By rule 2 neither openness nor `t'` leaves its range anywhere on a ramp, and time nowhere stands still inside one:
-//! `t'` is at least 1/22 of its mean there (proofs/domain.py). By rules 2 and 3 a ramp of a shutter has at least 1/20
-//! of the exposure that its length would have fully open.
+//! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: `t'` is at least `3 p²`
+//! within 1/8 of the start, for a ramp of length 1, as much at the end, and 1/22 between. By rules 2 and 3 a ramp of a
+//! shutter has at least 1/20 of the exposure that its length would have fully open (proofs/domain.py).
 
 use crate::error::{CurveError, Part, tried};
 use crate::number::units::DOUBLE_WORD;
@@ -10,9 +10,9 @@ use crate::ramp::bezier::CubicBezier;
 
 /// By how much the first inner time may pass the second, as a share of the ramp.
 pub(crate) const MOST_CROSSED: f64 = 15.0 / 16.0;
-/// The least interval, as a share of the greatest |time|: 256 `f32` and more.
+/// The least interval, as a share of the greatest |time|: 128 `f32` and more.
 pub(crate) const LEAST_INTERVAL: f64 = 1.0 / (1 << 16) as f64;
-/// The least length of a ramp or a plateau, as a share of the greatest |time|: an ulp or a half of one.
+/// The least length of a ramp or a plateau, as a share of the greatest |time|: half an ulp of that to an ulp.
 pub(crate) const LEAST_SECTION: f64 = 1.0 / (1 << 24) as f64;
 /// The least exposure of a density, as a share of the interval.
 pub(crate) const LEAST_EXPOSURE: f64 = 1.0 / (1 << 20) as f64;
@@ -32,15 +32,15 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
         return Err(CurveError::IntervalUnresolved);
     }
     // The bounds are 2⁻⁶⁴ and 2⁶⁴.
-    if !(length >= 1.0 / DOUBLE_WORD && length <= DOUBLE_WORD) {
+    if length < 1.0 / DOUBLE_WORD || length > DOUBLE_WORD {
         return Err(CurveError::IntervalOutOfRange);
     }
     let least = LEAST_SECTION * greatest;
     tried!(check_section(start, open, least, Part::Opening));
     tried!(check_section(open, close, least, Part::Plateau));
     tried!(check_section(close, end, least, Part::Closing));
-    tried!(check_box(opening, Part::Opening));
-    tried!(check_box(closing, Part::Closing));
+    tried!(check_points(opening, Part::Opening));
+    tried!(check_points(closing, Part::Closing));
     // A ramp that is the whole curve has no join.
     let ([.., opened], [closing, ..]) = (opening.opennesses(), closing.opennesses());
     if start < open && open < end && opened < 1.0 {
@@ -69,7 +69,7 @@ const fn check_section(from: f32, to: f32, least: f64, part: Part) -> Result<(),
     if length > 0.0 && length < least { Err(CurveError::TooShort(part)) } else { Ok(()) }
 }
 
-const fn check_box(ramp: &CubicBezier, part: Part) -> Result<(), CurveError> {
+const fn check_points(ramp: &CubicBezier, part: Part) -> Result<(), CurveError> {
     let (t, f) = (ramp.times(), ramp.opennesses());
     let [from, first, second, to] = t;
     let mut i = 0;

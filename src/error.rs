@@ -25,8 +25,8 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and where. A
-/// `point` is the index of a control point, 0 to 3.
+/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and in which
+/// part, if that can be told. A `point` is the index of a control point, 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -42,8 +42,8 @@ pub enum CurveError {
         /// The control point: 1 or 2.
         point: u8,
     },
-    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the whole
-    /// interval. They may have been given as fractions of the ramp, or as times.
+    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the
+    /// whole interval. They may have been given as fractions of the ramp, or as times.
     FractionOutsideRamp {
         /// The ramp.
         part: Part,
@@ -64,7 +64,7 @@ pub enum CurveError {
     DensityOutOfRange,
     /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
     NotFullyOpen(Part),
-    /// The interval is below 2⁻¹⁶ of the greatest |time|, so `f32` has fewer than 256 times in it.
+    /// The interval is below 2⁻¹⁶ of the greatest |time|: `f32` has few times in it, at most 256.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,

@@ -2,7 +2,7 @@
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
 //! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
-//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times.
+//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times, but for that of 1/2.
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};
@@ -29,7 +29,7 @@ pub(crate) struct Exposure {
 }
 
 /// What is sought of a fraction, in the section where it lies.
-enum Part<'a> {
+enum Sought<'a> {
     /// The fraction past the near ramp, in [`WHOLE`].
     Plateau(Pair),
     /// The fraction on a ramp, in [`WHOLE`].
@@ -64,13 +64,13 @@ impl Exposure {
     }
 
     /// The time of the curve's end at a side.
-    pub(crate) const fn end(&self, side: Side) -> f32 {
-        self.ramp(side).time(side)
+    pub(crate) const fn end_time(&self, side: Side) -> f32 {
+        self.ramp(side).end_time(side)
     }
 
     /// The time of the join of the ramp at a side.
-    pub(crate) const fn join(&self, side: Side) -> f32 {
-        self.ramp(side).time(side.other())
+    pub(crate) const fn join_time(&self, side: Side) -> f32 {
+        self.ramp(side).end_time(side.other())
     }
 
     pub(crate) const fn has_plateau(&self) -> bool {
@@ -78,41 +78,40 @@ impl Exposure {
     }
 
     /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
-    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end itself,
-    /// though no light may fall there; of what is negative, too, and of NaN the start.
+    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end
+    /// itself, though no light may fall there; of what is negative, too, and of NaN the start.
     #[inline(always)]
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());
-        if a.is_nan() {
-            return Moment::at(self.end(Side::Start));
+        if a.is_nan() || a <= 0.0 {
+            return Moment::at(self.end_time(if a.is_nan() { Side::Start } else { side }));
         }
-        if a <= 0.0 {
-            return Moment::at(self.end(side));
-        }
-        match self.part(fraction) {
-            Part::Plateau(past_near) => {
+        match self.sought(fraction) {
+            Sought::Plateau(past_near) => {
+                // Where near ramp and `a` nearly cancel, `lo` may exceed `hi`. Then `lo · area` is rounded by 2⁻²⁴ of
+                // itself, at most 2⁻⁴⁸ of `a`.
                 let (area, exponent) = significand(self.area);
                 Moment {
-                    base: self.join(side),
+                    base: self.join_time(side),
                     back: side.is_end(),
                     way: past_near.times(area),
-                    unit: exponent - WHOLE_EXPONENT,
-                    until: self.join(side.other()),
+                    way_exponent: exponent - WHOLE_EXPONENT,
+                    until: self.join_time(side.other()),
                 }
             }
-            Part::Ramp(ramp, target) => {
+            Sought::Ramp(ramp, part) => {
                 let error = INVERSE_ERROR * (a * WHOLE);
-                ramp.moment(side, ramp.place_of_mass(side, target, error).place)
+                ramp.moment(side, ramp.place_of_part(side, part, error).place)
             }
         }
     }
 
     /// The evaluations of the mass that a search for the moment of a fraction takes.
     pub(crate) const fn evaluations(&self, fraction: Fraction) -> u32 {
-        match self.part(fraction) {
-            Part::Ramp(ramp, target) if fraction.get() > 0.0 => {
+        match self.sought(fraction) {
+            Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {
                 let error = INVERSE_ERROR * (fraction.get() * WHOLE);
-                let Found { evaluations, .. } = ramp.place_of_mass(fraction.side, target, error);
+                let Found { evaluations, .. } = ramp.place_of_part(fraction.side, part, error);
                 evaluations
             }
             _ => 0,
@@ -120,30 +119,28 @@ impl Exposure {
     }
 
     #[inline(always)]
-    const fn part(&self, fraction: Fraction) -> Part<'_> {
-        let (side, a) = (fraction.side, Pair::new(fraction.get() * WHOLE));
+    const fn sought(&self, fraction: Fraction) -> Sought<'_> {
+        let (side, a_in_whole) = (fraction.side, Pair::new(fraction.get() * WHOLE));
         let near = self.ramp(side).share;
-        let (ramp, target) = if a.difference(near) < 0.0 {
-            (side, a)
+        let (ramp, part) = if a_in_whole.difference(near) < 0.0 {
+            (side, a_in_whole)
         } else {
-            // If the two nearly cancel, `lo` may be the greater number: a product then loses 2⁻²⁴ of it, some 2⁻⁴⁸ of
-            // `a`. No script proves that.
-            let past_near = a.minus_loose(near);
+            let past_near = a_in_whole.minus_loose(near);
             let past_plateau = past_near.minus(self.plateau);
             if past_plateau.rounded() <= 0.0 {
                 // Or, without a plateau, exactly at the join of the ramps.
-                return Part::Plateau(past_near);
+                return Sought::Plateau(past_near);
             }
             (side.other(), past_plateau)
         };
         // One address, or the search keeps the curve's and an index on the stack.
-        Part::Ramp(core::hint::black_box(self.ramp(ramp)), target)
+        Sought::Ramp(core::hint::black_box(self.ramp(ramp)), part)
     }
 
     /// The fractions at which the near ramp ends and the far ramp begins. Each is computed from the lesser of the two
     /// parts into which it divides the exposure. So without a plateau both are one number.
     #[inline(never)]
-    pub(crate) const fn joins(&self, side: Side) -> [f64; 2] {
+    pub(crate) const fn join_fractions(&self, side: Side) -> [f64; 2] {
         let near = self.ramp(side).share.to_f64() / WHOLE as f64;
         let plateau = self.plateau.to_f64() / WHOLE as f64;
         let far = self.ramp(side.other()).share.to_f64() / WHOLE as f64;

@@ -4,7 +4,7 @@
 ///
 /// Seen from a side, the ramp there is the *near* one, the other one the *far* one. A ramp meets the plateau, or the
 /// other ramp, at its *join*.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     Start,
     End,
@@ -73,7 +73,7 @@ impl Fraction {
         Self { side: Side::end_if(is_late), bits }
     }
 
-    /// `part / (part + rest)`, by the lesser of the two. Half is counted from the start.
+    /// `part / whole`, where `part + rest = whole`, by the lesser of the two. Half is counted from the start.
     #[inline(always)]
     pub(crate) const fn of_parts(part: f32, rest: f32, whole: f32) -> Self {
         if part <= rest {

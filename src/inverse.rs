@@ -13,14 +13,19 @@
 //! 9. Halley's steps; what they leave, measured in pairs; a last step with a bounded error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` never has an earlier time: a polynomial errs by less than half of the distance between neighbouring
-//! `u`, a search by less than a quarter, and on the line `A u` is rounded down.
+//! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
+//! search by less than a quarter, and on the line `A u` is rounded down.
+//!
+//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
+//! 1, too: there the line begins 1/512 from either end.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
-use crate::number::units::{FINE, fixed, fixed_f64, floor_bits, power_of_two, time_unit};
+use crate::number::units::{
+    FINE, exponent, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent,
+};
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
@@ -28,12 +33,10 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// Times in *units* count `2^unit`, the power of two of which the curve's greatest time, or its length if that is
-    /// more, has 2⁶¹ to 2⁶² ([`time_unit`]).
-    pub(crate) unit: i32,
-    /// The time of 2³² units.
-    scale: f32,
-    /// By side: the bits of the last `f32` before the far ramp. A fraction with greater bits is on the far ramp.
+    /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that
+    /// is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
+    time_of_word: f32,
+    /// By side: the bits of the last `f32` at or before the far ramp's join. One with greater bits is on the far ramp.
     line_last_bits: [u32; 2],
     /// By side: how many `f32` are on the line: the one with `line_last_bits`, and those next below it; 0 without a
     /// line.
@@ -64,12 +67,11 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
-        let unit = time_unit(exposure.end(Start), exposure.end(End));
-        let [from_start, from_end] = [exposure.joins(Start), exposure.joins(End)];
+        let unit_exponent = time_exponent(exposure.end_time(Start), exposure.end_time(End));
+        let [from_start, from_end] = [exposure.join_fractions(Start), exposure.join_fractions(End)];
         let mut this = Self {
             exposure,
-            unit,
-            scale: power_of_two(unit + 32),
+            time_of_word: power_of_two(unit_exponent + 32),
             line_last_bits: [last_before(from_start[1]), last_before(from_end[1])],
             line_len: [0; 2],
             line_base_units: 0,
@@ -78,12 +80,14 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
         if this.exposure.has_plateau() {
-            // At u = 0 and at u = 1: as if the shutter opened and closed at once, with the same exposure. Both are off
-            // by a few units, less than 2⁻⁶ ulp of the least `u` on the line: by the rules of `domain` the slope is at
-            // least 2⁴⁰ units (proofs/domain.py).
-            let [open, close] = [exposure.join(Start), exposure.join(End)];
-            let first = fixed(open, unit) - fixed_f64(shapes[0].area(), unit);
-            let last = fixed(close, unit) + fixed_f64(shapes[1].area(), unit);
+            // The line at u = 0 and at u = 1, as if the shutter opened and closed at once, with the same exposure. It
+            // is off by a few units. An ulp of the least `u` on it, 2⁻³², takes 2⁸ of them, as by the rules of `domain`
+            // its slope is at least 2⁴⁰ (proofs/domain.py).
+            let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
+            let first =
+                fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
+            let last =
+                fixed_down(close, unit_exponent) + fixed_towards_0(shapes[1].area(), unit_exponent);
             (this.line_base_units, this.line_slope_units) = (first, last - first);
             this.line_len = [
                 this.line_last_bits[0].saturating_sub(last_before_line(from_start[0])),
@@ -95,15 +99,20 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut this.octaves[side];
             this.tops[side] =
-                build::build(&this.exposure, &shapes, unit, Side::BOTH[side], octaves);
+                build::build(&this.exposure, &shapes, unit_exponent, Side::BOTH[side], octaves);
             side += 1;
         }
         Ok(this)
     }
 
+    /// The exponent of a unit.
+    pub(crate) const fn unit_exponent(&self) -> i32 {
+        exponent(self.time_of_word) - 32
+    }
+
     /// The time of the curve's end at a side, in units.
     pub(crate) const fn end_units(&self, side: Side) -> i64 {
-        fixed(self.exposure.end(side), self.unit)
+        fixed_down(self.exposure.end_time(side), self.unit_exponent())
     }
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
@@ -115,7 +124,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let ramp = match self.section(Start, u.to_bits()) {
             Section::Line(time) => {
                 return match upper_word(time) {
-                    Some(time) => time as f32 * self.scale,
+                    Some(time) => time as f32 * self.time_of_word,
                     None => self.rounded_near_0_cold(time),
                 };
             }
@@ -124,11 +133,12 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let fraction = Fraction::new(u);
         let (time, scale) = match self.by_octave(fraction, ramp) {
             Some(time) => match upper_word(time) {
-                Some(time) => (time as f32, self.scale),
+                Some(time) => (time as f32, self.time_of_word),
                 None => (self.rounded_near_0(time), 1.0),
             },
             None => (f32::from_bits(self.searched_bits(fraction)), 1.0),
         };
+        // One product and one return for all three.
         time * scale
     }
 
@@ -162,10 +172,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[inline(always)]
     const fn section(&self, side: Side, bits: u32) -> Section {
         // On the line: line_last_bits - line_len < bits <= line_last_bits. Beyond it `until_far` has wrapped, and its
-        // bit 31 is set. The bits of what is negative or NaN make it at least 2²⁹, more than any line_len.
+        // bit 31 is set. What is negative or NaN is never on the line; on either ramp it has no octave.
         let until_far = self.line_last_bits[side as usize].wrapping_sub(bits);
         if until_far < self.line_len[side as usize] {
-            let word = in_words(bits);
+            let word = in_line_units(bits);
             // From the end the line is asked for 1 - a. In 2⁻³² that is 2³² - word, or -word as a `u32`.
             Section::Line(self.on_line(if side.is_end() { word.wrapping_neg() } else { word }))
         } else {
@@ -223,18 +233,18 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     const fn searched_units(&self, fraction: Fraction) -> i64 {
-        self.exposure.moment(fraction).in_units(self.unit)
+        self.exposure.moment(fraction).in_units(self.unit_exponent())
     }
 
-    /// The time at a fraction, by a search. Out of line: direct answers save no registers for it. It returns bits, not a
-    /// float, so that the caller cannot tail-call it: all answers on ramps share one return.
+    /// The time at a fraction, by a search. Out of line: direct answers save no registers for it. It returns bits, not
+    /// a float, so that the caller cannot tail-call it: all answers on ramps share one return.
     #[cold]
     #[inline(never)]
     fn searched_bits(&self, fraction: Fraction) -> u32 {
         self.exposure.moment(fraction).time().to_bits()
     }
 
-    /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the curve's unit, rounded once.
+    /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the user's unit, rounded once.
     // proofs/words.py
     #[inline(always)]
     fn rounded_near_0(&self, time: i64) -> f32 {
@@ -243,11 +253,11 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         let is_word = (time >> 32) as i32 == sign;
         let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
-        // Then up until the upper word is full.
+        // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         // Two factors: their product may not be a normal number.
-        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale
+        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.time_of_word
     }
 
     /// [`rounded_near_0`](Self::rounded_near_0) for the plateau, which seldom needs it.
@@ -259,7 +269,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// No fraction from a side that is above this, up to 1/2, needs a search.
     pub(crate) const fn least_direct(&self, side: Side) -> f64 {
-        let [near, far] = self.exposure.joins(side);
+        let [near, far] = self.exposure.join_fractions(side);
         let mut least = self.least_served(side, side.other(), 0.5);
         if least <= far && near < far && near < least {
             // The plateau, by its line.
@@ -289,7 +299,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     }
 }
 
-/// The bits of the last `f32` before a join, and before 1, which has the exact end.
+/// The bits of the last `f32` at or before a join, but below 1: the fraction 1 has the exact end.
 const fn last_before(join: f64) -> u32 {
     let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
     if join < before_end { join } else { before_end }
@@ -304,7 +314,7 @@ const fn last_before_line(join: f64) -> u32 {
 /// An `f32` above [`FINE`] and below 1, by its bits, in units of 2⁻³².
 // proofs/words.py
 #[inline(always)]
-const fn in_words(bits: u32) -> u32 {
+const fn in_line_units(bits: u32) -> u32 {
     let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
     (bits << 8 | 1 << 31) >> (shift & 31)
 }

@@ -14,7 +14,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
 /// Bezier, taken as a probability density.
 ///
-/// **What is accepted.** Everything else is a [`CurveError`] that names the part and the rule.
+/// **What is accepted.** Everything else is a [`CurveError`], which names the rule.
 ///
 /// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
 ///    (a box), and the plateau may have none (a triangle).
@@ -30,13 +30,13 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// Hz.
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
-/// another number than 8. The promised accuracy is the same for every number. With 8 at most one `u` in 256 of a
-/// typical curve needs a search, with 0 every `u` on the ramps does. A curve takes 488 bytes, and 96 more for each of
+/// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
+/// curve need a search, about one in 256, with 0 all on the ramps do. A curve takes 376 bytes, and 96 more for each of
 /// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
 ///
-/// Fractions count from the nearer end. Down to half of a ramp's largest fraction the first polynomial answers, down to
-/// a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a polynomial, a
-/// search answers.
+/// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers,
+/// down to a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a
+/// polynomial, a search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) inverse: Inverse<OCTAVES>,
@@ -125,10 +125,9 @@ impl ShutterCurve {
 
     /// One Bezier `(t(p), f(p))` alone as a density: the opening ramp of a shutter whose closing ramp has no length.
     ///
-    /// The density may have any scale: [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do
-    /// not depend on it. But `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best
-    /// by a power of two, which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
-    /// the scaled density.
+    /// [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do not depend on its scale. But
+    /// `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best by a power of two,
+    /// which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -168,7 +167,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// The first rule of [`ShutterCurve`]'s list that the ramps break.
+    /// A rule of [`ShutterCurve`]'s list that the ramps break.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -188,25 +187,25 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub const fn open_start(&self) -> f32 {
-        self.inverse.exposure.end(Side::Start)
+        self.inverse.exposure.end_time(Side::Start)
     }
 
     /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn open_end(&self) -> f32 {
-        self.inverse.exposure.join(Side::Start)
+        self.inverse.exposure.join_time(Side::Start)
     }
 
     /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_start(&self) -> f32 {
-        self.inverse.exposure.join(Side::End)
+        self.inverse.exposure.join_time(Side::End)
     }
 
     /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_end(&self) -> f32 {
-        self.inverse.exposure.end(Side::End)
+        self.inverse.exposure.end_time(Side::End)
     }
 
     /// The openness `f` at the time `t`, in [0, 1]; 0 outside [`open_start`, `close_end`] and for NaN.
@@ -237,7 +236,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     #[must_use]
     pub fn pdf(&self, t: f32) -> f32 {
-        cdf::density(&self.inverse.exposure, t)
+        cdf::pdf(&self.inverse.exposure, t)
     }
 
     /// The fraction of the exposure collected by the time `t`, from 0 to 1: 0 before the shutter opens and for NaN, 1
@@ -324,9 +323,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
     /// README says how many cycles such a tick costs at most.
     ///
-    /// It is at most 2²². With 8 octaves it is 127 or more on typical curves, and up to twice that for each octave more.
-    /// It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on
-    /// the plateau.
+    /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves, and up to about twice that with one
+    /// more. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure
+    /// lies on the plateau.
     ///
     /// In a constant the compiler checks it:
     ///
@@ -348,11 +347,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They count
-    /// from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step back.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They
+    /// count from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step
+    /// back.
     ///
-    /// Their times, in the curve's unit, are
-    /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`, up to 2²² of them.
+    /// Their times, in the curve's unit and to within an ulp of the fractions, are
+    /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
     ///
     /// `ticks_per_unit` is the number of ticks in one unit of the curve's time: the timer's rate in Hz for a curve in
     /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds

@@ -3,9 +3,8 @@
 mod support;
 
 use support::curves::{
-    Kind, Rng, hard_us, is_valid, named, random_hard, random_single, random_typical,
+    Kind, Rng, hard_us, is_valid, named, random_density, random_hard, random_typical,
 };
-use support::oracle::lift::Lifted;
 use support::oracle::{Curve, Dd, Exact, exp2, rounding_cell, ulp_f32};
 
 /// `|a - b|` relative to `scale`.
@@ -15,7 +14,7 @@ fn relative(a: Dd, b: Dd, scale: Dd) -> f64 {
 
 #[test]
 fn the_reference_values_are_met() {
-    let curves: Vec<_> = named().into_iter().map(|c| (c.name, Exact::as_given(&c.curve))).collect();
+    let curves: Vec<_> = named().into_iter().map(|c| (c.name, Exact::new(&c.curve))).collect();
     let (mut rows, mut worst, mut worst_pdf) = (0, 0f64, 0f64);
     for line in include_str!("data/inverse_cdf.csv").lines().skip(1) {
         let mut cells = line.split(',');
@@ -32,14 +31,14 @@ fn the_reference_values_are_met() {
         (rows, worst, worst_pdf) = (rows + 1, worst.max(off), worst_pdf.max(off_pdf));
     }
     println!("{rows} values: t within {worst:.1e} ulp of f32, pdf within {worst_pdf:.1e}");
-    assert_eq!(rows, 4445);
+    assert_eq!(rows, 700);
 }
 
 #[test]
 fn the_named_curves_are_all_there() {
     let curves = named();
     let count = |kind| curves.iter().filter(|c| c.kind == kind).count();
-    assert_eq!((count(Kind::Typical), count(Kind::Hard)), (15, 21));
+    assert_eq!((count(Kind::Typical), count(Kind::Hard)), (15, 13));
     for curve in &curves {
         assert!(is_valid(&curve.curve), "{}", curve.name);
     }
@@ -99,9 +98,9 @@ fn powers_have_a_closed_form() {
 /// The cdf just before and just after the time must enclose u: a test with no condition number in it.
 #[test]
 fn the_cdf_undoes_its_inverse() {
-    let (mut checked, mut lifted) = (0u32, 0u32);
+    let mut checked = 0u32;
     let hard = (0..2000).map(|i| random_hard(1, i));
-    for (i, curve) in hard.chain((0..500).map(|i| random_single(1, i))).enumerate() {
+    for (i, curve) in hard.chain((0..500).map(|i| random_density(1, i))).enumerate() {
         let exact = Exact::new(&curve);
         for u in hard_us(&exact, i as u64, 32) {
             let (time, part) = (exact.inverse_cdf(u), Dd::from(u));
@@ -118,80 +117,10 @@ fn the_cdf_undoes_its_inverse() {
             let (low, high) = ((low - part).hi, (part - high).hi);
             assert!(low <= slack && high <= slack, "u = {u:e}, {low:e} {high:e}: {curve:?}");
             checked += 1;
-            lifted += exact.is_lifted() as u32;
         }
     }
-    println!("cdf of inverse_cdf: {checked} within 1e-20, {lifted} of them on lifted curves");
-    assert!(checked > 1_000_000 && lifted > 100_000);
-}
-
-/// The least value for a parameter `p` and `1 - p`: by a hundred samples, then ever nearer to the least of them.
-fn least(g: impl Fn(Dd, Dd) -> Dd) -> f64 {
-    let at = |p: f64| g(Dd::from(p), Dd::ONE - Dd::from(p));
-    let mut best = (at(0.5), 0.5);
-    let mut width = 0.5;
-    for _ in 0..12 {
-        let middle = best.1;
-        for k in -50..=50 {
-            let p = middle + width * f64::from(k) / 50.0;
-            if (0.0..=1.0).contains(&p) && at(p) < best.0 {
-                best = (at(p), p);
-            }
-        }
-        width /= 20.0;
-    }
-    best.0.hi
-}
-
-/// No promise has an exception for curves that graze: once lifted, f is nowhere below 0, and the mass never falls.
-#[test]
-fn lifted_curves_keep_their_bounds() {
-    let (mut openness, mut times) = (0, 0);
-    for i in 0..3000 {
-        for points in [random_hard(3, i).opening, random_single(3, i).opening] {
-            let given = Lifted::as_given(points);
-            let lifted = Lifted::new(points);
-            let f = lifted.openness.map(Dd::from);
-            let [d0, d1, d2] = lifted.steps;
-            let size = f.iter().fold(0.0, |size: f64, f| size.max(f.hi.abs()));
-            let slope = |p: Dd, r: Dd| r * r * d0 + (p * r * d1).scale(2.0) + p * p * d2;
-            let value = |p: Dd, r: Dd| {
-                r * r * (r * f[0] + p * f[1] * 3.0) + p * p * (r * f[2] * 3.0 + p * f[3])
-            };
-            // As a share of its terms without their signs, a minimum is 0 but for rounding.
-            let g = f.map(Dd::abs);
-            let terms = |p: Dd, r: Dd| {
-                r * r * (r * g[0] + p * g[1] * 3.0) + p * p * (r * g[2] * 3.0 + p * g[3])
-            };
-            let share = |p: Dd, r: Dd| value(p, r) / (terms(p, r) + Dd::from(f64::MIN_POSITIVE));
-            let [slowest, darkest] = [least(slope), least(share)];
-            assert!(slowest >= -exp2(-96) * d0.hi.max(d2.hi), "t' = {slowest:e}: {points:?}");
-            assert!(darkest >= -exp2(-47), "f = {darkest:e} of its terms: {points:?}");
-            let length = Dd::from(points[3].0) - Dd::from(points[0].0);
-            assert!((d0 + d1 + d2 - length).hi.abs() <= exp2(-100) * length.hi);
-            // By as little as was grazed. Only what is above both ends may fall.
-            let brighter = given.openness[0].max(given.openness[3]);
-            for (lifted, given) in lifted.openness.iter().zip(given.openness) {
-                let rise = f64::from(*lifted) - f64::from(given);
-                assert!(rise >= 0.0 || given > brighter, "{points:?}");
-                assert!(rise.abs() <= 2.0 * exp2(-22) * size + exp2(-149), "{points:?}");
-            }
-            for i in 1..20 {
-                let p = f64::from(i) / 20.0;
-                let time = |[d0, d1, d2]: [Dd; 3]| {
-                    let [a, b] = [d0, d0 + d1];
-                    (a * (3.0 * (1.0 - p)) + b * (3.0 * p)) * (p * (1.0 - p))
-                        + (b + d2) * (p * p * p)
-                };
-                let moved = (time(lifted.steps) - time(given.steps)).hi.abs();
-                assert!(moved <= 0.469 * exp2(-22) * length.hi, "t moved by {moved:e}: {points:?}");
-            }
-            openness += (lifted.openness != given.openness) as u32;
-            times += (lifted.steps != given.steps) as u32;
-        }
-    }
-    println!("lifted: {openness} times the openness, {times} times t'");
-    assert!(openness > 500 && times > 300);
+    println!("cdf of inverse_cdf: {checked} within 1e-20");
+    assert!(checked > 1_000_000);
 }
 
 #[test]
@@ -257,18 +186,20 @@ fn errors_are_measured_in_ulp() {
     // Across time 0 the reach is an ulp of the greater end.
     assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-25) as f32, 0.0), 0.0);
     assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-23) as f32, 0.0), 1.0);
-    assert_eq!([exact.near(0.5).openness_ulp(1.0), exact.near(2.0).openness_ulp(0.0)], [0.0; 2]);
-    assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down()), 0.5);
+    assert_eq!(
+        [exact.near(0.5).openness_ulp(1.0, 0.0), exact.near(2.0).openness_ulp(0.0, 0.0)],
+        [0.0; 2]
+    );
+    assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down(), 0.0), 0.5);
     // The density touches 0 between two samples of time.
     let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));
-    assert_eq!(dip.near(0.375).openness_ulp(0.0), 0.0);
-    // In a deep dip an ulp is 2⁻³⁸ of the greatest openness.
-    let at_an_ulp = 16.0 / 3.0 * exp2(-50);
-    let off = dip.near(0.375).openness_ulp((at_an_ulp + 1.5 * exp2(-38)) as f32);
-    assert!((off - 2.0).abs() < 1e-6, "{off}");
+    assert_eq!(dip.near(0.375).openness_ulp(0.0, 0.0), 0.0);
+    // An ulp is at least a floor of the greatest openness.
+    let ramp = Exact::new(&Curve::single([(0.0, 0.0), (1.0, 0.0), (2.0, 0.25), (3.0, 0.5)]));
+    assert_eq!(ramp.near(0.0).openness_ulp(0.125, 0.25), 1.0);
 }
 
-/// The random curves are valid, the same every time, and do hold what they are there for.
+/// The random curves are accepted, the same every time, and do hold what they are there for.
 #[test]
 fn the_random_curves_are_as_nasty_as_meant() {
     const N: u64 = 4000;
@@ -279,35 +210,32 @@ fn the_random_curves_are_as_nasty_as_meant() {
         c.close_end() - c.open_start()
     }
     type Feature = (&'static str, fn(&Curve) -> bool, u64);
-    let features: [Feature; 19] = [
+    let features: [Feature; 15] = [
         ("zero-length opening", |c| ramp(c) == 0.0, 100),
         ("zero-length plateau", |c| c.open_end() == c.close_start(), 500),
         ("order 3 of t", |c| c.opening[2].0 == c.open_start() && ramp(c) > 0.0, 100),
         ("order 3 of f", |c| c.opening[2].1 == 0.0 && c.opening[1].1 == 0.0, 100),
-        ("control times outside", |c| c.opening[1].0 > c.open_end(), 50),
-        ("negative control openness", |c| c.closing.iter().any(|p| p.1 < 0.0), 100),
-        ("control openness above 1", |c| c.closing.iter().any(|p| p.1 > 1.0), 100),
+        ("handles cross", |c| c.opening[1].0 > c.opening[2].0, 500),
+        ("handles cross by 9/10", |c| c.opening[1].0 - c.opening[2].0 > 0.9 * ramp(c), 300),
         ("a jump at the start", |c| c.opening[0].1 > 0.0, 500),
-        ("a jump before the plateau", |c| c.opening[3].1 < 1.0, 500),
-        ("dark at the inner end", |c| c.opening[3].1 == 0.0 && c.opening[2].1 == 0.0, 100),
-        ("area in one ramp only", |c| c.opening.iter().all(|p| p.1 == 0.0), 10),
+        ("a jump from the start on", |c| c.opening.iter().all(|p| p.1 == 1.0), 100),
+        ("a dip", |c| c.opening[1].1 < 0.5 * c.opening[0].1, 100),
         ("across time 0", |c| c.open_start() < 0.0 && c.close_end() > 0.0, 200),
         ("far from time 0", |c| c.open_start().abs() > 1e3 * whole(c), 100),
+        ("the least interval", |c| c.open_start().abs() > 65_534.0 * whole(c), 50),
         ("huge and tiny times", |c| !(1e-12..1e12).contains(&c.close_end().abs()), 200),
-        ("a tiny ramp", |c| ramp(c) < 1e-3 * whole(c), 500),
-        ("grazing by rounding", |c| Exact::new(c).is_lifted(), 300),
-        ("dark below 0 at an end", |c| c.opening[0].1 < 0.0 || c.opening[3].1 < 0.0, 50),
-        ("time back at an end", |c| c.opening[1].0 < c.open_start(), 50),
+        ("a tiny ramp", |c| ramp(c) > 0.0 && ramp(c) < 1e-3 * whole(c), 300),
         ("-0.0", |c| c.opening.iter().any(|p| p.0.to_bits() == 1 << 31), 50),
     ];
-    let mut seen = [0; 19];
+    let mut seen = [0; 15];
     for i in 0..N {
         let curve = random_hard(7, i);
-        assert!(is_valid(&curve) && curve == random_hard(7, i));
+        assert_eq!(curve, random_hard(7, i));
         for ((_, has, _), seen) in features.iter().zip(&mut seen) {
             *seen += has(&curve) as u64;
         }
-        assert!(is_valid(&random_single(7, i)) && is_valid(&random_typical(7, i)));
+        // They assert that they are accepted.
+        let _ = (random_density(7, i), random_typical(7, i));
     }
     for ((name, _, least), seen) in features.iter().zip(seen) {
         println!("{seen:5} of {N}: {name}");

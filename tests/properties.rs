@@ -6,8 +6,9 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
 use shutter_curve::{CubicBezier, ShutterCurve};
+use support::curves::is_valid;
 use support::oracle::{Curve, Exact};
-use support::promise::{BACKWARD, CDF_FLOOR, EVALUATIONS, VALUE};
+use support::promise::{BACKWARD, CDF_FLOOR, DENSITY_FLOOR, EVALUATIONS, VALUE};
 
 type Points = [(f32, f32); 4];
 
@@ -20,14 +21,19 @@ fn number() -> impl Strategy<Value = f32> {
     ]
 }
 
-/// Eight times, sorted so that some make a curve, at any offset and scale; and eight opennesses.
+/// Eight times at any offset and scale, and eight opennesses; sorted, within [0, 1] and 1 at the joins, so that some make
+/// a curve, or not.
 fn ramps() -> impl Strategy<Value = (Points, Points)> {
     let times = prop::array::uniform8(number());
     let scale = (-70i32..70, prop_oneof![3 => Just(0.0f32), 1 => number()]);
-    (times, prop::array::uniform8(number()), scale, any::<bool>()).prop_map(
-        |(mut t, f, (power, offset), sorted)| {
-            if sorted {
+    (times, prop::array::uniform8(number()), scale, any::<u8>()).prop_map(
+        |(mut t, mut f, (power, offset), tamed)| {
+            if tamed & 3 > 0 {
                 t.sort_by(f32::total_cmp);
+            }
+            if tamed & 12 > 0 {
+                f = f.map(|f| f.abs().min(1.0));
+                (f[3], f[4]) = (1.0, 1.0);
             }
             let scale = 2f64.powi(power);
             let t = t.map(|t| (scale * (t as f64 + offset as f64)) as f32);
@@ -65,8 +71,13 @@ proptest! {
         ts in prop::collection::vec(number(), 4),
     ) {
         let made = ShutterCurve::<4>::with_octaves(CubicBezier::new(opening), CubicBezier::new(closing));
+        let [start, end] = [opening[0].0, closing[3].0];
+        // The oracle's `f64` do not hold what is far out of range.
+        let is_judged = [start, end].iter().all(|t| t.is_finite()) && (end - start).abs() < 1e30;
+        let asked = Curve::shutter(opening, closing);
+        prop_assert!(!is_judged || made.is_ok() == is_valid(&asked), "{:?}", made);
         let Ok(curve) = made else { return Ok(()) };
-        let exact = Exact::new(&Curve::shutter(opening, closing));
+        let exact = Exact::new(&asked);
         us.sort_by(f32::total_cmp);
         let mut last = curve.open_start();
         prop_assert_eq!(curve.inverse_cdf(0.0), curve.open_start());
@@ -79,7 +90,8 @@ proptest! {
                 last = t;
                 let error = exact.judge(u, t);
                 prop_assert!(error.backward <= BACKWARD, "{:?} at {:e}", error, u);
-                prop_assert!(curve.evaluations(u) <= EVALUATIONS, "{} at {:e}", curve.evaluations(u), u);
+                let is_shutter = opening[3].1 == 1.0;
+                prop_assert!(!is_shutter || curve.evaluations(u) <= EVALUATIONS, "{} at {:e}", curve.evaluations(u), u);
             }
         }
         let (start, end) = (curve.open_start() as f64, curve.close_end() as f64);
@@ -89,8 +101,8 @@ proptest! {
                 prop_assert!((0.0..=1.0).contains(&cdf) && (0.0..=1.0).contains(&f) && pdf >= 0.0);
                 if t >= curve.open_start() && t <= curve.close_end() {
                     prop_assert!(exact.near(t).cdf_ulp(cdf, CDF_FLOOR) <= VALUE, "cdf({:e}) = {:e}", t, cdf);
-                    prop_assert!(exact.near(t).openness_ulp(f) <= VALUE, "opening({:e}) = {:e}", t, f);
-                    prop_assert!(exact.near(t).pdf_ulp(pdf) <= VALUE, "pdf({:e}) = {:e}", t, pdf);
+                    prop_assert!(exact.near(t).openness_ulp(f, DENSITY_FLOOR) <= VALUE, "opening({:e}) = {:e}", t, f);
+                    prop_assert!(exact.near(t).pdf_ulp(pdf, DENSITY_FLOOR) <= VALUE, "pdf({:e}) = {:e}", t, pdf);
                 }
             }
         }
@@ -127,7 +139,6 @@ proptest! {
             prop_assert_eq!(values(&curve, t), values(&other, t), "at {:e}", t);
             prop_assert_eq!(values(&curve, -0.0), values(&curve, 0.0));
         }
-        prop_assert!(curve.trigger_times(5).eq(other.trigger_times(5)));
     }
 
     #[test]
@@ -139,7 +150,6 @@ proptest! {
     ) {
         let made = ShutterCurve::<0>::with_octaves(CubicBezier::new(opening), CubicBezier::new(closing));
         let Ok(curve) = made else { return Ok(()) };
-        prop_assert!(curve.trigger_times(n).is_sorted());
         if let Ok(most) = curve.most_triggers(n, hz, gap) {
             prop_assert!(most <= n && (most > 0 || n == 0));
         }

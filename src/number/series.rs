@@ -3,7 +3,7 @@
 use crate::number::pair::{Pair, lost_by_product};
 
 /// A polynomial without a constant term: `c[0] x + c[1] x² + ... + last xᴺ`, where `c` has N - 1 coefficients. The last
-/// one stands apart because the series from both ends of a ramp share it.
+/// one stands apart because the series from both ends of a ramp share it, but for a sign.
 #[derive(Clone, Copy)]
 pub(crate) struct Series<'a> {
     pub(crate) c: &'a [Pair],

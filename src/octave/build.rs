@@ -2,7 +2,7 @@
 
 use crate::exposure::Exposure;
 use crate::fraction::Side;
-use crate::number::units::{FINE, LEAST_TOP, TOP_STEP, floor_bits};
+use crate::number::units::{EIGHTH, FINE, LEAST_TOP, floor_bits};
 use crate::octave::candidate::candidate;
 use crate::octave::certificate::certificate;
 use crate::octave::path::{Path, View};
@@ -16,25 +16,25 @@ const MOVES: [u32; 4] = [0, 5, 6, 4];
 
 /// The least and the greatest `a` for which a ramp has octaves, at most 1/2; none if they are not in order.
 pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 2] {
-    let [near, far] = exposure.joins(side);
+    let [near, far] = exposure.join_fractions(side);
     if !ramp.is(side) {
         return [far, 0.5];
     }
     // The line begins above FINE. If the near ramp's join is below that, what is between them is on the plateau. But
-    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that has no octaves.
+    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that gets none.
     let is_hidden = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// Builds the octaves of a side, with `2^unit` as the unit of time: the far ramp's, then the near ramp's. Returns the
-/// ramps' stored tops ([`octave`](crate::octave)), in [`TOP_STEP`]s above [`LEAST_TOP`].
+/// Builds the octaves of a side, with `2^unit_exponent` as the unit of time: the far ramp's, then the near ramp's.
+/// Returns the ramps' stored tops ([`octave`](crate::octave)), in [`EIGHTH`]s above [`LEAST_TOP`].
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
 pub(crate) const fn build(
     exposure: &Exposure,
     shapes: &[Shape; 2],
-    unit: i32,
+    unit_exponent: i32,
     side: Side,
     octaves: &mut [Octave],
 ) -> [u8; 2] {
@@ -42,14 +42,14 @@ pub(crate) const fn build(
     while i < 2 {
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
-        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit }, rest);
+        let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit_exponent }, rest);
         // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 steps above LEAST_TOP = 2⁻²⁸.
         // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
         // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above the near ramp's join and
         //   above LEAST_TOP / 2.
-        // - The near ramp's first top is below twice the greater of its join and LEAST_TOP. So it is below 4 times the
-        //   far ramp's last top, and times 2ⁿ below 8 times the far ramp's first one.
-        tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / TOP_STEP) as u8;
+        // - The near ramp's first top is below twice the greater of its join, or without octaves the far ramp's, and
+        //   LEAST_TOP. So it is below 4 times the far ramp's last top, and times 2ⁿ below 8 times its first one.
+        tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / EIGHTH) as u8;
         first += count;
         i += 1;
     }
@@ -61,10 +61,10 @@ pub(crate) const fn build(
 const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
     let range = range(view.exposure, view.side, view.ramp);
     if range[0] >= range[1] {
-        // No octaves, so a search has to answer. A far ramp without any is never looked up. A near one is, by
-        // fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of these, each
-        // has an index behind the far ramp's octaves, where all are NONE.
-        let far = view.exposure.joins(view.side)[1];
+        // No octaves, so a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near
+        // ramp is, by fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of
+        // these, each has an index behind the far ramp's octaves, where all are NONE.
+        let far = view.exposure.join_fractions(view.side)[1];
         return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
     }
     let (path, mut trial) = (view.path(), 0);
@@ -112,7 +112,7 @@ const fn try_top(
 /// The octave of a span, without a polynomial if the candidate has no certificate.
 #[inline(never)]
 const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
-    let stretch = span.stretch(path, view.joins_at());
+    let stretch = span.stretch(path, view.join_parameter());
     let Some(candidate) = candidate(view, span, &stretch) else { return Octave::NONE };
     let errors = certificate(view, &candidate, span, &stretch);
     if errors.are_certain() { candidate.octave } else { Octave::NONE }
@@ -124,10 +124,10 @@ const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {
     // At or above the range's end: as joins are rounded, an `f32` just beyond it may be looked up here.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
-    let least = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP };
-    let top = least + steps * TOP_STEP;
+    let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
+    let top = least + steps * EIGHTH;
     // One more where the range begins within 16 ulp of an octave's end: rounding might put its first fraction into the
     // octave below.
     let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }
+    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + EIGHTH } else { top }
 }

@@ -1,6 +1,6 @@
 //! A candidate for an octave: the polynomial through the exact times at nine nodes, in the integers of the answer.
 
-use crate::number::units::{exponent, fixed, fixed_f64, power_of_two_f64};
+use crate::number::units::{exponent, fixed_down, fixed_towards_0, power_of_two_f64};
 use crate::octave::path::{Stretch, View, root, singles, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
@@ -28,17 +28,19 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The octave's middle as a time since the side's end.
     pub(crate) middle: f64,
-    /// The unit of the coefficients, as a time: `2^unit` times the factor's size. Errors count in these *steps*.
+    /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these
+    /// *steps*.
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) slope_bound_steps: f32,
     /// What rounding adds to its time, in steps: Horner's; a unit of time, to which the side's end is cut; and two
-    /// units, by which a search for a neighbour may be early.
+    /// units, by which `Moment::in_units` may cut the time of a neighbour that is searched, and which has to stay in
+    /// order.
     pub(crate) truncation_steps: f32,
 }
 
 /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
-/// sums fit 32 bits, but at least the curve's unit of time. None if its numbers are out of range.
+/// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
 #[inline(always)]
 pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Option<Candidate> {
     let c = interpolated(span, stretch);
@@ -60,30 +62,30 @@ pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Op
         return None;
     }
     let exponent = exponent(most) - 30;
-    let exponent = if exponent < view.unit { view.unit } else { exponent };
+    let exponent = if exponent < view.unit_exponent { view.unit_exponent } else { exponent };
     // The factor is an `i32`.
-    if exponent - view.unit > 30 {
+    if exponent - view.unit_exponent > 30 {
         return None;
     }
     let step = power_of_two_f64(exponent);
-    let factor = 1 << (exponent - view.unit);
+    let factor = 1 << (exponent - view.unit_exponent);
     let mut octave = Octave { center: span.center() as u32, ..Octave::NONE };
     let mut k = DEGREE;
     while k > 0 {
         octave.c[DEGREE - k] = rounded(c[k], exponent);
         k -= 1;
     }
-    let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, view.unit);
+    let middle = fixed_towards_0(c[0] - MEAN_TRUNCATION * step, view.unit_exponent);
     // Nearly a time of the ramp. Where it is at most 2⁶², as `end` is, the sum below fits.
     if middle.unsigned_abs() > 1 << 62 {
         return None;
     }
-    let end = fixed(view.exposure.end(view.side), view.unit);
+    let end = fixed_down(view.exposure.end_time(view.side), view.unit_exponent);
     octave.middle = if view.side.is_end() { end - middle } else { end + middle };
     octave.factor = if view.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle: middle as f64 * power_of_two_f64(view.unit),
+        middle: middle as f64 * power_of_two_f64(view.unit_exponent),
         step,
         slope_bound_steps: slope_bound / step as f32,
         truncation_steps: HALF_TRUNCATION + 3.0 / factor as f32,
@@ -151,6 +153,6 @@ const fn multiply(c: &mut [f64; DEGREE + 1], root: f64, constant: f64) {
 
 /// `x` in units of `2^e`, to the nearest; halves away from 0.
 const fn rounded(x: f64, e: i32) -> i32 {
-    let halves = fixed_f64(x, e - 1);
+    let halves = fixed_towards_0(x, e - 1);
     ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32
 }

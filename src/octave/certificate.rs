@@ -1,8 +1,7 @@
 //! The certificate of an octave: bounds of its polynomial's errors, on every `a` that it serves.
 //!
-//! The error in time is bounded from samples ([`bound`](crate::octave::bound)). Three things are held against their
-//! limits: that error relative to the time; that error times the openness over the area, which is the error in exposure;
-//! and what rounding adds to both.
+//! The error in time is bounded from samples ([`bound`](crate::octave::bound)), and so is that error times the openness
+//! over the area, the error in exposure. With what rounding adds, both are held against their per_step.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{FIRST_STRIDE, KINDS, SAMPLE_OFF, Sampled, errors};
@@ -42,7 +41,7 @@ const CERTAIN: f32 = 1.0 - 1.0 / (1 << 16) as f32;
 pub(crate) struct ErrorOverLimit {
     /// In time. The limit is [`FORWARD_ERROR`] of [`View::size_of_time`].
     pub(crate) forward: f32,
-    /// In exposure. The limit is [`ULP_ERROR`] ulp of where the span begins.
+    /// In exposure. The limit is [`ULP_ERROR`] ulp of where the span begins, less what fractions are off.
     pub(crate) backward: f32,
 }
 
@@ -67,8 +66,8 @@ pub(crate) const fn certificate(
     let mut time_steps = stretch.time;
     time_steps[0] -= middle;
     scale(&mut time_steps, 1.0 / step, 1.0);
-    let limits = Limits::new(view, candidate, span, stretch, &time_steps);
-    let weights = [[1.0, 0.0, 0.0, 0.0], limits.openness];
+    let per_step = PerStep::new(view, candidate, span, stretch, &time_steps);
+    let weights = [[1.0, 0.0, 0.0, 0.0], per_step.exposure];
     let (center, per_position) = span.offsets();
     // An offset beyond its word would wrap. It is greatest at an end.
     let [x0, x1, x2, x3, x4, x5, x6] = singles(&stretch.position, center, per_position);
@@ -78,35 +77,37 @@ pub(crate) const fn certificate(
     let Some(sampled) = Sampled::new(&stretch.position, &time_steps) else {
         return ErrorOverLimit::REFUSED;
     };
-    // A sample's position is rounded by 1/2 and a trace.
-    let noise = limits.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
+    // From a sample to the polynomial; from that to the answer `bounds` adds the rounding. A sample's position is
+    // rounded by 1/2 and a trace.
+    let noise = per_step.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
     let mut stride = FIRST_STRIDE;
     loop {
         let (least, most) = errors(octave, &sampled, &weights, noise, stride);
-        let bounds = limits.bounds(most);
+        let bounds = per_step.bounds(most);
         // More samples cannot help where those seen are too wrong.
-        if bounds.are_certain() || stride == 1 || !limits.bounds(least).are_certain() {
+        if bounds.are_certain() || stride == 1 || !per_step.bounds(least).are_certain() {
             return bounds;
         }
         stride /= 2;
     }
 }
 
-/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`]; polynomials of `s` along a stretch.
-struct Limits {
+/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`]. Arrays are polynomials of `s`
+/// along a stretch.
+struct PerStep {
     /// What rounding adds to an error in time, in steps.
     rounding_steps: f32,
     /// The time along the stretch, in steps.
     time_steps: [f32; 4],
-    /// In exposure: the openness, over the limit.
-    openness: [f32; 4],
-    /// In exposure, beyond the ramp's join: at openness 1, over the limit; 0 if the curve does not go on there.
-    beyond: f32,
-    /// In time, over the limit.
-    per_size: f32,
+    /// In exposure, on the ramp.
+    exposure: [f32; 4],
+    /// In exposure, beyond the ramp's join: at openness 1; 0 if the curve does not go on there.
+    exposure_beyond: f32,
+    /// In time.
+    time: f32,
 }
 
-impl Limits {
+impl PerStep {
     #[inline(never)]
     const fn new(
         view: &View,
@@ -121,29 +122,33 @@ impl Limits {
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-        let per_exposure = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
-        let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, per_exposure);
+        let exposure_over_limit = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
+        let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, exposure_over_limit);
         let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
         // The least size is that of an end.
         let [first, last] = [view.size_of_time(ends[0]), view.size_of_time(ends[1])];
         let size = if first < last { first } else { last };
-        let goes_on = exposure.join(view.ramp) != exposure.end(view.ramp.other());
+        let goes_on = exposure.join_time(view.ramp) != exposure.end_time(view.ramp.other());
         Self {
             rounding_steps: truncation_steps
                 + SAMPLE_OFF
                 + slope_bound_steps * fraction_off / span.width
                 + (ends[1] / step) as f32 * TIME_OFF,
             time_steps: [t0, t1, t2, t3],
-            openness: [f0, f1, f2, f3],
-            beyond: if stretch.is_joined && goes_on { per_exposure as f32 } else { 0.0 },
-            per_size: step as f32 / size / FORWARD_ERROR,
+            exposure: [f0, f1, f2, f3],
+            exposure_beyond: if stretch.is_joined && goes_on {
+                exposure_over_limit as f32
+            } else {
+                0.0
+            },
+            time: step as f32 / size / FORWARD_ERROR,
         }
     }
 
     /// The bounds that follow from the greatest errors, in time, and in exposure at each place.
     ///
-    /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way it
-    /// may be greater than at the place itself.
+    /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way
+    /// it may be greater than at the place itself.
     #[inline(never)]
     const fn bounds(&self, [time, exposure]: [f32; KINDS]) -> ErrorOverLimit {
         let error = time + self.rounding_steps;
@@ -154,19 +159,21 @@ impl Limits {
         let slowest =
             if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;
-        // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a parabola
-        // that is nowhere negative, and 3 t3 its highest coefficient. So `way` takes `error`, or is all there is.
+        // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a
+        // parabola that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or
+        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch
+        // ([`Span`]).
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;
         }
         // |f'| <= steepest, so on the way the openness grows by `way steepest` at most.
-        let [_, f1, f2, f3] = self.openness;
+        let [_, f1, f2, f3] = self.exposure;
         let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        let on_ramp = exposure + rounding * absolute(&self.openness, 1.0) + error * way * steepest;
-        let beyond = error * self.beyond;
+        let on_ramp = exposure + rounding * absolute(&self.exposure, 1.0) + error * way * steepest;
+        let beyond = error * self.exposure_beyond;
         ErrorOverLimit {
-            forward: error * self.per_size,
+            forward: error * self.time,
             backward: if beyond > on_ramp { beyond } else { on_ramp },
         }
     }

@@ -29,7 +29,7 @@ pub(crate) mod certificate;
 pub(crate) mod path;
 pub(crate) mod span;
 
-use crate::number::units::{LEAST_TOP, TOP_STEP};
+use crate::number::units::{EIGHTH, LEAST_TOP};
 
 /// One octave's polynomial: the time, in units, is `middle + factor · P(x)`. The *offset* `x`, from
 /// -1/2 to 1/2 in units of 2⁻³², is `(position - center) << shift`.
@@ -49,10 +49,10 @@ pub(crate) const DEGREE: usize = 8;
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
 pub(crate) const SHIFT_MASK: u32 = 31;
 
-/// The bits of a top that is `steps` [`TOP_STEP`]s above [`LEAST_TOP`].
+/// The bits of a top that is `steps` [`EIGHTH`]s above [`LEAST_TOP`].
 #[inline(always)]
 pub(crate) const fn top(steps: u8) -> u32 {
-    (steps as u32 + LEAST_TOP / TOP_STEP) * TOP_STEP
+    (steps as u32 + LEAST_TOP / EIGHTH) * EIGHTH
 }
 
 /// The bits of `top / 2^octaves`, for the bits of `top`.
@@ -95,8 +95,8 @@ impl Octave {
     }
 }
 
-/// Is this Armv6-M, which lacks an instruction for the upper word of a product, and compare-and-swap, by which stable
-/// Rust can tell? A wrong answer costs time and changes no bits.
+/// Is this Armv6-M, which has no instruction for the upper word of a product? Stable Rust can tell it by its lack of
+/// compare-and-swap. A wrong answer costs time and changes no bits.
 const HALVES: bool =
     cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
 

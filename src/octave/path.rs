@@ -1,6 +1,6 @@
-//! A ramp in `f64`, seen from a side: openness, time and fraction as polynomials of a *place*, the Bezier's parameter.
+//! A ramp in `f64`, seen from a side: openness, time and fraction as polynomials of the Bezier's parameter `p`.
 //!
-//! So an error is judged without an inverse: each place has its time and its fraction. Only nodes and the ends of
+//! So an error is judged without an inverse: each `p` has its time and its fraction. Only nodes and the ends of
 //! stretches are found by an inverse, and neither has to be exact.
 
 use crate::exposure::Exposure;
@@ -10,9 +10,9 @@ use crate::ramp::shape::Shape;
 
 /// [`root`] ends with a step below this share of `x`, which is about as close as an `f32` comes.
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
-/// 40 bisections resolve a place above 2⁻²⁰. A worse place only widens the stretch, and may cost the polynomial.
-const MOST_STEPS: usize = 40;
-/// The first step outwards of [`Path::place`], as a share of the place.
+/// 40 bisections resolve a `p` above 2⁻²⁰. A worse one only widens the stretch, and may cost the polynomial.
+const MOST_ROUNDS: usize = 40;
+/// The first step outwards of [`Path::parameter`], as a share of `p`.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A ramp, seen from a side of the curve, for which octaves are built.
@@ -21,8 +21,8 @@ pub(crate) struct View<'a> {
     pub(crate) shapes: &'a [Shape; 2],
     pub(crate) side: Side,
     pub(crate) ramp: Side,
-    /// Times in units count `2^unit`.
-    pub(crate) unit: i32,
+    /// Times in units count `2^unit_exponent`.
+    pub(crate) unit_exponent: i32,
 }
 
 impl View<'_> {
@@ -30,20 +30,23 @@ impl View<'_> {
     pub(crate) const fn path(&self) -> Path {
         let Self { exposure, shapes, side, ramp, .. } = *self;
         let shape = shapes[ramp as usize].seen_from(side);
-        let until_far = exposure.join(side.other()) as f64 - exposure.end(side) as f64;
-        // At place 0: the side's end, or the far ramp's join.
-        let (t0, u0) =
-            if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.joins(side)[1]) };
+        let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
+        // At p = 0: the side's end, or the far ramp's join.
+        let (t0, u0) = if ramp.is(side) {
+            (0.0, 0.0)
+        } else {
+            (until_far.abs(), exposure.join_fractions(side)[1])
+        };
         let [t1, t2, t3] = shape.time_powers();
-        let [u1, u2, u3, u4, u5, u6] = shape.mass_powers();
-        // Masses over the area; `u0` is a fraction already.
-        let mut fraction = [u0 * exposure.area, u1, u2, u3, u4, u5, u6];
+        let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
+        let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
+        fraction[0] = u0;
         Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
     }
 
-    /// The place of the ramp's join: it faces the side on the far ramp.
-    pub(crate) const fn joins_at(&self) -> f64 {
+    /// The ramp's `p` at its join, which faces the side on the far ramp.
+    pub(crate) const fn join_parameter(&self) -> f64 {
         if self.ramp.is(self.side) { 1.0 } else { 0.0 }
     }
 
@@ -51,7 +54,7 @@ impl View<'_> {
     /// the curve runs across time 0; but at most the interval, however far from time 0 that is.
     #[inline(never)]
     pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
-        let [start, end] = [self.exposure.end(Side::Start), self.exposure.end(Side::End)];
+        let [start, end] = [self.exposure.end_time(Side::Start), self.exposure.end_time(Side::End)];
         let size = if !(start < 0.0 && end > 0.0) {
             let time =
                 if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
@@ -65,7 +68,7 @@ impl View<'_> {
     }
 }
 
-/// A ramp by powers of a place, from 0 at the end that faces the side to 1. Coefficients from the constant up.
+/// A ramp by powers of `p`, from 0 at the end that faces the side to 1. Coefficients from the constant up.
 pub(crate) struct Path {
     openness: [f64; 4],
     /// The time since the side's end.
@@ -79,17 +82,17 @@ pub(crate) struct Stretch {
     pub(crate) openness: [f64; 4],
     /// The time since the side's end.
     pub(crate) time: [f64; 4],
-    /// The position in the octave, before it is cut to a whole number.
+    /// The position in the octave, not rounded.
     pub(crate) position: [f64; 7],
     /// Does it reach the ramp's join?
     pub(crate) is_joined: bool,
 }
 
 impl Path {
-    /// A place of the ramp with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is
-    /// near, not the nearest: farther out, a certificate is only stricter.
+    /// A `p` with a fraction of at most `u`, or at least `u` if `up`; 0 or 1 where none is found. It is near, not the
+    /// nearest: farther out, a certificate is only stricter.
     #[inline(never)]
-    const fn place(&self, u: f64, up: bool) -> f64 {
+    const fn parameter(&self, u: f64, up: bool) -> f64 {
         let single = singles(&self.fraction, u, 1.0);
         let (p, slope) = root(&single, [0.0, 1.0], 0.5);
         let (mut p, slope) = (p as f64, slope as f64);
@@ -102,18 +105,25 @@ impl Path {
                 return if up { 1.0 } else { 0.0 };
             }
             let missing = u - value(&self.fraction, p);
-            if if up { missing <= 0.0 } else { missing >= 0.0 } {
+            let is_past = if up { missing <= 0.0 } else { missing >= 0.0 };
+            if is_past {
                 return p;
             }
             step *= 2.0;
         }
     }
 
-    /// The stretch that has all fractions from `from` to `to`, in an octave with this power. `joins_at` is the place of
-    /// the ramp's join, 0 or 1.
+    /// The stretch that has all fractions from `from` to `to`, in an octave with this power. `join_parameter` is that
+    /// of the ramp's join, 0 or 1.
     #[inline(never)]
-    pub(crate) const fn stretch(&self, from: f64, to: f64, power: f32, joins_at: f64) -> Stretch {
-        let (first, last) = (self.place(from, false), self.place(to, true));
+    pub(crate) const fn stretch(
+        &self,
+        from: f64,
+        to: f64,
+        power: f32,
+        join_parameter: f64,
+    ) -> Stretch {
+        let (first, last) = (self.parameter(from, false), self.parameter(to, true));
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
         let Self { mut openness, mut time, fraction: mut position } = *self;
         recentred(&mut openness, middle, half);
@@ -121,31 +131,36 @@ impl Path {
         recentred(&mut position, middle, half);
         position[0] -= power as f64;
         scale(&mut position, (WORD / power) as f64, 1.0);
-        Stretch { openness, time, position, is_joined: first == joins_at || last == joins_at }
+        Stretch {
+            openness,
+            time,
+            position,
+            is_joined: first == join_parameter || last == join_parameter,
+        }
     }
 }
 
-/// `c[k] *= factor · unit^k`: the polynomial times `factor`, by powers of `x / unit`.
+/// `c[k] *= factor · width^k`: the polynomial times `factor`, by powers of `x / width`.
 #[inline(never)]
-pub(crate) const fn scale(c: &mut [f64], factor: f64, unit: f64) {
+pub(crate) const fn scale(c: &mut [f64], factor: f64, width: f64) {
     let (mut factor, mut k) = (factor, 0);
     while k < c.len() {
         c[k] *= factor;
-        factor *= unit;
+        factor *= width;
         k += 1;
     }
 }
 
-/// By powers of `(x - middle) / unit`: the k-th pass of synthetic division leaves the k-th Taylor coefficient.
+/// By powers of `(x - middle) / width`: the k-th pass of synthetic division leaves the k-th Taylor coefficient.
 #[inline(never)]
-const fn recentred(c: &mut [f64], middle: f64, unit: f64) {
+const fn recentred(c: &mut [f64], middle: f64, width: f64) {
     let mut pass: &mut [f64] = c;
     while !pass.is_empty() {
         sum_down(pass, middle);
         let Some((_, rest)) = pass.split_first_mut() else { break };
         pass = rest;
     }
-    scale(c, 1.0, unit);
+    scale(c, 1.0, width);
 }
 
 /// One pass: `c[k] += x c[k + 1]`, from the highest down.
@@ -182,12 +197,12 @@ pub(crate) const fn singles(c: &[f64], constant: f64, factor: f64) -> [f32; 7] {
     single
 }
 
-/// `(x, slope)` where an increasing polynomial is nearly 0, in `[low, high]`: by Newton's method, or by bisection where
-/// that would leave the bracket.
+/// Where an increasing polynomial is nearly 0, in `[low, high]`, and the slope before the last step: by Newton's
+/// method, or by bisection where that would leave the bracket.
 #[inline(never)]
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> (f32, f32) {
-    let (mut x, mut last, mut steps) = (guess, 0.0, 0);
-    while steps < MOST_STEPS {
+    let (mut x, mut last, mut rounds) = (guess, 0.0, 0);
+    while rounds < MOST_ROUNDS {
         let (mut value, mut slope, mut left): (f32, f32, &[f32]) = (0.0, 0.0, c);
         while let [lower @ .., next] = left {
             slope = slope * x + value;
@@ -199,7 +214,7 @@ pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
         let is_there = (next - x).abs() <= CLOSE * x.abs();
         (x, last) = (next, slope);
-        steps = if is_there { MOST_STEPS } else { steps + 1 };
+        rounds = if is_there { MOST_ROUNDS } else { rounds + 1 };
     }
     (x, last)
 }

@@ -1,12 +1,13 @@
 //! A span: the part of an octave that its polynomial serves, and how its positions become offsets.
 
-use crate::number::units::{LEAST_TOP, WORD, exponent, fixed, power_of_two};
+use crate::number::units::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 use crate::octave::path::{Path, Stretch};
 
-/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. (Unhalved, too: a
-/// top is at most 15/8 of the power, and `half` a quarter of the top.) A word of offsets ends at 0.5 width. Of the 0.02
-/// between, the center's error takes 0.009: 2⁸ positions by rounding, 31 by the shift, each at most 2¹⁷ offsets.
+/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves
+/// nothing, `half` is at most a quarter of the top, which is at most 15/8 of the power. A word of offsets ends at 0.5
+/// width. Of the 0.02 between, the center's error takes 0.009: `middle` is rounded by 2⁸ positions, the shift takes the
+/// place of 31, and each is at most 2¹⁷ offsets.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;
@@ -16,7 +17,8 @@ pub(crate) struct Span {
     pub(crate) from: f64,
     pub(crate) to: f32,
     pub(crate) middle: f32,
-    /// `middle ± half` leads more than two ulp beyond `from` and `to`.
+    /// `middle ± half` leads more than two ulp of `a` beyond `from` and `to`: a polynomial errs by less than half of
+    /// one, so the time that it gives lies within.
     pub(crate) half: f32,
     /// The power of two at or below the octave's top. A position counts 2⁻³² of it.
     pub(crate) power: f32,
@@ -50,13 +52,14 @@ impl Span {
 
     /// 2³² plus the position of the middle, whose lowest bits are the shift. The lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
-        fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
+        fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64)
+            | self.shift as i64
     }
 
-    /// The stretch of a ramp that has all of these fractions. `joins_at` is the place of the ramp's join.
-    pub(crate) const fn stretch(&self, path: &Path, joins_at: f64) -> Stretch {
+    /// The stretch of a ramp that has all of these fractions. `join_parameter` is the `p` of the ramp's join.
+    pub(crate) const fn stretch(&self, path: &Path, join_parameter: f64) -> Stretch {
         let Self { middle, half, power, .. } = *self;
-        path.stretch((middle - half) as f64, (middle + half) as f64, power, joins_at)
+        path.stretch((middle - half) as f64, (middle + half) as f64, power, join_parameter)
     }
 
     /// `(center, per_position)`: the offset, in widths, is `(position - center) per_position`.

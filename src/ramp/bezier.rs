@@ -113,8 +113,8 @@ impl From<[(f32, f32); 4]> for CubicBezier {
     }
 }
 
-/// The time at a `fraction` of the interval from `start` to `end`; or an end of its ramp, which rounding may pass where
-/// the point is meant to be at it. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
+/// The time at a `fraction` of the interval from `start` to `end`; or its ramp's end, if that is passed by no more than
+/// rounding explains. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
 const fn snapped(fraction: f32, [start, end]: [f64; 2], [from, to]: [f32; 2]) -> f32 {
     let fraction = fraction as f64;
     let time = start * (1.0 - fraction) + end * fraction;

@@ -12,26 +12,31 @@ use crate::number::moment::Moment;
 use crate::number::pair::Pair;
 use crate::number::series::Series;
 use crate::number::units::{
-    LAST_PLACE, WHOLE, exponent, fraction_per_mass, mass_per_fraction, power_of_two_f64, ramp_unit,
+    LAST_PLACE, WHOLE, exponent, fraction_per_mass, mass_per_fraction, power_of_two,
+    power_of_two_f64, ramp_exponent,
 };
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
-/// The error of a place, as a share of the time from the ramp's nearer end: at most a quarter of the distance between
-/// neighbouring times, which so keep their order. The time from the end is at most `|t|`, so neighbouring `f32` are at
-/// least 2⁻²⁴ of it apart. Only on a curve across time 0 may it exceed `|t|`; there times are on a grid, about 2⁻²⁶ of
-/// it apart ([`on_grid`](crate::cdf)).
+/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance
+/// between neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most
+/// the greater
+/// |time| next to it, so neighbours are at least 2⁻²⁴ `d` apart. Else times are on a grid, at least 2⁻²⁶ `d` apart
+/// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
+
+/// A place below this, 2⁻¹⁴⁷ of the ramp, counts as the end: as a subnormal number it could not be exact enough.
+const LEAST_PLACE: f32 = power_of_two(-117);
 
 /// One end of a ramp, and the series from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct RampEnd {
     /// The time of the end.
     at: f32,
-    /// The time between here and a place, without its last coefficient.
-    time: [Pair; 2],
-    /// The mass between here and a place, without its last coefficient.
-    mass: [Pair; 5],
+    /// The coefficients of the time between here and a place, but the last.
+    time_c: [Pair; 2],
+    /// The coefficients of the mass between here and a place, but the last.
+    mass_c: [Pair; 5],
 }
 
 /// One Bezier as a part of a curve.
@@ -53,9 +58,9 @@ impl Ramp {
     /// The ramp between two times, on a curve with this area.
     pub(crate) const fn new([start, end]: [f32; 2], shape: &Shape, area: f64) -> Self {
         let share = Pair::from_f64(shape.area() / area * WHOLE as f64);
-        let per_unit = power_of_two_f64(-ramp_unit(start, end));
-        let per_mass = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
-        let first = RampEnd { at: start, time: [Pair::ZERO; 2], mass: [Pair::ZERO; 5] };
+        let units_per_time = power_of_two_f64(-ramp_exponent(start, end));
+        let mass_per_area = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
+        let first = RampEnd { at: start, time_c: [Pair::ZERO; 2], mass_c: [Pair::ZERO; 5] };
         let mut ramp = Self {
             ends: [first, RampEnd { at: end, ..first }],
             last_of_time: Pair::ZERO,
@@ -68,8 +73,9 @@ impl Ramp {
             let side = Side::BOTH[i];
             let (seen, seen_end) = (shape.seen_from(side), &mut ramp.ends[i]);
             // From either side both last coefficients have the same bits, but for the sign of the mass.
-            ramp.last_of_time = in_places(&seen.time_powers(), per_unit, &mut seen_end.time);
-            let last = in_places(&seen.mass_powers(), per_mass, &mut seen_end.mass);
+            ramp.last_of_time =
+                in_places(&seen.time_powers(), units_per_time, &mut seen_end.time_c);
+            let last = in_places(&seen.exposure_powers(), mass_per_area, &mut seen_end.mass_c);
             ramp.last_of_mass = last.flipped(side.sign());
             i += 1;
         }
@@ -83,26 +89,26 @@ impl Ramp {
     }
 
     /// The time of the end that faces a side.
-    pub(crate) const fn time(&self, side: Side) -> f32 {
+    pub(crate) const fn end_time(&self, side: Side) -> f32 {
         self.end(side).at
     }
 
     /// The exponent of the ramp's unit of time.
     #[inline(always)]
-    const fn unit(&self) -> i32 {
-        ramp_unit(self.ends[0].at, self.ends[1].at)
+    const fn way_exponent(&self) -> i32 {
+        ramp_exponent(self.ends[0].at, self.ends[1].at)
     }
 
     /// The time since the end that faces a side.
     #[inline(always)]
     const fn time_since(&self, side: Side) -> Series<'_> {
-        Series { c: &self.end(side).time, last: self.last_of_time }
+        Series { c: &self.end(side).time_c, last: self.last_of_time }
     }
 
     /// The mass since the end that faces a side.
     #[inline(always)]
     const fn mass_since(&self, side: Side) -> Series<'_> {
-        Series { c: &self.end(side).mass, last: self.last_of_mass.flipped(side.sign()) }
+        Series { c: &self.end(side).mass_c, last: self.last_of_mass.flipped(side.sign()) }
     }
 
     /// [`mass_since`](Self::mass_since) in single precision.
@@ -112,19 +118,19 @@ impl Ramp {
         [c[0].hi, c[1].hi, c[2].hi, c[3].hi, c[4].hi, last.hi]
     }
 
-    /// The place by which `target` has been collected since the end that faces a side, within `error`: both are
-    /// fractions in [`WHOLE`]. The search starts from the end whose mass is nearer to the target.
+    /// The place by which a part of the exposure has been collected since the end that faces a side. The part and its
+    /// error are fractions in [`WHOLE`]. The search starts from the end whose mass is nearer.
     #[inline(always)]
-    pub(crate) const fn place_of_mass(&self, side: Side, target: Pair, error: f32) -> Found {
-        let factor = mass_per_fraction(self.share.hi);
-        let (target, error) = (target.scaled(factor), error * factor);
-        let rest = -target.minus_loose(self.share.scaled(factor)).rounded();
-        let anchor = if target.hi <= rest {
-            Anchor::near(self.mass_in_single(side), target.hi)
+    pub(crate) const fn place_of_part(&self, side: Side, part: Pair, error: f32) -> Found {
+        let per_fraction = mass_per_fraction(self.share.hi);
+        let mass = part.scaled(per_fraction);
+        let rest = -mass.minus_loose(self.share.scaled(per_fraction)).rounded();
+        let anchor = if mass.hi <= rest {
+            Anchor::same_end(self.mass_in_single(side), mass.hi)
         } else {
-            Anchor::far(self.mass_in_single(side.other()), rest)
+            Anchor::other_end(self.mass_in_single(side.other()), rest)
         };
-        solve(self.mass_since(side), target, &anchor, error)
+        solve(self.mass_since(side), mass, &anchor, error * per_fraction)
     }
 
     /// The moment of a place, which is counted from the end that faces a side.
@@ -132,22 +138,22 @@ impl Ramp {
     pub(crate) const fn moment(&self, side: Side, place: Pair) -> Moment {
         let way = self.time_since(side).at_pair(place);
         Moment {
-            base: self.time(side),
+            base: self.end_time(side),
             back: side.is_end(),
             way: if way.rounded() < 0.0 { Pair::ZERO } else { way },
-            unit: self.unit(),
-            until: self.time(side.other()),
+            way_exponent: self.way_exponent(),
+            until: self.end_time(side.other()),
         }
     }
 
     /// The point at `t`, which lies on the ramp.
     #[inline(always)]
     pub(crate) const fn at_time(&self, t: f32) -> RampPoint<'_> {
-        let [start, end] = [self.time(Start), self.time(End)];
+        let [start, end] = [self.end_time(Start), self.end_time(End)];
         let side = Side::end_if(t - start > end - t);
         // Exact, and in the ramp's unit.
         let way = if side.is_end() { Pair::sum(end, -t) } else { Pair::sum(t, -start) };
-        let way = way.shifted(-self.unit());
+        let way = way.shifted(-self.way_exponent());
         RampPoint { ramp: self, side, place: self.place_of_time(side, way) }
     }
 
@@ -155,7 +161,11 @@ impl Ramp {
     #[inline(never)]
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
-        let anchor = Anchor::near([series.c[0].hi, series.c[1].hi, series.last.hi], target.hi);
+        let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
+        if target.hi < LEAST_PLACE * c[0] {
+            return Pair::ZERO;
+        }
+        let anchor = Anchor::same_end(c, target.hi);
         solve(series, target, &anchor, TIME_ERROR * target.hi).place
     }
 }
@@ -168,8 +178,8 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl RampPoint<'_> {
-    /// The place from the end that faces a side. Little cancels: a time nearer to the other end lies beyond 1/7 of the
-    /// ramp, since `t'` is not negative.
+    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's
+    /// time has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
     #[inline(always)]
     const fn place_from(&self, side: Side) -> Pair {
         if self.side.is(side) {
@@ -179,20 +189,20 @@ impl RampPoint<'_> {
         Pair::sum(rest.hi, rest.lo - self.place.lo)
     }
 
-    /// The mass from the end of the ramp that faces a side to here, as a fraction in [`WHOLE`].
+    /// The part of the exposure from the end of the ramp that faces a side to here, in [`WHOLE`].
     #[inline(always)]
-    pub(crate) const fn mass(&self, side: Side) -> Pair {
+    pub(crate) const fn fraction(&self, side: Side) -> Pair {
         let mass = self.ramp.mass_since(side).at_pair(self.place_from(side));
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// The openness `f 2^unit`, at least 0, as `(f, unit)`.
+    /// The openness `f 2^exponent`, at least 0, as `(f, exponent)`.
     #[inline(never)]
     pub(crate) fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
-        let unit = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
-        let f = f.map(|f| Pair::new(f).shifted(-unit).hi);
+        let down = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
+        let f = f.map(|f| Pair::new(f).shifted(-down).hi);
         // The greatest f is about 2⁶⁰: so second numbers, and products with small places, are normal where they count.
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
         let second = d[1].minus_loose(d[0]);
@@ -200,7 +210,7 @@ impl RampPoint<'_> {
         // f[0] + c[0] p + c[1] p² + last p³
         let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(second) };
         let value = Pair::new(f[0]).plus(series.at_pair(self.place.scaled(1.0 / LAST_PLACE)));
-        (if value.rounded() < 0.0 { Pair::ZERO } else { value }, unit)
+        (if value.rounded() < 0.0 { Pair::ZERO } else { value }, down)
     }
 }
 

@@ -8,21 +8,25 @@ use crate::ramp::bezier::CubicBezier;
 pub(crate) struct Shape {
     /// The openness of the control points.
     pub(crate) openness: [f32; 4],
-    /// The differences of their times, counted away from that end; at least 0 in sum, and the outer two each.
-    steps: [f64; 3],
+    /// The differences of their times, counted away from that end. The outer two are at least 0, and so is the sum.
+    differences: [f64; 3],
 }
 
 impl Shape {
     /// Seen from the earlier end.
     pub(crate) const fn new(curve: &CubicBezier) -> Self {
         let [t0, t1, t2, t3] = widened(curve.times());
-        Self { openness: curve.opennesses(), steps: [t1 - t0, t2 - t1, t3 - t2] }
+        Self { openness: curve.opennesses(), differences: [t1 - t0, t2 - t1, t3 - t2] }
     }
 
     /// Seen from the end that faces a side; `self` is seen from the earlier one.
     pub(crate) const fn seen_from(self, side: Side) -> Self {
-        let Self { openness: [f0, f1, f2, f3], steps: [d0, d1, d2] } = self;
-        if side.is_end() { Self { openness: [f3, f2, f1, f0], steps: [d2, d1, d0] } } else { self }
+        let Self { openness: [f0, f1, f2, f3], differences: [d0, d1, d2] } = self;
+        if side.is_end() {
+            Self { openness: [f3, f2, f1, f0], differences: [d2, d1, d0] }
+        } else {
+            self
+        }
     }
 
     /// `f(p)` by powers of `p`, the constant first.
@@ -36,12 +40,12 @@ impl Shape {
     /// The time since the end, by powers of `p` from the first.
     #[inline(never)]
     pub(crate) const fn time_powers(&self) -> [f64; 3] {
-        powers(self.steps)
+        powers(self.differences)
     }
 
-    /// `∫ f t' dp` since the end, by powers of `p` from the first: the mass times the curve's area.
+    /// `∫ f t' dp` since the end, by powers of `p` from the first: the exposure.
     #[inline(never)]
-    pub(crate) const fn mass_powers(&self) -> [f64; 6] {
+    pub(crate) const fn exposure_powers(&self) -> [f64; 6] {
         // (p^k)' = k p^(k-1), and the integral divides by the next exponent.
         const COUNT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
         let (f, t) = (self.openness_powers(), self.time_powers());
@@ -66,7 +70,7 @@ impl Shape {
 
     /// `∫ f dt` over the ramp, with the same bits from either end.
     pub(crate) const fn area(&self) -> f64 {
-        let (first, last) = (self.mass_powers(), self.seen_from(Side::End).mass_powers());
+        let (first, last) = (self.exposure_powers(), self.seen_from(Side::End).exposure_powers());
         let (mut from_first, mut from_last, mut k) = (0.0, 0.0, 0);
         while k < first.len() {
             from_first += first[k];

@@ -6,10 +6,10 @@
 //! The bits of an `f32`, taken as an integer, are nearly its logarithm, so a root is a quotient of integers. That is
 //! good to about a tenth, and one step of Halley's makes it a thousandth. An exact root would save nothing.
 
-/// A logarithm has 20 fraction bits, so that the difference of two fits 32 bits.
+/// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// A logarithm is 0 to 0.086 above its [`rough_log`]. A root is lowered by the middle of that: so it is as often too
+/// [`power`] comes out 0 to 0.086 octaves too great. A root is lowered by the middle of that: so it is as often too
 /// small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
@@ -31,8 +31,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// Negative numbers come out lower by 256, and 0 is taken for 2⁻¹²⁷. Either makes a coefficient's root so great that it
-/// is never the least.
+/// 0 is taken for 2⁻¹²⁷, and a negative number for far less. As 2⁸⁰ of mass lie on a ramp of 2³⁰ places, the root of
+/// such a coefficient is too great to be the least.
 #[inline(always)]
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE

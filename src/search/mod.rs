@@ -1,16 +1,16 @@
 //! The search: the place on a ramp where a series reaches a target, with a computed bound of its error.
 //!
 //! A series increases along the ramp. It is known twice: in pairs from one end of the ramp, to measure by, and in
-//! single precision from an [`Anchor`] near the target, to search by. A search
+//! single precision from an [`Anchor`], the end that is nearer to the target, to search by. A search
 //!
-//! 1. takes Halley's steps in single precision, each of limited length, until less than 2⁻¹³ of `sought` is missing
+//! 1. takes Halley's steps in single precision, each of limited length, until some 2⁻¹³ of `sought` is missing
 //!    ([`Anchor::approach`]),
 //! 2. measures in pairs what is missing,
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
-//! After [`FREE_EVALUATIONS`] evaluations each measurement halves a bracket. Once its ends are neighbouring `f32`, a
-//! step between them is accepted. That the step stays between them is not proven, so [`MAX_EVALUATIONS`] end a search;
-//! then its place has no bound. No search in the tests comes to that.
+//! After [`FREE_EVALUATIONS`] evaluations the next place is the middle of a bracket. Between neighbouring `f32` a step
+//! is less than an ulp, and [`left`] accepts it. That the step stays between them is not proven, so [`MAX_EVALUATIONS`]
+//! end a search; then its place has no bound. No search in the tests comes to that.
 
 pub(crate) mod guess;
 
@@ -19,8 +19,8 @@ use crate::number::series::Series;
 use crate::number::units::LAST_PLACE;
 use guess::guess;
 
-/// After so many evaluations every place is measured in pairs, and halves the bracket. No search in the tests takes as
-/// many.
+/// After so many evaluations each further place halves the bracket. Few searches take as many: on a density that is
+/// dark at both ends, where its inner times cross, 55 in all were seen.
 const FREE_EVALUATIONS: u32 = 10;
 /// So many halvings of its bits bring any bracket in 0 to [`LAST_PLACE`] down to neighbours.
 const BISECTION: u32 = 31;
@@ -28,29 +28,30 @@ const BISECTION: u32 = 31;
 /// each, and before the first one `FREE_EVALUATIONS` may be exceeded by 2.
 pub const MAX_EVALUATIONS: u32 = FREE_EVALUATIONS + 2 + 2 * BISECTION;
 
-/// If less than this share of what is sought is missing, it is measured in pairs. The next step leaves about a tenth of
-/// the share's cube: 2⁻⁴².
+/// If no more than this share of what is sought is missing, it is measured in pairs. The next step leaves about the
+/// share's cube, far less than any error.
 const PAIRS_BELOW: f32 = 1.0 / 8192.0;
 
 /// A step in single precision multiplies the distance from the anchor by 1/4 to about 2.5, since Newton overshoots
-/// where the density dips ahead. In bits of the distance, where 2²³ is a factor of two.
+/// where the slope dips ahead. In bits of the distance, where 2²³ is a factor of two.
 const LEAST_STEP: i32 = -2 << 23;
 const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
-/// The rounding error of the first two Taylor coefficients, as a share of their terms: around the end from which the
-/// pairs count, and around the other one, where the distance is rounded, too.
+/// The rounding error of `d1` and `d2` ([`Taylor`]), as a share of their terms: from the end from which the pairs
+/// count, and from the other one, where the distance is rounded, too.
 // proofs/solve.py
-pub(crate) const ROUNDING_NEAR: f32 = 1.0 / (1 << 20) as f32;
-const ROUNDING_FAR: f32 = 1.25 * ROUNDING_NEAR;
+pub(crate) const ROUNDING_SAME: f32 = 1.0 / (1 << 20) as f32;
+const ROUNDING_OTHER: f32 = 1.25 * ROUNDING_SAME;
 
-/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. For a last step
-/// of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 0.75 · 2⁻²⁶.
+/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. It moves only
+/// from the other end, for masses. For a last step of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ ·
+/// 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 3/4 of a mass's error of 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Where a search starts: an end of the ramp, and the series from there.
 pub(crate) struct Anchor<const N: usize> {
     /// Is it the other end than that from which the pairs count? Then distances count back.
-    is_far: bool,
+    is_other_end: bool,
     /// The series by powers of the distance from here.
     c: [f32; N],
     /// What it has to reach, at least 0.
@@ -60,31 +61,32 @@ pub(crate) struct Anchor<const N: usize> {
 impl<const N: usize> Anchor<N> {
     /// The end from which the pairs count.
     #[inline(always)]
-    pub(crate) const fn near(c: [f32; N], sought: f32) -> Self {
-        Self { is_far: false, c, sought }
+    pub(crate) const fn same_end(c: [f32; N], sought: f32) -> Self {
+        Self { is_other_end: false, c, sought }
     }
 
     /// The other end.
     #[inline(always)]
-    pub(crate) const fn far(c: [f32; N], sought: f32) -> Self {
-        Self { is_far: true, c, sought }
+    pub(crate) const fn other_end(c: [f32; N], sought: f32) -> Self {
+        Self { is_other_end: true, c, sought }
     }
 
     /// The distance of a place from here, and the place at a distance.
     #[inline(always)]
     const fn mirrored(&self, x: f32) -> f32 {
-        if self.is_far { LAST_PLACE - x } else { x }
+        if self.is_other_end { LAST_PLACE - x } else { x }
     }
 
-    /// Steps from the guess until less than [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are
-    /// used up. Returns the series around the last distance, and the evaluations.
+    /// Steps from the guess until [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are used up.
+    /// Returns the series around the last distance, and the evaluations.
     #[inline(always)]
     const fn approach(&self, error: f32) -> (Taylor, u32) {
-        // In bits: comparing integers does not wait for the FPU, and a NaN is too much.
+        // Or the error that is allowed anyway. In bits: comparing integers does not wait for the FPU, and a NaN is too
+        // much.
         let stop_below_bits = (PAIRS_BELOW * self.sought + error).to_bits() as i32;
         const LAST_BITS: i32 = LAST_PLACE.to_bits() as i32;
         let guess = guess(&self.c, self.sought);
-        // Not to the other end: there the density may be 0.
+        // Not to the other end: there the slope may be 0.
         let mut x = if guess < 0.75 * LAST_PLACE { guess } else { 0.75 * LAST_PLACE };
         let mut evaluations = 0;
         loop {
@@ -172,10 +174,10 @@ const fn horner<const N: usize>(c: &mut [f32; N], x: f32, to: usize) {
 /// + |s| 3.4 cubes s²             all further terms
 /// ```
 ///
-/// where `y = |x| + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`,
+/// where `y = x + |s|`, `cubes = Σ_{j>=3} j |c_j| y^(j-3)`, `squares = 2 |c_2| + cubes y`,
 /// `slopes = |c_1| + squares y`, and `c_j` is `c[j - 1]`. On the way, within `y`, the slope is at most `slopes`; as
 /// `j <= 6`, the second derivative is at most `5 squares` and the third `20 cubes`. So Taylor's rest is at most
-/// `20/6 cubes |s|³`.
+/// `20/6 cubes |s|³`. (`moved` may lead beyond `y`, by 2⁻¹⁶ of `x` at most: `rounding` and 3.4 have room for that.)
 // proofs/solve.py
 #[inline(always)]
 pub(crate) const fn left<const N: usize>(
@@ -189,7 +191,7 @@ pub(crate) const fn left<const N: usize>(
     // Loaded anew, or the compiler would keep all of `c` in registers.
     let c = core::hint::black_box(c);
     let size = s.abs();
-    let y = local.x.abs() + size;
+    let y = local.x + size;
     let (mut cubes, mut j) = (0.0, N);
     while j > 2 {
         cubes = cubes * y + j as f32 * c[j - 1].abs();
@@ -201,8 +203,8 @@ pub(crate) const fn left<const N: usize>(
     first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, within `error`. The last step leaves at most 3/4 of that; the last quarter
-/// is for measuring. At the limit of evaluations there is no bound.
+/// The place where `series` reaches `target`, within `error`. The last step leaves at most 3/4 of that; the last
+/// quarter is for measuring. At the limit of evaluations there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,
@@ -210,15 +212,16 @@ pub(crate) const fn solve<const N: usize>(
     anchor: &Anchor<N>,
     error: f32,
 ) -> Found {
-    let Anchor { is_far, ref c, sought } = *anchor;
+    let Anchor { is_other_end, ref c, sought } = *anchor;
     // The anchor itself.
     if sought <= 0.5 * error {
         return Found { place: Pair::new(anchor.mirrored(0.0)), evaluations: 0 };
     }
-    let rounding = if is_far { ROUNDING_FAR } else { ROUNDING_NEAR };
-    let sign = (is_far as u32) << 31;
+    let rounding = if is_other_end { ROUNDING_OTHER } else { ROUNDING_SAME };
+    let sign = (is_other_end as u32) << 31;
     let (mut local, mut evaluations) = anchor.approach(error);
-    // Only an `f32` can be measured: `p`, at `x + moved` from the anchor. If that is far from `x`, the slopes differ.
+    // What is measured is an `f32`. From the other end `LAST_PLACE - x` may be none: so `p` is at `x + moved` from the
+    // anchor. If that is far from `x`, the slopes differ.
     let mut p = anchor.mirrored(local.x);
     let mut distance = anchor.mirrored(p);
     let mut moved = distance - local.x;
@@ -233,13 +236,13 @@ pub(crate) const fn solve<const N: usize>(
         let missing = target.difference(series.at(p));
         evaluations += 1;
         *(if missing > 0.0 { &mut low } else { &mut high }) = p.to_bits() as i32;
-        // From the far end less has to be sought if more is missing from the near one.
+        // What is missing from one end is too much from the other.
         let missing = flipped(missing, sign);
         let step = local.short_step(missing);
         let way = flipped(step, sign);
         let next = p + way;
         let is_inside = next.to_bits() as i32 >= low && next.to_bits() as i32 <= high;
-        // Measuring is off by 2⁻³⁰·⁹ of the target at most (proofs/solve.py): a quarter of any error from 2⁻²⁸ on.
+        // Measuring is off by at most 2⁻³⁰·⁹ of the target (proofs/solve.py), a quarter of an error of 2⁻²⁸ of it.
         if is_inside && left(c, &local, moved, missing, step, rounding) <= 0.75 * error {
             return Found { place: Pair::sum(p, way), evaluations };
         }

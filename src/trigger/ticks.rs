@@ -16,7 +16,7 @@ pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
 pub(crate) struct Ticks<'a, const OCTAVES: usize> {
     inverse: &'a Inverse<OCTAVES>,
     n: u32,
-    scale: TickScale,
+    to_ticks: TickScale,
 }
 
 impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
@@ -31,12 +31,12 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         if n > MOST_TRIGGERS {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let (start, unit) = (inverse.end_units(Side::Start), inverse.unit);
+        let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent());
         let length = (inverse.end_units(Side::End) - start) as u64;
-        if exponent_of_ticks(length, ticks_per_unit, unit) > TICK_BITS {
-            return Err(too_high(length, ticks_per_unit, unit));
+        if exponent_of_ticks(length, ticks_per_unit, exponent) > TICK_BITS {
+            return Err(too_high(length, ticks_per_unit, exponent));
         }
-        Ok(Self { inverse, n, scale: TickScale::new(start, length, ticks_per_unit, unit) })
+        Ok(Self { inverse, n, to_ticks: TickScale::new(start, length, ticks_per_unit, exponent) })
     }
 
     /// The tick of trigger `i`.
@@ -48,7 +48,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     /// The tick of the fraction `(2i + 1 + more) / 2n`, where `more` is ±duty for the ends of a pulse.
     #[inline(always)]
     pub(crate) const fn around(&self, i: u32, more: f32) -> u32 {
-        self.scale.tick(self.inverse.time_units(self.fraction(i, more)))
+        self.to_ticks.tick(self.inverse.time_units(self.fraction(i, more)))
     }
 
     /// Do all triggers keep a gap?
@@ -69,8 +69,8 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
 
-    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a pulse
-    /// it is within one and a half ulp (proofs/ticks.py).
+    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a
+    /// pulse it is within one and a half ulp (proofs/ticks.py).
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
         let (odd, whole) = (2 * i + 1, 2 * self.n);
@@ -131,22 +131,22 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
     if most < MOST_TRIGGERS as u64 { most as u32 } else { MOST_TRIGGERS }
 }
 
-/// The least `e` for which a `length`, in units of `2^unit` of the curve's time, is at most 2^e ticks.
-const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, unit: i32) -> i32 {
+/// The least `e` for which the time `length · 2^exponent` is at most 2^e ticks.
+const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, exponent: i32) -> i32 {
     // Of the 96 bits of length · rate the upper 64, rounded up.
     let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);
     let ticks = high * rate + (low * rate).div_ceil(1 << 32);
-    96 - ticks.saturating_sub(1).leading_zeros() as i32 + unit
+    96 - ticks.wrapping_sub(1).leading_zeros() as i32 + exponent
 }
 
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
 #[cold]
 #[inline(never)]
-const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError {
+const fn too_high(length: u64, ticks_per_unit: u32, exponent: i32) -> ScheduleError {
     let (mut most, mut fail) = (0, ticks_per_unit);
     while fail - most > 1 {
         let middle = most + (fail - most) / 2;
-        let fits = exponent_of_ticks(length, middle, unit) <= TICK_BITS;
+        let fits = exponent_of_ticks(length, middle, exponent) <= TICK_BITS;
         *(if fits { &mut most } else { &mut fail }) = middle;
     }
     ScheduleError::TickRateTooHigh { most }
@@ -155,7 +155,7 @@ const fn too_high(length: u64, ticks_per_unit: u32, unit: i32) -> ScheduleError 
 /// From times in units to ticks, in fixed point.
 #[derive(Clone)]
 pub(crate) struct TickScale {
-    start: i64,
+    start_units: i64,
     /// The bits by which a delay, the time since the start, moves up, so that the interval has 62 or 63 bits.
     up: u32,
     /// The rate, moved up until it has 32 bits.
@@ -165,31 +165,35 @@ pub(crate) struct TickScale {
 }
 
 impl TickScale {
-    /// For an interval that starts at `start` and is `length` long, in units of `2^unit`, and has at most 2³¹ ticks.
-    pub(crate) const fn new(start: i64, length: u64, ticks_per_unit: u32, unit: i32) -> Self {
-        // The length or one of the ends is at least 2⁶¹ units (`time_unit`). If an end is, the next `f32` is at least
-        // 2³⁷ units away. So an interval has from 2³⁷ to 2⁶² units.
+    /// For an interval that starts at `start_units` and lasts `length` units of `2^exponent`, at most 2³¹ ticks.
+    pub(crate) const fn new(
+        start_units: i64,
+        length: u64,
+        ticks_per_unit: u32,
+        exponent: i32,
+    ) -> Self {
+        // An interval has 2⁴⁵ units at least (`domain::LEAST_INTERVAL`), and 2⁶² at most.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
-        // One bit is not worth a shift: most curves need none.
+        // One bit is not worth a shift of 64, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
-        // Half ticks are delay · rate · 2^(unit + 1), and the product is delay · rate · 2^(up + zeros - 32).
-        let down = (up + zeros) as i32 - unit - 33;
+        // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
+        // the interval makes a product of at least 2⁵⁹ and at most 2³² half ticks: so it moves down by 27 or more.
+        let down = (up + zeros) as i32 - exponent - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
-        Self { start, up, rate: ticks_per_unit << zeros, down }
+        Self { start_units, up, rate: ticks_per_unit << zeros, down }
     }
 
     /// The nearest tick to a time.
     // proofs/ticks.py: tick
     #[inline(always)]
-    pub(crate) const fn tick(&self, time: i64) -> u32 {
-        let delay = time.wrapping_sub(self.start);
-        // A time's last units may be wrong, and place it before the start. But no time is beyond the end: for a
-        // polynomial's that would be an error in exposure of all of `1 - u`, and its certificate allows half an ulp of
-        // that; the plateau's line is rounded down; `Moment::in_units` stops a search's there.
+    pub(crate) const fn tick(&self, time_units: i64) -> u32 {
+        let delay = time_units.wrapping_sub(self.start_units);
+        // A time's last units may be wrong, and place it before the start. None is beyond the end: there a polynomial
+        // would err by all of `1 - u`, and its certificate allows half an ulp of that; the line is rounded down and
+        // ends below its time at u = 1, at most the curve's end; and a search stops at `Moment::until`.
         let delay = if delay > 0 { delay as u64 } else { 0 };
-        // Most curves need no shift. `up` is never 1 (see `new`).
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);

@@ -1,137 +1,142 @@
-//! Curves and inputs that meet difficulties exactly, where a random search comes near them at best: the mass at a
-//! minimum of f or t' to the last bit, minima that coincide, minima at the very end of a ramp, ramps without light,
-//! joins at time 0. Fixed seeds, as in `curves`.
+//! Curves and inputs that meet difficulties exactly, where a random search comes near them at best: handles that cross by
+//! as much as they may, joins next to 1/2 and at time 0, the least sections, intervals and exposures. All are accepted,
+//! and fixed seeds draw them, as in `curves`.
 
-use super::curves::{Rng, hard_openness, hard_times, is_valid};
-use super::oracle::{Curve, Dd, Exact, Points, exp2};
+use super::curves::{
+    LEAST_SECTION, MOST_CROSSED, Rng, Shape, accepted, hard_openness, hard_times, instant,
+    is_valid, placed, random_density, random_hard, settled, shape,
+};
+use super::oracle::{Curve, Dd, Exact, exp2};
 
-/// A ramp from time 0 onwards: times and openness.
-type Ramp = [(f64, f64); 4];
+/// What is difficult about the curves of a family, and how one is drawn.
+type Family = (&'static str, fn(&mut Rng) -> Curve);
 
-/// What is difficult about the curves of a family, and how one of its ramps is drawn.
-type Family = (&'static str, fn(&mut Rng) -> Ramp);
-
-pub const FAMILIES: [Family; 12] = [
-    ("f and t' touch 0 together", |rng| {
-        let q = square(rng);
-        ramp(q, touching(q, rng))
+pub const FAMILIES: [Family; 9] = [
+    ("handles cross by 15/16", |rng| {
+        let shapes = [0, 1].map(|_| {
+            let first = [MOST_CROSSED, 1.0, 0.5 * (1.0 + MOST_CROSSED)][rng.below(3) as usize];
+            let dim = rng.power_of_ten(-6.0, -1.0);
+            // Nearly open an octave just takes the kink; its error may be greatest anywhere.
+            let open = [0; 4].map(|_| 1.0 - dim * rng.unit());
+            let f =
+                if rng.chance(0.5) { hard_openness(rng) } else { [open[0], open[1], open[2], 1.0] };
+            let t = if rng.chance(0.8) {
+                [0.0, first, first - MOST_CROSSED, 1.0]
+            } else {
+                hard_times(rng)
+            };
+            shape(t, f)
+        });
+        let ramps = [0, 1].map(|_| exp2(rng.below(7) as i32));
+        joined(rng, shapes, ramps)
     }),
-    ("f and t' touch 0 apart", |rng| {
-        let (q, r) = (square(rng), square(rng));
-        ramp(q, touching(r, rng))
+    ("ends of high order", |rng| {
+        let shapes = [0, 1].map(|_| {
+            let near = [0, 1].map(|_| trace(rng) * f64::from(rng.chance(0.6)));
+            let few = |near: [f64; 2]| [0.0, near[0].min(near[1]), near[0].max(near[1]), 1.0];
+            let t = match rng.below(4) {
+                0 => few(near).map(|t| 1.0 - t),
+                1 => [0.0, near[0], 1.0, 1.0],
+                _ => few(near),
+            };
+            let t = if t[0] > t[3] { [t[3], t[2], t[1], t[0]] } else { t };
+            let f = if rng.chance(0.7) {
+                few([0, 1].map(|_| trace(rng) * f64::from(rng.chance(0.5))))
+            } else {
+                hard_openness(rng)
+            };
+            shape(t, f)
+        });
+        let ramps = [0, 1].map(|_| rng.between(0.1, 1.0));
+        joined(rng, shapes, ramps)
     }),
-    ("f and t' nearly touch 0 together", |rng| {
-        let q = square(rng);
-        let f = touching(q, rng);
-        let [near, dim] = [0, 1].map(|_| trace(rng));
-        ramp(q.map(|d| d + near * (q[0] + q[2])), raised(f, dim))
+    ("dark inside", |rng| {
+        let shapes = [0, 1].map(|_| {
+            let height = [1.0, rng.unit(), trace(rng)][rng.below(3) as usize];
+            let low = [0.0, trace(rng)][rng.below(2) as usize];
+            shape(hard_times(rng), [height, 0.0, low, 1.0])
+        });
+        let ramps = [0, 1].map(|_| rng.between(0.1, 1.0));
+        joined(rng, shapes, ramps)
     }),
-    ("t' touches 0", |rng| {
-        let q = square(rng);
-        ramp(q, hard_openness(rng))
+    // Tops of octaves are at these fractions, so that the join is next to one.
+    ("joins next to plain fractions of the light", |rng| {
+        let all = exp2(1 + rng.below(5) as i32);
+        let part = if rng.chance(0.4) { 0.5 * all } else { (1 + rng.below(all as u64 - 1)) as f64 };
+        // Handles of the same length on either side: half of the ramp's length is its light.
+        let handle = [0.25, rng.unit()][rng.below(2) as usize].min(MOST_CROSSED);
+        let times = [0.0, handle, 1.0 - handle, 1.0];
+        let times = if rng.chance(0.3) { [0.0, 31.0 / 32.0, 1.0 / 32.0, 1.0] } else { times };
+        let plain = shape(times, [0.0, 0.0, 1.0, 1.0]);
+        let mut curve = Curve::shutter(
+            placed(plain, false, -2.0 * part, 2.0 * part),
+            placed(plain, true, 2.0 * (all - part), 2.0 * (all - part)),
+        );
+        // More light on one ramp, or a plateau.
+        let near = (exp2(-(20 + rng.below(31) as i32)) * all) as f32;
+        let long = 2.0 * part.max(all - part) * LEAST_SECTION * (1 + rng.below(8)) as f64;
+        match rng.below(5) {
+            0 => curve.opening[0].1 = near.min(1.0),
+            1 => curve.closing[3].1 = near.min(1.0),
+            2 => curve.opening[3].0 = -long as f32,
+            3 => curve.closing[0].0 = long as f32,
+            _ => {}
+        }
+        settled(curve)
     }),
-    ("f touches 0", |rng| {
-        let q = square(rng);
-        let f = touching(q, rng);
-        let times = hard_times(rng);
-        ramp([times[1], times[2] - times[1], 1.0 - times[2]], f)
+    ("least sections, joins at time 0", |rng| {
+        let shapes = [0, 1].map(|_| shape(hard_times(rng), hard_openness(rng)));
+        let least = LEAST_SECTION * (1 + rng.below(16)) as f64;
+        let [first, last] = [[1.0, least], [least, 1.0], [1.0, 1.0]][rng.below(3) as usize];
+        let plateau = [0.0, least, 1.0][rng.below(3) as usize];
+        // Time 0 at a join, or inside a section.
+        let zero =
+            [0.0, -plateau, -plateau * rng.unit(), -first * rng.unit()][rng.below(4) as usize];
+        settled(Curve::shutter(
+            placed(shapes[0], false, zero - first, first),
+            placed(shapes[1], true, zero + plateau + last, last),
+        ))
     }),
-    ("both touch 0 next to an end", |rng| {
-        let (q, r) = (square_at_the_end(rng), square_at_the_end(rng));
-        let r = if rng.chance(0.5) { q } else { r };
-        let reversed = rng.chance(0.3);
-        let f = touching(if reversed { [r[2], r[1], r[0]] } else { r }, rng);
-        ramp(q, f)
+    ("least shares of the light", |rng| {
+        // The light before the join, next to where octaves and the plateau's line begin.
+        let off = rng.between(-1.0, 1.0) * exp2(-(rng.below(28) as i32));
+        let share = [exp2(-9) * (1.0 + off), exp2(-(20 + rng.below(5) as i32)) * (1.0 + off)];
+        let after = (1 + rng.below(20)) as f64;
+        let light = share[rng.below(2) as usize] * after;
+        let near = light * [1.0, 1.0, 0.5, exp2(-10), 0.0][rng.below(5) as usize];
+        let shapes = [0, 1].map(|_| shape([0.0, 0.25, 0.75, 1.0], [0.0, 0.0, 1.0, 1.0]));
+        let last =
+            if rng.chance(0.5) { shape(hard_times(rng), hard_openness(rng)) } else { shapes[1] };
+        let end = light - near + 2.0 * after;
+        settled(Curve::shutter(
+            placed(shapes[0], false, -2.0 * near, 2.0 * near),
+            placed(last, true, end, 2.0 * after),
+        ))
     }),
-    ("f touches 0 next to an end", |rng| {
-        let f = touching(square_at_the_end(rng), rng);
-        ramp([1.0; 3], raised(f, if rng.chance(0.5) { 0.0 } else { trace(rng) }))
+    ("least intervals", |rng| {
+        // In 256ths of the interval, which are ulps where it ends.
+        let mut cuts =
+            [0, 1].map(|_| [0.0, 1.0, 255.0, 256.0, rng.below(257) as f64][rng.below(5) as usize]);
+        cuts.sort_by(f64::total_cmp);
+        let shapes = [0, 1].map(|_| shape(hard_times(rng), hard_openness(rng)));
+        let start = 256.0 * 65_535.0;
+        let unit = exp2(rng.below(31) as i32 - 15);
+        let curve = Curve::shutter(
+            placed(shapes[0], false, unit * start, unit * cuts[0]),
+            placed(shapes[1], true, unit * (start + 256.0), unit * (256.0 - cuts[1])),
+        );
+        settled(curve)
     }),
-    ("symmetric, dips where time stands still", |rng| {
-        let height = rng.between(0.05, 1.0);
-        let low = -height / 3.0 * (1.0 - rng.power_of_ten(-9.0, -5.0));
-        let slow = if rng.chance(0.7) { -1.0 } else { trace(rng) - 1.0 };
-        ramp([1.0, slow, 1.0], [height, low, low, height])
-    }),
-    ("symmetric in other ways", |rng| {
-        let [inner, low] = [rng.between(-1.0, 1.0), rng.between(-0.33, 1.0)];
-        ramp([1.0, inner, 1.0], [1.0, low, low, 1.0])
-    }),
-    ("grazes", |rng| {
-        let (q, r) = (square(rng), square(rng));
-        let depth = -rng.graze();
-        let f = raised(touching(r, rng), depth);
-        let back = -rng.graze() / 3.0;
-        ramp(if rng.chance(0.5) { q.map(|d| d + back * (q[0] + q[2])) } else { [1.0; 3] }, f)
-    }),
-    ("next to no light, or none", |rng| {
-        let dim = rng.power_of_ten(-38.0, 0.0);
-        let f = [
-            [0.0; 4],
-            [0.0, 0.0, 0.0, dim],
-            [dim, 0.0, 0.0, 0.0],
-            [0.0, dim, 0.0, 0.0],
-            [dim, 0.0, 0.0, dim],
-        ][rng.below(5) as usize];
-        ramp(if rng.chance(0.5) { [1.0; 3] } else { square(rng) }, f)
-    }),
-    ("anything hard", |rng| {
-        let times = hard_times(rng);
-        ramp([times[1], times[2] - times[1], 1.0 - times[2]], hard_openness(rng))
-    }),
+    ("densities", |rng| random_density(rng.bits(), 0)),
+    ("anything hard", |rng| random_hard(rng.bits(), 0)),
 ];
 
 /// Curve `index` of a family.
 pub fn aimed(family: usize, seed: u64, index: u64) -> Curve {
     let mut rng = Rng::new(seed ^ (family as u64) << 40, index);
-    loop {
-        let one = FAMILIES[family].1(&mut rng);
-        let curve = placed(one, &mut rng);
-        if is_valid(&curve) {
-            let curve = if rng.chance(0.4) { hitting(&curve, &mut rng) } else { curve };
-            return if rng.chance(0.3) { curve.mirrored() } else { curve };
-        }
-    }
-}
-
-/// The square of a linear function with a root inside, as three Bernstein coefficients. Small integers, so that no
-/// rounding takes the double root away.
-fn square(rng: &mut Rng) -> [f64; 3] {
-    if rng.chance(0.2) {
-        return [1.0, -1.0, 1.0];
-    }
-    let most = [4, 16, 250][rng.below(3) as usize];
-    let [a, b] = [0, 1].map(|_| (1 + rng.below(most)) as f64);
-    [a * a, -a * b, b * b]
-}
-
-/// The same with the root next to an end: as near as 2⁻⁵⁰, and there `f32` round the last coefficient.
-fn square_at_the_end(rng: &mut Rng) -> [f64; 3] {
-    let near = exp2(-(5 + rng.below(46) as i32));
-    let q = [near * near, -near, 1.0];
-    if rng.chance(0.5) { q } else { [q[2], q[1], q[0]] }
-}
-
-/// That square times a linear function, as four Bernstein coefficients of at most 1.
-fn touching(q: [f64; 3], rng: &mut Rng) -> [f64; 4] {
-    let (c, d) = match rng.below(4) {
-        0 => (3.0, 3.0),
-        1 => (3.0, 0.0),
-        2 => (0.0, 3.0),
-        _ => ((3 * (1 + rng.below(9))) as f64, (3 * (1 + rng.below(9))) as f64),
-    };
-    let f =
-        [q[0] * c, (2.0 * q[1] * c + q[0] * d) / 3.0, (q[2] * c + 2.0 * q[1] * d) / 3.0, q[2] * d];
-    // By a power of two, which rounds nothing.
-    let most = c.max(d) * q[0].max(q[2]);
-    let scale = exp2(-(most.log2().ceil() as i32));
-    f.map(|f| f * scale)
-}
-
-/// Openness moved up, or down by less than 0, by this share of its size.
-fn raised(f: [f64; 4], by: f64) -> [f64; 4] {
-    let size = f[0].max(f[3]);
-    f.map(|f| (f + by * size) / (1.0 + by.max(0.0)))
+    let curve = accepted(FAMILIES[family].1(&mut rng));
+    let curve = if rng.chance(0.4) { hitting(&curve, &mut rng) } else { curve };
+    if rng.chance(0.3) { curve.mirrored() } else { curve }
 }
 
 /// Some power of ten.
@@ -139,83 +144,24 @@ fn trace(rng: &mut Rng) -> f64 {
     rng.power_of_ten(-16.0, -1.0)
 }
 
-/// From the differences of the times and the openness; a power of two long, or nearly.
-fn ramp(steps: [f64; 3], f: [f64; 4]) -> Ramp {
-    let sum: f64 = steps.iter().sum();
-    let scale = exp2(-(sum.log2().ceil() as i32));
-    let mut time = 0.0;
-    std::array::from_fn(|i| {
-        let at = time;
-        if i < 3 {
-            time += steps[i] * scale;
-        }
-        (at, f[i])
-    })
-}
-
-fn length(ramp: &Ramp) -> f64 {
-    ramp[3].0 - ramp[0].0
-}
-
-/// The ramp run backwards, again from time 0.
-fn back(ramp: Ramp) -> Ramp {
-    let end = ramp[3].0;
-    let [a, b, c, d] = ramp.map(|(t, f)| (end - t, f));
-    [d, c, b, a]
-}
-
-fn at(ramp: Ramp, start: f64) -> Points {
-    ramp.map(|(t, f)| ((start + t) as f32, f as f32))
-}
-
-/// All in one moment.
-fn instant(t: f64) -> Points {
-    [(t as f32, 1.0); 4]
-}
-
-/// A curve with this ramp: alone, twice, with its mirror image, or with another ramp of much less light.
-fn placed(one: Ramp, rng: &mut Rng) -> Curve {
-    let end = length(&one);
+/// Two ramps that meet, or with a plateau between them; from time 0 on, joined there, or later.
+fn joined(rng: &mut Rng, shapes: [Shape; 2], [first, last]: [f64; 2]) -> Curve {
     let plateau = [0.0, 0.0, 1.0, 0.375, 1e-7][rng.below(5) as usize];
-    // Where time is finest, a ramp may be as short as it likes: at the join at time 0.
-    let zero = if rng.chance(0.5) { 0.0 } else { -0.0 };
-    let mut curve = match rng.below(7) {
-        0 | 1 => Curve::shutter(at(one, 0.0), instant(end + plateau)),
-        2 => Curve::shutter(at(one, 0.0), at(one, end + plateau)),
-        3 => Curve::shutter(at(one, 0.0), at(back(one), end + plateau)),
-        4 => Curve::shutter(at(one, -end), at(back(one), plateau)),
-        5 => {
-            // The other ramp has next to nothing of the light, or nearly all.
-            let less = [12, 30, 60, 100, 130][rng.below(5) as usize];
-            let share = rng.below(less + 1) as i32;
-            let (shorter, darker) = (exp2(-share), exp2(share - less as i32));
-            let other = FAMILIES[rng.below(FAMILIES.len() as u64) as usize].1(rng);
-            let other = other.map(|(t, f)| (t * shorter, f * darker));
-            let other = if rng.chance(0.5) { other } else { back(other) };
-            Curve::shutter(at(one, -end), at(other, 0.0))
-        }
-        _ => {
-            let other = FAMILIES[rng.below(FAMILIES.len() as u64) as usize].1(rng);
-            Curve::shutter(at(one, -end), at(other, plateau))
-        }
-    };
-    for points in [&mut curve.opening, &mut curve.closing] {
-        for number in points.iter_mut().flat_map(|(t, f)| [t, f]) {
-            if *number == 0.0 {
-                *number = zero;
-            }
-        }
-    }
-    if rng.chance(0.2) { curve.scaled(exp2(rng.below(81) as i32 - 40) as f32) } else { curve }
+    let last = if rng.chance(0.2) { 0.0 } else { last };
+    let start = [0.0, -first, -first, (rng.below(5000)) as f64][rng.below(4) as usize];
+    settled(Curve::shutter(
+        placed(shapes[0], false, start, first),
+        placed(shapes[1], true, start + first + plateau + last, last),
+    ))
 }
 
 /// The curve with another end, such that an f32 is next to exactly the fraction at one of its landmarks.
 ///
 /// Without that, the rounding of u keeps it 2⁻²⁵ away from where the difficulty is; this leaves some 2⁻³⁵.
 fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
-    let exact = Exact::new(&Curve { closing: [(curve.open_end(), 1.0); 4], ..*curve });
+    let exact = Exact::new(&Curve { closing: instant(curve.open_end()), ..*curve });
     let ramp = exact.area().hi;
-    // A dark ramp has no landmark, and one of another magnitude none that a plateau could move.
+    // Of another magnitude than the landmark no plateau could move it.
     let landmarks = exact.landmarks();
     let landmark = landmarks[rng.below(landmarks.len() as u64) as usize].hi * ramp;
     let length = f64::from(curve.open_end()) - f64::from(curve.open_start());
@@ -229,7 +175,7 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
     };
     let ends = (0..1000).map(|i| f32::from_bits(first.to_bits() + i));
     let end = ends.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(first);
-    let hit = Curve { closing: [(end, 1.0); 4], ..*curve };
+    let hit = Curve { closing: instant(end), ..*curve };
     if is_valid(&hit) { hit } else { *curve }
 }
 

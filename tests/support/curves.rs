@@ -1,7 +1,8 @@
 //! The curves and the `u` that the tests judge: the named ones of `tests/data/curves.csv`, and fresh
 //! ones drawn at random from a fixed seed.
 
-use crate::support::oracle::lift::range;
+use shutter_curve::CubicBezier;
+
 use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,11 +90,6 @@ impl Rng {
         self.unit() < probability
     }
 
-    /// As far as rounding may take a curve past a bound, or any power of ten less.
-    pub fn graze(&mut self) -> f64 {
-        GRAZE * self.power_of_ten(-9.0, 0.0)
-    }
-
     fn sorted(&mut self) -> [f64; 2] {
         let (a, b) = (self.unit(), self.unit());
         [a.min(b), a.max(b)]
@@ -104,24 +100,21 @@ impl Rng {
 /// ramps that are not tiny, in one of the usual units and placements of time.
 pub fn random_typical(seed: u64, index: u64) -> Curve {
     let mut rng = Rng::new(seed, index);
-    drawn_until_valid(|| {
-        let fraction = rng.between(0.1, 1.0);
-        let split = rng.between(0.15, 0.85);
-        let ramps = [fraction * split, fraction * (1.0 - split)];
-        let length = [1.0, 1.0, 1e3, 20.833, 1e-3, 1.0 / 48.0][rng.below(6) as usize];
-        let start = [0.0, 0.0, 0.0, -0.5, 0.25][rng.below(5) as usize];
-        let shapes = [gentle(&mut rng), gentle(&mut rng)];
-        Curve::shutter(
-            placed(shapes[0], false, start * length, length * ramps[0]),
-            placed(shapes[1], true, (start + 1.0) * length, length * ramps[1]),
-        )
-    })
+    let fraction = rng.between(0.1, 1.0);
+    let split = rng.between(0.15, 0.85);
+    let ramps = [fraction * split, fraction * (1.0 - split)];
+    let length = [1.0, 1.0, 1e3, 20.833, 1e-3, 1.0 / 48.0][rng.below(6) as usize];
+    let start = [0.0, 0.0, 0.0, -0.5, 0.25][rng.below(5) as usize];
+    let shapes = [gentle(&mut rng), gentle(&mut rng)];
+    let opening = placed(shapes[0], false, start * length, length * ramps[0]);
+    let closing = placed(shapes[1], true, (start + 1.0) * length, length * ramps[1]);
+    accepted(settled(Curve::shutter(opening, closing)))
 }
 
 /// A ramp seen from the curve's outer end inwards: times from 0 to 1, and openness.
-type Shape = [(f64, f64); 4];
+pub type Shape = [(f64, f64); 4];
 
-fn shape(t: [f64; 4], f: [f64; 4]) -> Shape {
+pub fn shape(t: [f64; 4], f: [f64; 4]) -> Shape {
     std::array::from_fn(|i| (t[i], f[i]))
 }
 
@@ -140,7 +133,7 @@ fn gentle(rng: &mut Rng) -> Shape {
 }
 
 /// The shape in time, counted inwards from the outer end: forwards from an early one, backwards from a late.
-fn placed(shape: Shape, is_late: bool, outer: f64, length: f64) -> Points {
+pub fn placed(shape: Shape, is_late: bool, outer: f64, length: f64) -> Points {
     let sign = if is_late { -1.0 } else { 1.0 };
     let mut points = shape.map(|(t, f)| ((outer + sign * length * t) as f32, f as f32));
     if is_late {
@@ -149,42 +142,54 @@ fn placed(shape: Shape, is_late: bool, outer: f64, length: f64) -> Points {
     points
 }
 
-/// A valid curve with nasty features mixed at random.
+/// A curve with nasty features mixed at random, anywhere in what is accepted and on its edges.
 pub fn random_hard(seed: u64, index: u64) -> Curve {
-    let mut rng = Rng::new(seed, index);
-    drawn_until_valid(|| hard(&mut rng))
+    let rng = &mut Rng::new(seed, index);
+    let shapes = [0, 1].map(|_| shape(hard_times(rng), hard_openness(rng)));
+    let lengths = hard_lengths(rng);
+    let curve = hard(shapes, lengths, rng);
+    accepted(if rng.chance(0.4) { curve.mirrored() } else { curve })
 }
 
-/// As [`random_hard`], but a ramp with nothing after it, and as faint as a curve may be.
-pub fn random_single(seed: u64, index: u64) -> Curve {
-    let mut rng = Rng::new(seed, index);
-    drawn_until_valid(|| {
-        let curve = hard(&mut rng);
-        let points = if rng.chance(0.5) { curve.opening } else { curve.closing };
-        let least = if rng.chance(0.5) { -8.0 } else { -36.0 };
-        let scale = rng.power_of_ten(least, 0.0);
-        Curve::single(points.map(|(t, f)| (t, (f as f64 * scale) as f32)))
-    })
-}
-
-fn drawn_until_valid(mut draw: impl FnMut() -> Curve) -> Curve {
-    loop {
-        let curve = draw();
-        if is_valid(&curve) {
-            return curve;
-        }
+/// A ramp alone as a density, which may be dim, down to the least exposure, and dark at either end.
+pub fn random_density(seed: u64, index: u64) -> Curve {
+    let rng = &mut Rng::new(seed, index);
+    let (t, mut f) = (hard_times(rng), hard_openness(rng));
+    match rng.below(4) {
+        0 => f.reverse(),
+        1 => f[3] = 0.0,
+        _ => f[3] = rng.unit(),
     }
+    let Curve { opening: bright, .. } = hard([shape(t, f); 2], [1.0, 0.0, 0.0], rng);
+    // As dim as may be, or less.
+    let area = Exact::new(&Curve::single(bright)).area().hi;
+    let length = f64::from(bright[3].0) - f64::from(bright[0].0);
+    let least = LEAST_EXPOSURE * length / area * (1.0 + exp2(-20));
+    let dim = if rng.chance(0.3) { least } else { least.powf(rng.unit()) };
+    // Raised where a single bright place has hardly any light in it.
+    let raised = |f: f32| {
+        if least > 1.0 { f.max((exp2(-20) as f32).next_up()) } else { (f64::from(f) * dim) as f32 }
+    };
+    accepted(Curve::single(bright.map(|(t, f)| (t, raised(f)))))
 }
 
-fn hard(rng: &mut Rng) -> Curve {
-    let shapes = [0, 1].map(|_| {
-        let (t, mut f) = (hard_times(rng), hard_openness(rng));
-        if rng.chance(0.05) {
-            let dim = rng.power_of_ten(-12.0, 0.0);
-            f = f.map(|f| f * dim);
-        }
-        shape(t, f)
-    });
+pub const fn line(from: (f32, f32), to: (f32, f32)) -> Points {
+    CubicBezier::line(from, to).points()
+}
+
+/// All in one moment.
+pub const fn instant(t: f32) -> Points {
+    [(t, 1.0); 4]
+}
+
+/// The curve, which has to be one that is promised to be accepted.
+pub fn accepted(curve: Curve) -> Curve {
+    assert!(is_valid(&curve), "not accepted: {curve:?}");
+    curve
+}
+
+/// The sections' shares of the interval.
+fn hard_lengths(rng: &mut Rng) -> [f64; 3] {
     let mut length = |zero: f64| {
         if rng.chance(zero) {
             0.0
@@ -196,25 +201,48 @@ fn hard(rng: &mut Rng) -> Curve {
     };
     let lengths = [length(0.08), length(0.25), length(0.08)];
     let total: f64 = lengths.iter().sum();
-    let start = match rng.below(20) {
-        0..12 => 0.0,
-        12..15 => -total * rng.unit(),
-        15 => -total,
-        16 => total * rng.power_of_ten(-3.0, 3.0),
-        17 => 1e5 * total * rng.between(0.5, 1.0),
-        18 => -1e5 * total * rng.between(0.5, 1.0),
-        _ => total * rng.power_of_ten(3.0, 6.0),
+    if total > 0.0 { lengths.map(|length| length / total) } else { [0.0, 1.0, 0.0] }
+}
+
+/// The place of time 0, the unit of time and the sections, each at times as extreme as it may be.
+fn hard(shapes: [Shape; 2], lengths: [f64; 3], rng: &mut Rng) -> Curve {
+    let start = match rng.below(24) {
+        0..10 => 0.0,
+        10..12 => -rng.unit(),
+        12 => -1.0,
+        13..15 => -lengths[0],
+        15..17 => -lengths[0] - lengths[1],
+        17 => rng.power_of_ten(-3.0, 3.0),
+        // The interval is the least for its distance from time 0, on either side.
+        18 => 65_535.0,
+        19 => -65_536.0,
+        20 => -64_000.0 * rng.unit(),
+        _ => rng.power_of_ten(3.0, 4.8),
     };
     let scale = match rng.below(4) {
         0 | 1 => 1.0,
-        2 => exp2(rng.below(121) as i32 - 60),
+        2 => exp2(rng.below(127) as i32 - 63),
+        _ if start.abs() > 65_000.0 => exp2(-9),
         _ => rng.power_of_ten(-9.0, 9.0),
     };
-    let (outer, length) = ([start, start + total], [lengths[0], lengths[2]]);
     let mut curve = Curve::shutter(
-        placed(shapes[0], false, scale * outer[0], scale * length[0]),
-        placed(shapes[1], true, scale * outer[1], scale * length[1]),
+        placed(shapes[0], false, scale * start, scale * lengths[0]),
+        placed(shapes[1], true, scale * (start + 1.0), scale * lengths[2]),
     );
+    if lengths[0] < 1.0 && rng.chance(0.15) {
+        // A section of the least length, or little more.
+        let greatest = f64::from(curve.open_start().abs().max(curve.close_end().abs()));
+        let least = LEAST_SECTION * greatest * [1.0, 1.0, 1.5, 8.0][rng.below(4) as usize];
+        let after = |t: f32| (f64::from(t) + least) as f32;
+        match rng.below(3) {
+            0 => curve.opening[3].0 = after(curve.opening[0].0),
+            1 => curve.closing[0].0 = after(curve.opening[3].0),
+            _ => curve.closing[0].0 = (f64::from(curve.closing[3].0) - least) as f32,
+        }
+        let [start, end] = [curve.open_start(), curve.close_end()];
+        curve.opening[3].0 = curve.opening[3].0.clamp(start, end);
+        curve.closing[0].0 = curve.closing[0].0.clamp(curve.opening[3].0, end);
+    }
     if rng.chance(0.1) {
         for number in curve.opening.iter_mut().chain(&mut curve.closing).flat_map(|(t, f)| [t, f]) {
             if *number == 0.0 && rng.chance(0.5) {
@@ -222,18 +250,51 @@ fn hard(rng: &mut Rng) -> Curve {
             }
         }
     }
-    curve
+    settled(curve)
 }
 
-/// The square of `p - root`, as three Bernstein coefficients.
-fn double_root(root: f64) -> [f64; 3] {
-    let rest = 1.0 - root;
-    [root * root, -root * rest, rest * rest]
+/// The curve, where rounding has taken it over an edge of what is accepted: sections that became too short have no length,
+/// what is no ramp is fully open, and inner times move in, or nearer to each other.
+pub fn settled(curve: Curve) -> Curve {
+    let Curve { mut opening, mut closing } = curve;
+    let greatest = f64::from(opening[0].0.abs().max(closing[3].0.abs()));
+    let is_short = |from: f32, to: f32| {
+        let length = f64::from(to) - f64::from(from);
+        length <= 0.0 || length < LEAST_SECTION * greatest
+    };
+    if is_short(opening[0].0, opening[3].0) {
+        opening = opening.map(|(_, f)| (opening[0].0, f));
+    }
+    if is_short(closing[0].0, closing[3].0) {
+        closing = closing.map(|(_, f)| (closing[3].0, f));
+    }
+    if is_short(opening[3].0, closing[0].0) {
+        // The longer ramp takes it in.
+        let opens = opening[3].0 - opening[0].0 > closing[3].0 - closing[0].0;
+        *(if opens { &mut opening[3].0 } else { &mut closing[0].0 }) =
+            if opens { closing[0].0 } else { opening[3].0 };
+    }
+    for ramp in [&mut opening, &mut closing] {
+        let [from, to] = [ramp[0].0, ramp[3].0];
+        for point in [1, 2] {
+            ramp[point].0 = ramp[point].0.max(from).min(to);
+        }
+        let most = MOST_CROSSED * (f64::from(to) - f64::from(from));
+        let crossed = |ramp: &Points| f64::from(ramp[1].0) - f64::from(ramp[2].0);
+        if crossed(ramp) > most {
+            ramp[2].0 = ((f64::from(ramp[1].0) - most) as f32).clamp(from, to);
+        }
+        while crossed(ramp) > most {
+            (ramp[1].0, ramp[2].0) = (ramp[1].0.next_down().max(from), ramp[2].0.next_up().min(to));
+        }
+    }
+    Curve::shutter(opening, closing)
 }
 
+/// Control times in a ramp from 0 to 1.
 pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
-    match rng.below(13) {
+    match rng.below(14) {
         // Control times together at an end: the mass starts with a higher power.
         0 => [0.0, 0.0, a, 1.0],
         1 => [0.0, 0.0, 0.0, 1.0],
@@ -249,30 +310,23 @@ pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
             let trace = rng.power_of_ten(-7.0, -4.0);
             [0.0, b, 1.0 - trace, 1.0]
         }
-        // t' = 0 inside, control times mostly outside; then nearly so.
+        // The first point passes the second by as much as it may, at either end or between.
         7 | 8 => {
-            let slope = double_root(rng.between(0.05, 0.95));
-            let near = match rng.below(4) {
-                0 => -rng.graze(),
-                1 => 0.0,
-                _ => rng.power_of_ten(-8.0, -1.0),
-            };
-            let [d0, d1, d2] = slope.map(|d| d + near);
-            let sum = d0 + d1 + d2;
-            [0.0, d0 / sum, (d0 + d1) / sum, 1.0]
+            let first =
+                [MOST_CROSSED, 1.0, MOST_CROSSED + a * (1.0 - MOST_CROSSED)][rng.below(3) as usize];
+            [0.0, first, first - MOST_CROSSED, 1.0]
         }
-        // Anything; what turns back is drawn anew.
-        9 => [0.0, rng.between(-0.2, 1.5), rng.between(-0.5, 1.2), 1.0],
-        // Back by a trace at the start, or before the end; 1 itself hides a trace, so that this is rare.
-        10 if rng.chance(0.3) => [0.0, a, 1.0 + rng.graze() / 3.0, 1.0],
-        10 => [0.0, -rng.graze() / 3.0, b, 1.0],
+        // By less.
+        9 => [0.0, b, a.max(b - MOST_CROSSED), 1.0],
+        10 => [0.0, a, a, 1.0],
         _ => [0.0, a, b, 1.0],
     }
 }
 
+/// Openness from the outer end to the join, where it is 1.
 pub fn hard_openness(rng: &mut Rng) -> [f64; 4] {
     let [a, b] = rng.sorted();
-    match rng.below(15) {
+    match rng.below(12) {
         // Flat at the outer end, exactly and nearly.
         0 => [0.0, 0.0, a, 1.0],
         1 => [0.0, 0.0, 0.0, 1.0],
@@ -280,68 +334,54 @@ pub fn hard_openness(rng: &mut Rng) -> [f64; 4] {
             let trace = rng.power_of_ten(-9.0, -4.0);
             [0.0, a * trace, trace, 1.0]
         }
-        3 => [rng.power_of_ten(-12.0, -3.0), 0.0, a, 1.0],
-        // Touching 0 or 1 inside, exactly (but for rounding) and nearly.
-        4..8 => {
-            let [q0, q1, q2] = double_root(rng.between(0.05, 0.95));
-            let (c, d) = (rng.unit(), rng.unit());
-            let touching =
-                [q0 * c, (2.0 * q1 * c + q0 * d) / 3.0, (q2 * c + 2.0 * q1 * d) / 3.0, q2 * d];
-            // The polynomial is at most max(c, d) on [0, 1].
-            let near = match rng.below(4) {
-                0 => -rng.graze() * c.max(d),
-                1 => 0.0,
-                _ => rng.power_of_ten(-8.0, -1.0),
-            };
-            let touching = touching.map(|f| (f + near) / (c.max(d) + near));
-            if rng.chance(0.4) { touching.map(|f| 1.0 - f) } else { touching }
-        }
-        // Jumps at both ends; dark at the inner one; no light at all.
-        8 => [0.0; 4].map(|_| rng.unit()),
-        9 => [1.0, b, 0.0, 0.0],
-        10 if rng.chance(0.2) => [0.0; 4],
-        10 => [1.0, 1.0, 1.0, rng.unit()],
-        // Control values outside [0, 1]; what leaves it is drawn anew.
-        11 => [rng.unit(), rng.between(-0.5, 1.5), rng.between(-0.5, 1.5), rng.unit()],
-        // Below 0 by a trace at an end.
-        12 if rng.chance(0.5) => [-rng.graze(), a, b, 1.0],
-        12 => [1.0, b, a, -rng.graze()],
-        13 => [0.0, rng.between(0.0, 1.5), rng.between(-0.5, 1.5), 1.0],
+        3 => [rng.power_of_ten(-30.0, -3.0), 0.0, a, 1.0],
+        4 => [rng.power_of_ten(-12.0, -3.0), 0.0, 0.0, 1.0],
+        // A jump at the outer end, with a dip inside, and without.
+        5 => [1.0, 0.0, 0.0, 1.0],
+        6 => [rng.unit(), 0.0, b, 1.0],
+        7 => [rng.unit(), rng.unit(), rng.unit(), 1.0],
+        8 => [1.0; 4],
+        // Flat at the join.
+        9 => [0.0, 1.0, 1.0, 1.0],
+        10 => [0.0, b, a, 1.0],
         _ => [0.0, a, b, 1.0],
     }
 }
 
-/// How far rounding may take f or t' past its bound: what the library accepts, and no more than `f64` doubts.
-const GRAZE: f64 = (1.0 - 1e-6) / (1u64 << 22) as f64;
+// What is accepted, told once more without the library.
+pub const MOST_CROSSED: f64 = 15.0 / 16.0;
+pub const LEAST_INTERVAL: f64 = 1.0 / 65_536.0;
+pub const LEAST_SECTION: f64 = 1.0 / 16_777_216.0;
+pub const LEAST_EXPOSURE: f64 = 1.0 / 1_048_576.0;
 
 /// Is this a curve that the library promises to accept?
 pub fn is_valid(curve: &Curve) -> bool {
-    let times = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
-    let length = times[3] as f64 - times[0] as f64;
-    if !times.is_sorted() || !(exp2(-64)..=exp2(64)).contains(&length) {
-        return false;
-    }
-    if ![curve.opening, curve.closing].iter().all(is_ramp) {
-        return false;
-    }
-    // The area and its reciprocal are normal numbers of f32.
-    (exp2(-125)..=exp2(125)).contains(&Exact::new(curve).area().hi)
-}
-
-fn is_ramp(points: &Points) -> bool {
-    let (t, f) = (points.map(|p| p.0 as f64), points.map(|p| p.1 as f64));
-    let length = t[3] - t[0];
-    // Time stays between its ends, but for what a start at the least slope explains, ...
-    let [first, last] = range(t.map(|time| time - t[0]));
-    let leaves = (-first).max(last - length) > 0.25 * GRAZE * GRAZE * length;
-    // ... and runs forward: d0 (1-p)² + 2 d1 p (1-p) + d2 p² is a third of t'.
-    let [d0, d1, d2] = [t[1] - t[0], t[2] - t[1], t[3] - t[2]];
-    let slope = |p: f64| d0 * (1.0 - p) * (1.0 - p) + 2.0 * d1 * p * (1.0 - p) + d2 * p * p;
-    let slowest = (d0 - d1) / (d0 - 2.0 * d1 + d2);
-    let inside = if slowest > 0.0 && slowest < 1.0 { slope(slowest) } else { d0 };
-    let runs_forward = d0.min(d2).min(inside) >= -GRAZE / 3.0 * length;
-    let [low, high] = range(f);
-    !leaves && runs_forward && low >= -GRAZE * high.max(-low) && high <= 1.0 + GRAZE
+    let [start, open, close, end] =
+        [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+    let span = |from: f32, to: f32| f64::from(to) - f64::from(from);
+    let (length, greatest) = (span(start, end), f64::from(start.abs().max(end.abs())));
+    let numbers = curve.opening.into_iter().chain(curve.closing).flat_map(|(t, f)| [t, f]);
+    let in_box = |ramp: Points| {
+        let times = ramp.map(|(t, _)| t);
+        times.iter().all(|t| times[0] <= *t && *t <= times[3])
+            && ramp.iter().all(|(_, f)| (0.0..=1.0).contains(f))
+            && span(times[2], times[1]) <= MOST_CROSSED * span(times[0], times[3])
+    };
+    let has_length = |from, to| span(from, to) >= LEAST_SECTION * greatest;
+    let is_density = open == close && (start == open || close == end);
+    let is_open = |from, to, f| from == to || is_density || f == 1.0;
+    numbers.into_iter().all(f32::is_finite)
+        && [start, open, close, end].is_sorted()
+        && length >= LEAST_INTERVAL * greatest
+        && (exp2(-64)..=exp2(64)).contains(&length)
+        && [(start, open), (open, close), (close, end)]
+            .iter()
+            .all(|(a, b)| a == b || has_length(*a, *b))
+        && in_box(curve.opening)
+        && in_box(curve.closing)
+        && is_open(start, open, curve.opening[3].1)
+        && is_open(close, end, curve.closing[0].1)
+        && Exact::new(curve).area().hi >= LEAST_EXPOSURE * length
 }
 
 /// The `u` most likely to break a solver on this curve, and some `fresh` random ones.

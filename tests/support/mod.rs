@@ -5,6 +5,7 @@ pub mod aimed;
 pub mod baseline;
 pub mod cases;
 pub mod curves;
+pub mod designs;
 pub mod oracle;
 pub mod peers;
 pub mod promise;

@@ -326,35 +326,6 @@ pub fn tolerant(ramp: &PowerRamp<f32>, t: f32) -> f32 {
     p
 }
 
-/// The same in a web library, there in doubles: a table of 11 entries, then 4 Newton steps or, where
-/// the curve is flat, 10 halvings.
-pub fn eleven_entries(ramp: &PowerRamp<f64>, t: f64) -> f64 {
-    let at = |p| horner(&ramp.t, p).0;
-    let cell = (1..10).take_while(|&i| at(f64::from(i) / 10.0) <= t).count();
-    let (low, high) = (cell as f64 / 10.0, (cell + 1) as f64 / 10.0);
-    let mut p = low + (t - at(low)) / (at(high) - at(low)) * (high - low);
-    let slope = horner(&ramp.t, p).1;
-    if slope >= 0.001 {
-        for _ in 0..4 {
-            let (value, slope) = horner(&ramp.t, p);
-            if slope == 0.0 {
-                break;
-            }
-            p -= (value - t) / slope;
-        }
-    } else if slope != 0.0 {
-        let (mut low, mut high) = (low, high);
-        for _ in 0..10 {
-            p = 0.5 * (low + high);
-            if (at(p) - t).abs() <= 1e-7 {
-                break;
-            }
-            *(if at(p) > t { &mut high } else { &mut low }) = p;
-        }
-    }
-    p
-}
-
 /// A microcontroller GUI's: everything in 1024ths. `x` and the answer are of the curve from (0, 0) by
 /// (x1, y1) and (x2, y2) to (1024, 1024).
 pub fn fixed_point(x: i64, [x1, y1, x2, y2]: [i64; 4]) -> i64 {

@@ -24,6 +24,11 @@ pub enum Pulses {
 
 pub const PULSES: [Pulses; 3] = [Pulses::Triggers, Pulses::Weighted, Pulses::Random];
 
+/// The fraction at which trigger `i` of `n` is due.
+pub fn middle_of_share(i: u32, n: u32) -> f32 {
+    (2 * i + 1) as f32 / (2 * n) as f32
+}
+
 /// The brightness of each pixel's middle, 1 for a thing that stands still.
 pub struct Picture {
     exact: Vec<f64>,
@@ -61,7 +66,9 @@ impl Picture {
         let mut rng = Rng::new(seed, u64::from(n));
         // Time and brightness of each.
         let mut flashes: Vec<(f32, f32)> = match pulses {
-            Pulses::Triggers => self.ours.trigger_times(n).map(|t| (t, 1.0)).collect(),
+            Pulses::Triggers => {
+                (0..n).map(|i| (self.ours.inverse_cdf(middle_of_share(i, n)), 1.0)).collect()
+            }
             Pulses::Random => {
                 (0..n).map(|_| (self.ours.inverse_cdf(rng.unit() as f32), 1.0)).collect()
             }

@@ -1,19 +1,17 @@
 //! The tests' oracle: a shutter curve, its cdf and its inverse in double-double arithmetic.
 //!
-//! It shares no code with the library and takes the `f32` inputs as exact numbers. A curve that rounding takes below
-//! a bound is lifted onto it first, as the library's documentation says ([`lift`]); from then on openness and t' are
-//! nowhere below 0, and every promise is about that curve. Every ramp is expanded in powers of the distance `x` from
-//! each of its two ends, so that times, openness and mass near an end are accurate relative to their distance from
-//! it, however flat the curve is there.
+//! It shares no code with the library and takes the `f32` inputs as exact numbers. Every ramp is expanded in powers of
+//! the distance `x` from each of its two ends, so that times, openness and mass near an end are accurate relative to
+//! their distance from it, however flat the curve is there.
 
 pub mod dd;
-pub mod lift;
 
 use std::cell::OnceCell;
 
 pub use dd::{Dd, exp2};
-use lift::Lifted;
-pub use lift::Points;
+
+/// A cubic Bezier's control points as (time, openness).
+pub type Points = [(f32, f32); 4];
 
 /// Opening ramp, plateau with openness 1, closing ramp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,9 +172,9 @@ struct End {
 }
 
 impl End {
-    fn new(ramp: &Lifted, sign: f64) -> Self {
-        let way = cubic(ramp.steps);
-        let f = ramp.openness.map(Dd::from);
+    fn new(points: Points, sign: f64) -> Self {
+        let (t, f) = (points.map(|p| Dd::from(p.0)), points.map(|p| Dd::from(p.1)));
+        let way = cubic([t[1] - t[0], t[2] - t[1], t[3] - t[2]].map(|d| d.scale(sign)));
         let rise = cubic([f[1] - f[0], f[2] - f[1], f[3] - f[2]]);
         let openness = [f[0], rise[0], rise[1], rise[2]];
         let mut mass = [Dd::ZERO; 6];
@@ -191,8 +189,8 @@ impl End {
         let (way, rise, mass) = (Poly { c: way }, Poly { c: rise }, Poly { c: mass });
         let half = Dd::from(0.5);
         Self {
-            time: ramp.ends[0] as f64,
-            openness: ramp.openness[0] as f64,
+            time: t[0].hi,
+            openness: f[0].hi,
             sign,
             way,
             rise,
@@ -213,7 +211,6 @@ fn cubic(d: [Dd; 3]) -> [Dd; 3] {
 struct Ramp {
     ends: [End; 2],
     mass: Dd,
-    is_lifted: bool,
     /// The greatest openness on the ramp.
     greatest: f64,
 }
@@ -226,11 +223,11 @@ struct Spot {
 }
 
 impl Ramp {
-    fn new(lifted: Lifted) -> Self {
-        let ends = [End::new(&lifted, 1.0), End::new(&lifted.reversed(), -1.0)];
+    fn new(points: Points) -> Self {
+        let [a, b, c, d] = points;
+        let ends = [End::new(points, 1.0), End::new([d, c, b, a], -1.0)];
         let mass = ends[0].mass.at(Dd::ONE);
-        let is_lifted = lifted.is_lifted;
-        let mut ramp = Self { ends, mass, is_lifted, greatest: 0.0 };
+        let mut ramp = Self { ends, mass, greatest: 0.0 };
         ramp.greatest = ramp.turns().iter().fold(0.0, |most, turn| most.max(turn[1].hi));
         ramp
     }
@@ -291,13 +288,19 @@ impl Ramp {
         ends.into_iter().chain(inside).collect()
     }
 
-    /// The parameters of the interior extrema of f and t'.
-    fn flat_points(&self) -> Vec<f64> {
+    /// The interior extrema of f and t', and the middles of the ramp's parameter, mass and time.
+    fn spots(&self) -> Vec<Spot> {
+        if self.is_empty() {
+            return Vec::new();
+        }
         let way = &self.ends[0].way.c;
         let slowest = -way[1].hi / (3.0 * way[2].hi);
         let mut points = self.extrema_of_openness();
         points.extend(Some(slowest).filter(|p| *p > 0.0 && *p < 1.0));
-        points
+        let mut spots: Vec<Spot> = points.into_iter().chain([0.5]).map(|p| self.spot(p)).collect();
+        let middle = Dd::from(0.5 * (self.ends[0].time + self.ends[1].time));
+        spots.extend([self.at_mass(0, self.mass.scale(0.5)), self.at_time(middle)]);
+        spots
     }
 }
 
@@ -343,37 +346,17 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// The curve, lifted where rounding takes it below a bound.
     pub fn new(curve: &Curve) -> Self {
-        Self::of(curve, Lifted::new)
-    }
-
-    /// The curve as it is, for comparison with what others computed for it.
-    pub fn as_given(curve: &Curve) -> Self {
-        Self::of(curve, Lifted::as_given)
-    }
-
-    fn of(curve: &Curve, ramp: impl Fn(Points) -> Lifted) -> Self {
-        let [opening, closing] =
-            [curve.opening, curve.closing].map(|points| Ramp::new(ramp(points)));
+        let [opening, closing] = [curve.opening, curve.closing].map(Ramp::new);
         let plateau = Dd::from(curve.close_start()) - Dd::from(curve.open_end());
         let area = opening.mass + plateau + closing.mass;
         let ramps = [&opening, &closing].into_iter().filter(|ramp| !ramp.is_empty());
         let turns = ramps.flat_map(Ramp::turns).collect();
-        let mut exact = Self { curve: *curve, opening, closing, plateau, area, turns };
-        for turn in 0..exact.turns.len() {
-            exact.turns[turn][1] = exact.bounded(exact.turns[turn][1]);
-        }
-        exact
+        Self { curve: *curve, opening, closing, plateau, area, turns }
     }
 
     pub fn curve(&self) -> &Curve {
         &self.curve
-    }
-
-    /// Does rounding take the curve below a bound, so that it is lifted?
-    pub fn is_lifted(&self) -> bool {
-        self.opening.is_lifted || self.closing.is_lifted
     }
 
     /// `∫ f dt`; on a shutter the exposure.
@@ -469,9 +452,9 @@ impl Exact {
     fn openness_at(&self, place: Place) -> Dd {
         match place {
             Place::Outside => Dd::ZERO,
-            Place::Opening(spot) => self.bounded(self.opening.openness(spot)),
+            Place::Opening(spot) => self.opening.openness(spot),
             Place::Plateau => Dd::ONE,
-            Place::Closing(spot) => self.bounded(self.closing.openness(spot)),
+            Place::Closing(spot) => self.closing.openness(spot),
         }
     }
 
@@ -495,11 +478,6 @@ impl Exact {
     fn opens_at(&self, t: Dd) -> bool {
         let [open, close] = [self.curve.open_end(), self.curve.close_start()].map(Dd::from);
         t < open || (t == open && open == close && !self.opening.is_empty())
-    }
-
-    /// Rounding may let the openness pass 1 by a trace, and the oracle's own may miss 0 by less.
-    fn bounded(&self, f: Dd) -> Dd {
-        f.min(Dd::ONE).max(Dd::ZERO)
     }
 
     pub fn pdf(&self, t: f32) -> Dd {
@@ -560,37 +538,25 @@ impl Exact {
         Near { exact: self, t, values: Default::default() }
     }
 
-    /// The u at which something changes: the sections' boundaries, and where the density or t' has an
-    /// interior minimum or maximum.
+    /// The u at which something changes: first the joins, then where the density or t' has an interior minimum or
+    /// maximum, and the middles of ramps.
     pub fn landmarks(&self) -> Vec<Dd> {
         let mut masses = vec![self.opening.mass, self.opening.mass + self.plateau];
         let ramps = [(&self.opening, Dd::ZERO), (&self.closing, masses[1])];
         for (ramp, before) in ramps {
-            for p in ramp.flat_points() {
-                masses.push(before + ramp.masses(ramp.spot(p))[0]);
-            }
+            masses.extend(ramp.spots().into_iter().map(|spot| before + ramp.masses(spot)[0]));
         }
         masses.into_iter().map(|mass| mass / self.area).collect()
     }
 
-    /// The fraction at which time runs slowest on a ramp, or at its end.
-    pub fn slowest(&self, ramp: usize) -> f64 {
-        let (ramp, before) = match ramp {
-            0 => (&self.opening, Dd::ZERO),
-            _ => (&self.closing, self.opening.mass + self.plateau),
-        };
-        let way = &ramp.ends[0].way.c;
-        let p = (-way[1].hi / (3.0 * way[2].hi)).clamp(0.0, 1.0);
-        ((before + ramp.masses(ramp.spot(p))[0]) / self.area).hi
-    }
-
-    /// The times of the [`landmarks`](Self::landmarks), and of the ends.
+    /// The times of the ends and the joins, of 1/2, and of the other [`landmarks`](Self::landmarks).
     pub fn landmark_times(&self) -> Vec<Dd> {
         let curve = &self.curve;
         let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
         let mut times = joins.map(Dd::from).to_vec();
+        times.push(self.inverse_cdf(0.5));
         for ramp in [&self.opening, &self.closing] {
-            times.extend(ramp.flat_points().into_iter().map(|p| ramp.time(ramp.spot(p))));
+            times.extend(ramp.spots().into_iter().map(|spot| ramp.time(spot)));
         }
         times
     }
@@ -610,26 +576,25 @@ impl Near<'_> {
         value_ulp(got, values, |value| ulp_f32(value.max(floor)))
     }
 
-    /// The error of an openness of `got`, see [`value_ulp`].
-    pub fn openness_ulp(&self, got: f32) -> f64 {
-        self.density_ulp(got, Dd::ONE)
+    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor` of the ramp's greatest openness.
+    pub fn openness_ulp(&self, got: f32, floor: f64) -> f64 {
+        self.density_ulp(got, Dd::ONE, floor)
     }
 
-    /// The error of a pdf of `got`, see [`value_ulp`].
-    pub fn pdf_ulp(&self, got: f32) -> f64 {
-        self.density_ulp(got, self.exact.normalization())
+    /// The same of a pdf.
+    pub fn pdf_ulp(&self, got: f32, floor: f64) -> f64 {
+        self.density_ulp(got, self.exact.normalization(), floor)
     }
 
-    /// An ulp is at least 2⁻³⁸ of the ramp's greatest openness, which is what is promised in a deep dip.
-    fn density_ulp(&self, got: f32, scale: Dd) -> f64 {
+    fn density_ulp(&self, got: f32, scale: Dd, floor: f64) -> f64 {
         let (exact, t) = (self.exact, Dd::from(self.t));
-        let ramp = if exact.opens_at(t) { &exact.opening } else { &exact.closing };
-        let least = exp2(-38) * ramp.greatest * scale.hi;
         let samples = self.values().map(|[_, openness]| openness);
         // Between two samples the openness may have an extremum, or a ramp its end.
         let reach = exact.ulp_of_time(t);
         let turns = exact.turns.iter().filter(|turn| (turn[0] - t).hi.abs() <= reach);
         let values = samples.chain(turns.map(|turn| turn[1])).map(|f| f * scale);
+        let ramp = if exact.opens_at(t) { &exact.opening } else { &exact.closing };
+        let least = floor * ramp.greatest * scale.hi;
         value_ulp(got, values, |value| ulp_f32(value).max(least))
     }
 

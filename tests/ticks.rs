@@ -1,0 +1,497 @@
+//! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks themselves.
+
+mod support;
+
+use shutter_curve::{CubicBezier, Pulse, ScheduleError, ShutterCurve, TriggerTicks, valid};
+use support::cases::shutter;
+use support::curves::{Kind, named, random_hard, random_typical};
+use support::oracle::{Curve, Dd, Exact};
+use support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
+
+const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
+    [0.0, 0.25, 0.75, 1.0],
+    [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
+));
+
+#[test]
+fn a_static_curve_is_the_one_built_at_run_time() {
+    static CURVE: ShutterCurve = SOFT;
+    let again = ShutterCurve::shutteropening(
+        [0.0, 0.25, 0.75, 1.0],
+        [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
+    );
+    assert_eq!(Ok(CURVE.clone()), again);
+}
+
+#[test]
+fn fractions_are_of_the_interval() {
+    let a = SOFT;
+    let b = ShutterCurve::shutteropening(
+        [8.0, 9.0, 11.0, 12.0],
+        [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
+    )
+    .unwrap();
+    for i in 0..=64 {
+        let u = i as f32 / 64.0;
+        assert!((8.0 + 4.0 * a.inverse_cdf(u) - b.inverse_cdf(u)).abs() < 2e-6);
+    }
+}
+
+#[test]
+fn ticks_count_from_the_start() {
+    let curve = ShutterCurve::linear(1000.0, 1000.0, 1001.0, 1001.0).unwrap();
+    let ticks: Vec<u32> = curve.trigger_ticks(4, 8).unwrap().collect();
+    assert_eq!(ticks, [1, 3, 5, 7]);
+    let before = ShutterCurve::linear(-1.0, -1.0, 0.0, 0.0).unwrap();
+    assert!(before.trigger_ticks(4, 8).unwrap().eq([1, 3, 5, 7]));
+}
+
+#[test]
+fn many_triggers() {
+    let mut ticks = SOFT.trigger_ticks(MOST_TRIGGERS, 1 << 31).unwrap();
+    assert_eq!(ticks.len(), MOST_TRIGGERS as usize);
+    assert!(ticks.next().unwrap() < ticks.nth(1000).unwrap());
+    let refused = Some(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+    for n in [MOST_TRIGGERS + 1, 1 << 31, u32::MAX] {
+        assert_eq!(SOFT.trigger_ticks(n, 1 << 31).err(), refused);
+        assert_eq!(SOFT.pulse_ticks(n, 0.5, 1 << 31).err(), refused);
+        assert_eq!(SOFT.most_triggers(n, 1000, 0).err(), refused);
+    }
+    // The last one, and none beyond.
+    let curve = ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap();
+    let frame = || curve.trigger_ticks(MOST_TRIGGERS, 1000).unwrap();
+    assert_eq!(frame().nth_back(0), Some(1000));
+    assert_eq!(frame().nth_back(MOST_TRIGGERS as usize), None);
+}
+
+#[test]
+fn no_triggers() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().next(), None);
+    assert_eq!(curve.trigger_ticks(0, 1000).unwrap().nth(1), None);
+}
+
+#[test]
+fn tick_rates() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    let error = |hz| curve.trigger_ticks(4, hz).err();
+    assert_eq!(error(0), Some(ScheduleError::TickRateZero));
+    assert_eq!(error(1), None);
+    assert_eq!(error(1 << 31), None);
+    let too_high = Some(ScheduleError::TickRateTooHigh { most: 1 << 31 });
+    assert_eq!(error((1 << 31) + 1), too_high);
+    assert_eq!(error(u32::MAX), too_high);
+    // The rate that the error names is the greatest, on intervals of any length.
+    for length in [0.51, 0.7, 1.0, 10.0, 12345.678, 2.0f32.powi(31)] {
+        let curve = ShutterCurve::linear(0.0, 0.0, length, length).unwrap();
+        let Err(ScheduleError::TickRateTooHigh { most }) = curve.trigger_ticks(1, u32::MAX) else {
+            panic!("{length}: the interval has more than 2^31 ticks");
+        };
+        assert!(most > 0 && curve.trigger_ticks(1, most).is_ok(), "{length}: {most}");
+        let error = curve.trigger_ticks(1, most + 1).err();
+        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { most }), "{length}");
+    }
+    let long = ShutterCurve::linear(0.0, 0.0, 1e10, 1e10).unwrap();
+    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { most: 0 }));
+}
+
+#[test]
+fn slices_for_a_schedule() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    // n = 0: nothing to keep, but the rate is still one.
+    assert_eq!(curve.schedule_into(&mut [], 1000, u32::MAX), Ok(()));
+    assert_eq!(curve.schedule_into(&mut [], 0, 0), Err(ScheduleError::TickRateZero));
+    let too_high = ScheduleError::TickRateTooHigh { most: 1 << 31 };
+    assert_eq!(curve.schedule_into(&mut [0; 4], u32::MAX, 0), Err(too_high));
+    // One trigger keeps any gap; two do not.
+    assert_eq!(curve.schedule_into(&mut [0], 1000, u32::MAX), Ok(()));
+    let gap = ScheduleError::GapTooSmall { trigger: 1, gap: 375, min_gap: u32::MAX };
+    assert_eq!(curve.schedule_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
+    // More triggers than ticks.
+    let Err(error) = curve.schedule_into(&mut [0; 5000], 1000, 1) else {
+        panic!("5000 ticks of 1000")
+    };
+    assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
+    assert_eq!(curve.schedule_into(&mut [0; 5000], 1000, 0), Ok(()));
+}
+
+#[test]
+fn the_most_triggers_of_anything() {
+    let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
+    assert_eq!(curve.most_triggers(0, 1000, 1), Ok(0));
+    assert_eq!(curve.most_triggers(1, 1000, u32::MAX), Ok(1));
+    // A gap of 0 asks for nothing.
+    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
+    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.most_triggers(2, 1000, 376), Ok(1));
+    assert_eq!(curve.most_triggers(2, 1000, 375), Ok(2));
+    assert_eq!(curve.most_triggers(9, 0, 1), Err(ScheduleError::TickRateZero));
+    let too_high = ScheduleError::TickRateTooHigh { most: 1 << 31 };
+    assert_eq!(curve.most_triggers(9, u32::MAX, 1), Err(too_high));
+    // As many as there are ticks, and none to spare.
+    let most = curve.most_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
+    assert!((1535..=1537).contains(&most), "{most}");
+}
+
+/// Every way through an iterator meets the same items.
+fn judge_iterator<T, I>(all: &[T], frame: impl Fn() -> I)
+where
+    T: Copy + PartialEq + std::fmt::Debug,
+    I: DoubleEndedIterator<Item = T> + ExactSizeIterator + Clone,
+{
+    let n = all.len();
+    assert_eq!(frame().len(), n);
+    assert_eq!(frame().size_hint(), (n, Some(n)));
+    assert!(frame().rev().eq(all.iter().rev().copied()));
+    assert_eq!((frame().last(), frame().count()), (all.last().copied(), n));
+    for i in 0..n + 2 {
+        let mut ahead = frame();
+        assert_eq!(ahead.nth(i), all.get(i).copied());
+        let ahead_of = all.get(i + 1..).unwrap_or(&[]);
+        assert_eq!(ahead.len(), ahead_of.len());
+        assert!(ahead.clone().eq(ahead_of.iter().copied()));
+        let mut back = frame();
+        let from_back = n.checked_sub(i + 1);
+        assert_eq!(back.nth_back(i), from_back.map(|i| all[i]));
+        assert!(back.eq(all[..from_back.unwrap_or(0)].iter().copied()));
+    }
+    // From both ends in turn, to where they meet, and no farther.
+    let (mut both, mut met) = (frame(), (Vec::new(), Vec::new()));
+    while both.len() > 0 {
+        met.0.extend(both.next());
+        met.1.extend(both.next_back());
+    }
+    met.0.extend(met.1.into_iter().rev());
+    assert_eq!(met.0, all);
+    assert_eq!((both.next(), both.next_back(), both.nth(3), both.len()), (None, None, None, 0));
+}
+
+#[test]
+fn iterators_from_either_end_and_anywhere() {
+    let mut ticks = SOFT.trigger_ticks(3, 1000).unwrap();
+    ticks.next();
+    assert_eq!(format!("{ticks:?}"), "TriggerTicks { left: 1..3, .. }");
+    for n in [0, 1, 2, 7, 64, 300] {
+        // Direct, and direct with some searched for.
+        for hz in [1_000_000, 1 << 24] {
+            let ticks: Vec<u32> = SOFT.trigger_ticks(n, hz).unwrap().collect();
+            judge_iterator(&ticks, || SOFT.trigger_ticks(n, hz).unwrap());
+        }
+        let pulses: Vec<Pulse> = SOFT.pulse_ticks(n, 0.4, 1_000_000).unwrap().collect();
+        judge_iterator(&pulses, || SOFT.pulse_ticks(n, 0.4, 1_000_000).unwrap());
+    }
+}
+
+/// An interrupt handler's: of a curve in a static, and named.
+#[test]
+fn a_static_can_hold_an_iterator() {
+    static CURVE: ShutterCurve = SOFT;
+    static FRAME: std::sync::Mutex<Option<TriggerTicks<'static>>> = std::sync::Mutex::new(None);
+    *FRAME.lock().unwrap() = CURVE.trigger_ticks(3, 1000).ok();
+    let next = || FRAME.lock().unwrap().as_mut().and_then(Iterator::next);
+    let ticks: Vec<u32> = std::iter::from_fn(next).collect();
+    assert!(ticks.iter().copied().eq(CURVE.trigger_ticks(3, 1000).unwrap()));
+    assert_eq!(ticks[1], 500);
+}
+
+/// How many triggers need no search; that none of them does, `promises.rs` holds.
+#[test]
+fn direct_frames_are_large() {
+    let typical = named().into_iter().filter(|one| one.kind == Kind::Typical);
+    for one in typical {
+        let curve = shutter::<8>(&one.curve);
+        let most = curve.direct_triggers();
+        println!("{}: {most}", one.name);
+        assert!(most >= 127, "{}: {most}", one.name);
+        // No frame of one more is direct, unless the plateau's line is the limit, or what is left out for rounding.
+        let frame = curve.trigger_ticks(most + 2 + most / 512, 1).unwrap();
+        let last = frame.len() as u32 - 1;
+        assert!(!frame.is_direct(0) || !frame.is_direct(last), "{} has more", one.name);
+    }
+    let least = (0..2000).map(|i| shutter::<8>(&random_typical(2024, i)).direct_triggers()).min();
+    println!("random typical: at least {least:?}");
+    assert!(least >= Some(64), "{least:?}");
+    let none = (0..1000).filter(|i| shutter::<8>(&random_hard(2024, *i)).direct_triggers() == 0);
+    let none = none.count();
+    println!("hard: {none} of 1000 have none");
+    assert!(none < 200, "{none}");
+}
+
+/// Where the opening ramp has exactly half of the light and a plateau follows, ticks count 1/2 from the later end; a tent
+/// has no plateau at all.
+#[test]
+fn a_join_at_half_or_anywhere_needs_no_search() {
+    for (open, closes) in [(1.0, 2.0), (2.0, 0.0), (0.5, 3.0)] {
+        let opening = [(0.0, 0.0), (1.0, 0.0), (3.0, 1.0), (4.0, 1.0)];
+        let closing = [0.0, 0.25, 0.75, 1.0].map(|part| 4.0 + open + closes * part);
+        let closing = std::array::from_fn(|i| (closing[i], [1.0, 1.0, 0.0, 0.0][i]));
+        let curve = Curve::shutter(opening, closing);
+        for curve in [curve, curve.mirrored()] {
+            let most = shutter::<8>(&curve).direct_triggers();
+            assert!(most >= 64, "{most}: {open}, {closes}");
+        }
+    }
+    for p in [0.3625, 0.4, 0.45, 0.6] {
+        let curve = ShutterCurve::linear(0.0, p, p, 1.0).unwrap();
+        assert!((10..990).all(|i| curve.evaluations(i as f32 / 1000.0) == 0), "{p}");
+    }
+}
+
+/// Where an octave ends at time 0, it is an ulp of the curve's greater end that its polynomial is judged by: one of the
+/// time itself would refuse any.
+#[test]
+fn time_0_at_half_of_the_light_needs_no_search() {
+    for name in ["raised_cosine", "triangle"] {
+        let curve = named().into_iter().find(|one| one.name == name).expect("its name").curve;
+        let middle = 0.5 * (curve.open_start() + curve.close_end());
+        let moved = |points: [(f32, f32); 4]| points.map(|(t, f)| (t - middle, f));
+        let ours = shutter::<8>(&Curve::shutter(moved(curve.opening), moved(curve.closing)));
+        assert!([0.3, 0.4, 0.49, 0.51, 0.7].iter().all(|u| ours.evaluations(*u) == 0), "{name}");
+        // What the tests of searches go by: a search takes one evaluation to come near and one to measure, at least.
+        let searched = shutter::<0>(&curve);
+        assert!([1e-20, 0.01, 0.1, 0.4, 0.6, 0.99].iter().all(|u| searched.evaluations(*u) >= 2));
+        assert!([0.0, 1.0, -1.0, 2.0, f32::NAN].iter().all(|u| searched.evaluations(*u) == 0));
+    }
+}
+
+/// A liquid-crystal shutter that closes in two bends: with 49 points alone an octave of it has no certificate, and 2
+/// triggers are direct.
+#[test]
+fn a_closing_ramp_with_two_bends_has_direct_triggers() {
+    let inner = [0.01, 0.6, 0.015, 1.0, 0.46, 0.1, 0.6, 0.0];
+    let curve = ShutterCurve::shutteropening([0.0, 0.0003, 0.003, 0.008], inner).unwrap();
+    assert!(curve.direct_triggers() >= 255, "{}", curve.direct_triggers());
+}
+
+/// A schedule has the ticks of its triggers, and says which is the first that comes too soon.
+fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
+    let shutter = shutter::<OCTAVES>(curve);
+    let mut filled = vec![0; n as usize];
+    let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
+        Ok(ticks) => ticks.collect(),
+        Err(error) => return assert_eq!(shutter.schedule_into(&mut filled, hz, 0), Err(error)),
+    };
+    shutter.schedule_into(&mut filled, hz, 0).unwrap();
+    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, OCTAVES = {OCTAVES}: {curve:?}");
+    let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut sorted: Vec<u32> = gaps.clone().collect();
+    sorted.sort_unstable();
+    for min_gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten()
+    {
+        let min_gap = min_gap + 1;
+        let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
+        let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
+        let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
+        assert_eq!(shutter.schedule_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
+    }
+}
+
+#[test]
+fn a_filled_schedule_is_each_trigger_alone() {
+    let random = (0..60).flat_map(|i| [random_typical(7, i), random_hard(7, i)]);
+    for curve in named().into_iter().map(|named| named.curve).chain(random) {
+        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        for n in [1, 2, 3, 5, 16, 63, 64, 100, 1000, 4097] {
+            for most in [f64::from(n), 1e5, 1e7, 1e8] {
+                let hz = (most / length).clamp(1.0, 4e9) as u32;
+                if most < 2e7 || n < 20 {
+                    judge_filled::<8>(&curve, n, hz);
+                    judge_filled::<64>(&curve, n, hz);
+                }
+            }
+        }
+        judge_filled::<0>(&curve, 7, (1e6 / length).clamp(1.0, 4e9) as u32);
+    }
+    judge_filled::<8>(&random_typical(7, 0), 1 << 22, 1 << 22);
+}
+
+#[cfg(feature = "heapless-v0_9")]
+mod checked {
+    use super::{SOFT, ScheduleError};
+
+    #[test]
+    fn a_schedule_is_the_ticks() {
+        let schedule = SOFT.schedule::<64>(64, 1_000_000, 100).unwrap();
+        assert!(schedule.iter().copied().eq(SOFT.trigger_ticks(64, 1_000_000).unwrap()));
+        assert!(schedule.windows(2).all(|pair| pair[1] - pair[0] >= 100));
+        assert!(SOFT.schedule::<4>(0, 1000, 10).unwrap().is_empty());
+    }
+
+    #[test]
+    fn each_reason_its_own_error() {
+        let error = |n, hz, gap| SOFT.schedule::<16>(n, hz, gap).err();
+        let capacity = Some(ScheduleError::CapacityExceeded { capacity: 16 });
+        assert_eq!(error(17, 1000, 0), capacity);
+        assert_eq!(error(u32::MAX, 1000, 0), capacity);
+        assert_eq!(error(16, 1000, 0), None);
+        assert_eq!(error(4, 0, 0), Some(ScheduleError::TickRateZero));
+        let too_high = Some(ScheduleError::TickRateTooHigh { most: 1 << 31 });
+        assert_eq!(error(4, u32::MAX, 0), too_high);
+        let gap = Some(ScheduleError::GapTooSmall { trigger: 1, gap: 94, min_gap: 114 });
+        assert_eq!(error(4, 500, 114), gap);
+    }
+}
+
+/// A shutter that never opens more than half.
+fn half_open() -> ShutterCurve {
+    ShutterCurve::density(CubicBezier::line((0.0, 0.5), (2.0, 0.5))).unwrap()
+}
+
+#[test]
+fn the_most_that_keep_the_gap() {
+    let keeps = |curve: &ShutterCurve, n: u32, hz, gap| {
+        curve.schedule_into(&mut vec![0; n as usize], hz, gap).is_ok()
+    };
+    for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
+        for (hz, gap) in [
+            (1000, 47),
+            (1000, 50),
+            (1_000_000, 33_333),
+            (1_000_000, 1_000),
+            (100, 7),
+            (10, 9),
+            (7, 100),
+            (50, 1),
+        ] {
+            for wanted in [2, 3, 64, 1000, 10_000] {
+                let found = curve.most_triggers(wanted, hz, gap).unwrap();
+                if keeps(&curve, wanted, hz, gap) {
+                    assert_eq!(found, wanted, "{hz} Hz, {gap} ticks");
+                    continue;
+                }
+                assert!(found >= 1 && found < wanted, "{found} of {wanted}");
+                assert!(
+                    keeps(&curve, found, hz, gap),
+                    "{found} of {wanted} at {hz} Hz, {gap} ticks"
+                );
+                assert!(
+                    !keeps(&curve, found + 1, hz, gap),
+                    "{found} and one more, {hz} Hz, {gap} ticks"
+                );
+                let sure = curve.exposure() * hz as f32 / (gap as f32 + 1.5);
+                assert!(found >= sure as u32, "{found}, and {sure} are sure");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_most_on_a_shutter_that_never_fully_opens() {
+    for n in 21..=64 {
+        assert_eq!(half_open().most_triggers(n, 500, 50), Ok(20), "{n}");
+    }
+}
+
+/// Sixteen octaves a side are within what the compiler evaluates in a constant.
+#[test]
+fn a_large_curve_is_a_constant_too() {
+    static LARGE: ShutterCurve<16> = valid(ShutterCurve::with_octaves(
+        CubicBezier::new([(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)]),
+        CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
+    ));
+    assert_eq!(LARGE.inverse_cdf(0.5), 0.5);
+}
+
+/// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example leaves
+/// time for.
+#[test]
+fn one_figure_for_the_worst_direct_tick() {
+    let number = |text: &str, before: &str, after: &str| -> u32 {
+        let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?}"));
+        let (number, _) = rest.split_once(after).unwrap();
+        number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
+    };
+    let readme = number(include_str!("../README.md"), "a tick costs at most ", " cycles");
+    let example = include_str!("../examples/trigger/firmware.rs");
+    assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
+    // | a tick | soft | all ramp | trapezoid | box | typical | worst | direct | ...
+    let (_, row) = include_str!("../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
+    assert_eq!(row.split('|').nth(6).unwrap().trim().parse(), Ok(readme));
+}
+
+/// Fractions that lie midway between two `f32`, on a curve whose ramps are steep there: half an ulp of the fraction is a
+/// quarter of a tick, and the polynomial has its own error.
+#[test]
+fn the_worst_tick_of_a_typical_curve() {
+    let opening = [(0.0, 0.0), (0.5498377, 0.38116276), (1.9749786, 0.9056642), (3.1201088, 1.0)];
+    let closing = [(4.160642, 1.0), (6.806004, 0.6767999), (16.227335, 0.49375978), (20.833, 0.0)];
+    let curve = Curve::shutter(opening, closing);
+    let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
+    let (n, i, hz) = (10_912, 8182, 805_319);
+    let tick = shutter::<8>(&curve).trigger_ticks(n, hz).unwrap().nth(i).unwrap();
+    let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
+    let error = ((exact.inverse_cdf_dd(u) - start) * f64::from(hz) - Dd::from(f64::from(tick))).hi;
+    assert!((0.75..=TYPICAL_TICK).contains(&error.abs()), "{error}");
+}
+
+/// What each pulse of a steady lamp lets through the shutter, by the oracle's cdf; a tick at either end is half of one off.
+#[test]
+fn doses_are_equal() {
+    for one in named().into_iter().filter(|one| one.kind == Kind::Typical) {
+        let (exact, curve) = (Exact::new(&one.curve), shutter::<8>(&one.curve));
+        let hz = (1e6 / (one.curve.close_end() - one.curve.open_start())) as u32;
+        let at = |tick: u32| {
+            let t = Dd::from(one.curve.open_start())
+                + Dd::from(f64::from(tick)) / Dd::from(f64::from(hz));
+            exact.cdf_dd(t)
+        };
+        for (n, duty) in [(12, 0.3), (12, 1.0), (5, 0.01), (64, 0.5)] {
+            for Pulse { on, off } in curve.pulse_ticks(n, duty, hz).unwrap() {
+                let dose = (at(off) - at(on)).hi;
+                let even = f64::from(duty) / f64::from(n);
+                // The openness is at most 1: a tick of it is 1/A ticks of the exposure.
+                let tick = 1.0 / (f64::from(hz) * f64::from(curve.exposure()));
+                assert!((dose - even).abs() <= 1.5 * tick, "{dose} for {even}, {}", one.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn pulses_of_the_whole_share_touch() {
+    for n in [1, 2, 12, 100, 1 << 22] {
+        let pulses = SOFT.pulse_ticks(n, 1.0, 1 << 23).unwrap();
+        assert_eq!(pulses.clone().next().map(|pulse| pulse.on), Some(0));
+        assert_eq!(pulses.clone().last().map(|pulse| pulse.off), Some(1 << 23));
+        let few: Vec<Pulse> = pulses.take(100).collect();
+        assert!(few.windows(2).all(|pair| pair[0].off == pair[1].on));
+    }
+}
+
+/// On this curve and at this rate, searches for 1/2 from either side find times that round to two ticks.
+#[test]
+fn ends_at_one_half_are_in_order() {
+    let opening = CubicBezier::new([(0.0, 0.0), (0.3, 0.1), (0.6, 0.8), (0.93, 1.0)]);
+    let closing = CubicBezier::line((0.93, 1.0), (1.0, 0.0));
+    let curve = ShutterCurve::<8>::with_octaves(opening, closing).unwrap();
+    let hz = 1_930_098_667;
+    let touching: Vec<Pulse> = curve.pulse_ticks(2, 1.0, hz).unwrap().collect();
+    assert_eq!(touching[0].off, touching[1].on);
+    let Pulse { on, off } = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
+    assert_eq!(on, off);
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, 0, 0), Ok(()));
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, 0, 0), Ok(()));
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    for duty in [0.0, -0.0, -0.5, f32::NAN, 1.0 + f32::EPSILON, f32::INFINITY] {
+        assert_eq!(SOFT.pulse_ticks(3, duty, 1000).err(), Some(ScheduleError::DutyOutOfRange));
+    }
+    assert_eq!(SOFT.pulse_ticks(3, 0.5, 0).err(), Some(ScheduleError::TickRateZero));
+    assert_eq!(
+        SOFT.pulse_ticks(3, 0.5, u32::MAX).err(),
+        Some(ScheduleError::TickRateTooHigh { most: 1 << 31 })
+    );
+    let mut pulses = [Pulse::default(); 12];
+    let mut checked = |duty, pulse, gap| SOFT.pulses_into(&mut pulses, duty, 1_000_000, pulse, gap);
+    assert_eq!(checked(0.5, 30_000, 30_000), Ok(()));
+    assert_eq!(
+        checked(0.5, 32_000, 0),
+        Err(ScheduleError::PulseTooShort { pulse: 2, length: 31_250, min_pulse: 32_000 })
+    );
+    assert!(matches!(
+        checked(1.0, 0, 1),
+        Err(ScheduleError::PulsesTooClose { pulse: 1, gap: 0, min_gap: 1 })
+    ));
+}
