@@ -2,7 +2,7 @@
 
 use crate::exposure::Exposure;
 use crate::fraction::Side;
-use crate::number::units::{WORD, fixed, power_of_two_f64, time_unit};
+use crate::number::units::{WORD, fixed_down, power_of_two_f64, time_exponent};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES, candidate};
 use crate::octave::certificate::{
@@ -47,13 +47,16 @@ impl Truth {
         let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
-        let (exact, unit) =
-            (Exact::new(curve), time_unit(exposure.end(Side::Start), exposure.end(Side::End)));
+        let (exact, unit) = (
+            Exact::new(curve),
+            time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End)),
+        );
         for side in Side::BOTH {
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let this = View { exposure: &exposure, shapes: &shapes, side, ramp, unit };
+                let this =
+                    View { exposure: &exposure, shapes: &shapes, side, ramp, unit_exponent: unit };
                 let (range, path) = (range(&exposure, side, ramp), this.path());
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(top(steps), index)) {
@@ -69,7 +72,7 @@ impl Truth {
 impl View<'_> {
     /// What was built of a span: the polynomial, and the stretch that it is held against.
     fn built(&self, span: &Span, path: &Path) -> (Candidate, Stretch) {
-        let stretch = span.stretch(path, self.joins_at());
+        let stretch = span.stretch(path, self.join_parameter());
         (candidate(self, span, &stretch).expect("it was built"), stretch)
     }
 
@@ -86,7 +89,7 @@ impl View<'_> {
         let (candidate, stretch) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = certificate(self, &candidate, span, &stretch);
-        let start = fixed(self.exposure.end(self.side), self.unit);
+        let start = fixed_down(self.exposure.end_time(self.side), self.unit_exponent);
         let error_in_u = f64::from(ULP_ERROR) * ulp_f32(span.from);
         let trace = Dd::from(f64::from(JOIN_OFF + FRACTION_OFF * span.to));
         // The span itself rounds its end.
@@ -103,8 +106,9 @@ impl View<'_> {
                 let position = (a / f64::from(span.power) - 1.0) * f64::from(WORD);
                 let position = position.floor() as i64 as i32;
                 let time = octave.time(octave.offset(position)) - start;
-                let time = time as f64 * power_of_two_f64(self.unit);
-                let served = Dd::from(f64::from(self.exposure.end(self.side))) + Dd::from(time);
+                let time = time as f64 * power_of_two_f64(self.unit_exponent);
+                let served =
+                    Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
                 let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
@@ -177,10 +181,11 @@ fn an_offset_beyond_its_word_is_refused() {
     let closing = std::array::from_fn(|k| (2.0 + thirds[k], 1.0 - thirds[k]));
     let ramps = [opening, closing].map(CubicBezier::new);
     let (exposure, shapes) = Exposure::new(&ramps[0], &ramps[1]).expect("a shutter");
-    let unit = time_unit(exposure.end(Side::Start), exposure.end(Side::End));
+    let unit = time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End));
     let mut judged = 0;
     for side in Side::BOTH {
-        let this = View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit };
+        let this =
+            View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit_exponent: unit };
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, unit, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {

@@ -1,6 +1,6 @@
 //! The bound by which a search accepts its last step.
 
-use crate::search::{ROUNDING_NEAR, Taylor, left};
+use crate::search::{ROUNDING_SAME, Taylor, left};
 use crate::support::curves::Rng;
 
 /// `c[0] x + c[1] x² + ...` in doubles.
@@ -25,7 +25,7 @@ fn what_a_step_leaves_is_within_the_bound() {
         // All but the third term and those beyond.
         let missing = step * (local.d1 + local.d2 * step);
         let after = (f64::from(missing) - exact).abs();
-        let bound = f64::from(left(&c, &local, 0.0, missing, step, ROUNDING_NEAR));
+        let bound = f64::from(left(&c, &local, 0.0, missing, step, ROUNDING_SAME));
         assert!(after <= bound, "{after:e} after a step of {step}, bound {bound:e}: {c:?} at {x}");
     }
 }
