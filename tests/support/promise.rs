@@ -319,6 +319,12 @@ impl Figures {
             of_u(place, &|u| direct.inverse_cdf(u), "step back next to an octave's end");
         }
         let mut places: Vec<f32> = exact.landmark_times().into_iter().map(Dd::to_f32).collect();
+        // Midway between two f32, where a trace turns the rounding.
+        let half_ulp = exp2(-25);
+        let midway = [0.25 + 0.5 * half_ulp, 0.5 + half_ulp, 0.75 + half_ulp];
+        let last = [1.0, 3.0, 5.0, 21.0, 1001.0].map(|odd| 1.0 - odd * half_ulp);
+        let midway = midway.into_iter().chain(last).map(|u| exact.inverse_cdf_dd(Dd::from(u)));
+        places.extend(midway.map(Dd::to_f32));
         let [start, end] = [curve.open_start(), curve.close_end()];
         if start < 0.0 && end > 0.0 {
             // Half of the farther end's power of two, where the grid begins, and its steps next to time 0.
