@@ -47,13 +47,16 @@ impl Truth {
         let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
-        let (exact, unit) =
-            (Exact::new(curve), time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End)));
+        let (exact, unit) = (
+            Exact::new(curve),
+            time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End)),
+        );
         for side in Side::BOTH {
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let this = View { exposure: &exposure, shapes: &shapes, side, ramp, unit_exponent: unit };
+                let this =
+                    View { exposure: &exposure, shapes: &shapes, side, ramp, unit_exponent: unit };
                 let (range, path) = (range(&exposure, side, ramp), this.path());
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(top(steps), index)) {
@@ -104,7 +107,8 @@ impl View<'_> {
                 let position = position.floor() as i64 as i32;
                 let time = octave.time(octave.offset(position)) - start;
                 let time = time as f64 * power_of_two_f64(self.unit_exponent);
-                let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
+                let served =
+                    Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
                 let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
@@ -180,7 +184,8 @@ fn an_offset_beyond_its_word_is_refused() {
     let unit = time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End));
     let mut judged = 0;
     for side in Side::BOTH {
-        let this = View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit_exponent: unit };
+        let this =
+            View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit_exponent: unit };
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, unit, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {

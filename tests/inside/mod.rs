@@ -4,3 +4,4 @@ mod bound;
 mod certificate;
 mod left;
 mod octave;
+mod units;

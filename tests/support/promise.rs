@@ -298,22 +298,33 @@ impl Figures {
     fn walk(&mut self, exact: &Exact, count: u32) {
         let curve = exact.curve();
         let (direct, searched) = (shutter::<8>(curve), shutter::<0>(curve));
-        let places = exact.landmarks().into_iter().map(Dd::to_f32);
-        // The ends of octaves, of the line, of all.
-        let octaves = [1, 2, 3, 9].map(|k| exp2(-k) as f32);
-        let mut of_u = |start: f32, inverse: &dyn Fn(f32) -> f32, what| {
+        // What changes on the curve, the end of the line, and where octaves may end.
+        let octaves =
+            (1..10).flat_map(|k| (8..16).map(move |eighths| f64::from(eighths) * exp2(-k - 3)));
+        let octaves: Vec<f64> = octaves.flat_map(|u| [u, 1.0 - u]).collect();
+        let places = exact.landmarks().into_iter().map(|u| u.hi).chain([0.0, 1.0]);
+        let mut of_u = |place: f64, inverse: &dyn Fn(f32) -> f32, what| {
             let mut last = f32::NEG_INFINITY;
-            for u in neighbours(start, count) {
+            for u in neighbours(place as f32, count) {
                 let t = inverse(u);
                 self.expect(what, t >= last, || format!("{t:e} after {last:e} at {u:e}"), exact);
                 (last, self.pairs) = (t, self.pairs + 1);
             }
         };
-        for place in places.chain(octaves).chain(octaves.map(|u| 1.0 - u)) {
+        for place in places {
             of_u(place, &|u| direct.inverse_cdf(u), "step back between neighbours");
             of_u(place, &|u| searched.inverse_cdf(u), "step back between searches");
         }
+        for place in octaves {
+            of_u(place, &|u| direct.inverse_cdf(u), "step back next to an octave's end");
+        }
         let mut places: Vec<f32> = exact.landmark_times().into_iter().map(Dd::to_f32).collect();
+        // Midway between two f32, where a trace turns the rounding.
+        let half_ulp = exp2(-25);
+        let midway = [0.25 + 0.5 * half_ulp, 0.5 + half_ulp, 0.75 + half_ulp];
+        let last = [1.0, 3.0, 5.0, 21.0, 1001.0].map(|odd| 1.0 - odd * half_ulp);
+        let midway = midway.into_iter().chain(last).map(|u| exact.inverse_cdf_dd(Dd::from(u)));
+        places.extend(midway.map(Dd::to_f32));
         let [start, end] = [curve.open_start(), curve.close_end()];
         if start < 0.0 && end > 0.0 {
             // Half of the farther end's power of two, where the grid begins, and its steps next to time 0.
@@ -539,7 +550,7 @@ impl<'a> Questions<'a> {
         rates.rotate_left(reach.turn % RATES.len());
         let rates = rates.into_iter().filter(|hz| f64::from(*hz) * length <= exp2(31)).collect();
         let is_typical = reach.is_typical;
-        Self { rates, is_typical, ..Self::of(exact, us, ts, frames) }
+        Self { rates, is_typical, walk: 100, ..Self::of(exact, us, ts, frames) }
     }
 }
 
