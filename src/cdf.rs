@@ -93,7 +93,8 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     from_nearer_end(|side| {
         let part = point.fraction(side);
         if ramp.is(side) {
-            part
+            // With the greatest `hi`, as `minus` keeps the order of such pairs.
+            Pair::sum(part.hi, part.lo)
         } else {
             exposure.ramp(side).share.plus(exposure.plateau).plus(part)
         }
