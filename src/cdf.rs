@@ -103,7 +103,6 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
 
 /// The fraction collected since the start, by those since a side's end, in [`WHOLE`]: that since the start where it is
 /// below half, else the rest of that since the end.
-#[inline(always)]
 fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();

@@ -117,7 +117,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// The early return keeps register saves off the plateau, whose answers then take a third fewer cycles.
+    /// For a `static` curve the early return keeps register saves off the plateau, whose answers then take a third fewer
+    /// cycles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
@@ -242,7 +243,12 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     #[cold]
     #[inline(never)]
     fn searched_bits(&self, u: f32) -> u32 {
-        self.exposure.moment(Fraction::new(u)).time().to_bits()
+        let fraction = if u > 0.5 {
+            Fraction { side: End, bits: (1.0 - u).to_bits() }
+        } else {
+            Fraction { side: Start, bits: u.to_bits() }
+        };
+        self.exposure.moment(fraction).time().to_bits()
     }
 
     /// A time in units, of fewer than 26 bits in its upper word, as an `f32` in the user's unit, rounded once.

@@ -41,7 +41,6 @@ pub(crate) struct Candidate {
 
 /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
 /// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
-#[inline(always)]
 pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Option<Candidate> {
     let c = interpolated(span, stretch);
     // |x| <= reach, with room for a center's rounding.

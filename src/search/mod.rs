@@ -50,8 +50,8 @@ const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Where a search starts: an end of the ramp, and the series from there.
 pub(crate) struct Anchor<const N: usize> {
-    /// Is it the other end than that from which the pairs count? Then distances count back.
-    is_other_end: bool,
+    /// 0, or [`LAST_PLACE`] at the other end than that from which the pairs count: from there distances count back.
+    place: f32,
     /// The series by powers of the distance from here.
     c: [f32; N],
     /// What it has to reach, at least 0.
@@ -62,19 +62,19 @@ impl<const N: usize> Anchor<N> {
     /// The end from which the pairs count.
     #[inline(always)]
     pub(crate) const fn same_end(c: [f32; N], sought: f32) -> Self {
-        Self { is_other_end: false, c, sought }
+        Self { place: 0.0, c, sought }
     }
 
     /// The other end.
     #[inline(always)]
     pub(crate) const fn other_end(c: [f32; N], sought: f32) -> Self {
-        Self { is_other_end: true, c, sought }
+        Self { place: LAST_PLACE, c, sought }
     }
 
     /// The distance of a place from here, and the place at a distance.
     #[inline(always)]
     const fn mirrored(&self, x: f32) -> f32 {
-        if self.is_other_end { LAST_PLACE - x } else { x }
+        (self.place - x).abs()
     }
 
     /// Steps from the guess until [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are used up.
@@ -212,13 +212,12 @@ pub(crate) const fn solve<const N: usize>(
     anchor: &Anchor<N>,
     error: f32,
 ) -> Found {
-    let Anchor { is_other_end, ref c, sought } = *anchor;
+    let Anchor { place, ref c, sought } = *anchor;
     // The anchor itself.
     if sought <= 0.5 * error {
-        return Found { place: Pair::new(anchor.mirrored(0.0)), evaluations: 0 };
+        return Found { place: Pair::new(place), evaluations: 0 };
     }
-    let rounding = if is_other_end { ROUNDING_OTHER } else { ROUNDING_SAME };
-    let sign = (is_other_end as u32) << 31;
+    let (rounding, sign) = if place > 0.0 { (ROUNDING_OTHER, 1 << 31) } else { (ROUNDING_SAME, 0) };
     let (mut local, mut evaluations) = anchor.approach(error);
     // What is measured is an `f32`. From the other end `LAST_PLACE - x` may be none: so `p` is at `x + moved` from the
     // anchor. If that is far from `x`, the slopes differ.
