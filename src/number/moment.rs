@@ -49,7 +49,7 @@ const fn rounded_small_sum(base: f32, way: Pair, scale: f32) -> f32 {
 
 /// `a + b` rounded to odd: if inexact, the neighbour whose last bit is set. So it is midway between two `f32` only if
 /// `a + b` is, and adding it to a greater number rounds once in all.
-#[inline(never)]
+#[inline(always)]
 const fn odd_sum(a: f32, b: f32) -> f32 {
     let sum = Pair::sum(a, b);
     let bits = sum.hi.to_bits();
