@@ -40,7 +40,7 @@ pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_98
 /// only the limit holds.
 pub const EVALUATIONS: u32 = 12;
 /// Of an octave's polynomial, in ulp of u.
-pub const DIRECT: f64 = 0.45;
+pub const DIRECT: f64 = 0.43;
 
 /// The worst that was seen, and what broke a promise.
 #[derive(Clone, Debug, Default)]
