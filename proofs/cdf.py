@@ -1,73 +1,81 @@
-"""That the cdf never steps back: the numbers and the cases of docs/internals/proofs.md, by exact fractions and z3."""
+"""That the cdf never steps back: times next to each other gain more mass than twice what measuring it is off by.
 
-from solver import *
+A mass is counted from the curve's start or end, whichever has less of it. `T` are the terms of a ramp's mass from that end without
+their signs, `t` the ramp's time since then, of 1 in all, and `f` the openness. docs/internals/proofs.md has the argument.
+"""
 
-code("let t = match self.at(t) {", "At::Ramp(ramp) => self.ramp(ramp).on_grid(t), _ => t, }; match self.at(t) {")
-code("const fn gridded(start: f32, end: f32, t: f32) -> f32 {", """
-    let half = 0.5 * power_of_two(exponent(if end > -start { end } else { -start }));
-    if t.abs() >= half || t == start || t == end { return t; } let t = (t + 1.5 * half) - 1.5 * half;
-    if t < start { start } else if t > end { end } else { t } }""")
-code("if start < 0.0 && end > 0.0 {", "gridded(start, end, t) } else { t }")
-code("const fn place_from_start(&self) -> Pair {", """let Pair { hi, lo } = self.place; if self.side.is(Start) { return self.place; }
-    let rest = Pair::sum(LAST_PLACE, -hi); Pair::sum(rest.hi, rest.lo - lo) }""")
-code("pub(crate) const fn mass(&self) -> Pair {", """
-    let mass = self.ramp.mass_since(Start).at_pair_unrolled(self.place_from_start());
-    mass.scaled(fraction_per_mass(self.ramp.share.hi)) }""")
-code("pub(crate) fn noise(&self, side: Side) -> f32 {", """let place_from_start = self.place_from_start().hi;
-    let terms_from = |side: Side| { let x = if side.is(Start) { place_from_start } else { LAST_PLACE - place_from_start };
-    let c = self.ramp.mass_in_single(side); c.iter().rev().fold(0.0, |terms, c| (terms + c.abs()) * x) };
-    let terms = terms_from(Start) + terms_from(side);
-    terms * fraction_per_mass(self.ramp.share.hi) / (1u64 << 39) as f32 }""")
-code("if ramp.is(Start) { part } else {", """self.ramps[0].share.plus(self.plateau).plus(part) };
-    self.nearest(t, mass, |side| point.noise(side)) }""")
-code("let rest = (mass.hi - nearest) + mass.lo;", """
-    let next = f32::from_bits(nearest.to_bits().wrapping_add_signed(if rest < 0.0 { -1 } else { 1 }));
-    let (lesser, greater) = if next < nearest { (next, nearest) } else { (nearest, next) };
-    let side = Side::end_if(lesser >= 0.5 * WHOLE); let half = 0.5 * (next - nearest);
-    let is_told = (half - rest).abs() > noise(side) + 2.0 * CDF_ERROR * nearest;
-    let cdf = if is_told { nearest } else if t >= self.time_of(side, Pair::sum(nearest, half)) { greater } else { lesser };""")
-code("let a = if side.is(Start) { mass }", "else { Pair::new(WHOLE).minus(mass) }; self.at_fraction(side, a, CDF_ERROR).time() }")
+from box import *
+from short import *
 
-# The grid, for a farther end from P to 2 P: sums from P / 4 to 5 P / 4, so multiples of P / 2^25, which they leave exactly.
-TIME_ERROR = Fraction(1, 1 << int(source(r"const TIME_ERROR: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-spacing, near, length = Fraction(1, 4) / 2**23, Fraction(1, 2), 4
-require(near / spacing <= 2**24 and near / 2**23 >= spacing, "what is on the grid is an f32")
-require(TIME_ERROR * length / 2 == spacing / 4, "a quarter")
-start, t, end, way = Reals("start t end way")
-valid(
-    "the time of a place is within a quarter of the distance to the next time: on the grid, where that is a quarter of the farther end's ulp or more, and else, as the way is at most the time",
-    Implies(And(0 <= start, start <= t, t <= end, Or(way == t - start, way == end - t), way <= t - start, way <= end - t), Q(1, 2**28) * way <= Q(1, 4) * Q(1, 2**24) * t),
-    Implies(And(0 <= start, start <= t, t <= end, Or(way == t - start, way == end - t)), Q(1, 2**28) * way <= Q(1, 4) * Q(1, 2**24) * t),
-)
+pinned("""
+cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp c175bd32 from_nearer_end 70c248c7 on_grid af670c35 gridded 664f67ff
+ramp/mod.rs at_time 08d4d20d place_of_time b1567883 place_from 4b1484c7 fraction 21c2a107
+number/pair.rs plus 557c4757 minus 631268a2 over e34c0f49
+number/units.rs fraction_per_mass f0b1684c
+""")
 
-# The noise, in 2^-48 of the terms: the measured mass has those of `at_pair`, of a place from the start whose rest is rounded (only if
-# that is beyond the middle: by 2^-48 of it, times the slope), and of a sum with a second number of (12 + 6) 2^-24.
-at, at_pair = (int(documented(rf"`Series::{name}` is within (\d+) · 2⁻⁴⁸")) for name in ("at", "at_pair"))
-measured = at_pair + 6 + 2 * (12 + 6)
-# The inverse measures what is missing, with one rounding of its own, and its last step is less than an ulp: 2^-20 of D times 2^-23.
-rounding = Fraction(1, 1 << int(source(r"const ROUNDING: f32 = 1\.0 / \(1 << (\d+)\) as f32;")))
-inverse = at + 12 + 6 * 2 + 6 * rounding / 2**23 * 2**48
-allowed = Fraction(2**48, 2 ** int(source(r"fraction_per_mass\(self\.ramp\.share\.hi\) / \(1u64 << (\d+)\) as f32"))) * (1 - U) ** 15
-cdf_error = Fraction(2**48, 1 << int(source(r"const CDF_ERROR: f32 = 1\.0 / \(1u64 << (\d+)\) as f32;")))
-require(allowed / 2 < measured < allowed and allowed / 2 < inverse < allowed, "noise: half of it would do")
-require(Fraction(3, 4) * cdf_error <= 6 * rounding / 2**23 * 2**48, "a step that is not less than an ulp leaves no more")
-# Sums of pairs, as multiples of the mass: two of the cdf, a rest and its difference, and on the plateau a quotient; four of the inverse.
-sums = 2 * 3 + 2 + 36 + 4 * 6 + 16
-require(sums < 2 * cdf_error, "2 CDF_ERROR")
-proven(f"noise: {float(allowed):.1f} * 2^-48 of the terms from either end are more than the {measured} that the measured mass may be off by and the {float(inverse):.0f} of the inverse, searched from the end that faces the side; and 2 CDF_ERROR more than all sums")
-markov = int(documented(r"without their signs are at most (\d+) times the mass"))
-most = Fraction(2 * markov * allowed + 2 * cdf_error, 2**48)
-require(most < Fraction(1, 2**25) < 8 * most, "half of the distance")
-proven(f"noise: together at most 2^{log2(most):.1f} of the mass, less than the 2^-25 that are half of the distance of two middles")
+TIME_ERROR = constant("TIME_ERROR")
 
-# The cases, with the distance to the next time as unit. `middle` is the exact time of the place that the inverse found, `given` the f32.
-g, h, tau_g, tau_h, middle, given, off = Reals("g h tau_g tau_h middle given off")
-times = And(h >= g + 1, tau_g <= g + Q(1, 4), tau_h >= h - Q(1, 4))
-rounded = And(Implies(given > h, middle > h - off), Implies(given <= g, middle <= g + Q(1, 2) + off))
-above = {"told": tau_g > middle, "settled": g >= given}
-below = {"told": tau_h < middle, "settled": h < given}
-for first in above:
-    for then in below:
-        step_back = lambda most: Not(And(times, rounded, off >= 0, off <= most, above[first], below[then]))
-        worse = [step_back(Q(26, 100))] if (first, then) == ("settled", "told") else []
-        valid(f"{first} above a middle, no later time is {then} below it", step_back(Q(1, 4)), *worse)
+# --- Times. A place's time is within a quarter of the distance to the next time. Of times from 0 on that is 2^-24 of the time or more,
+# and the way from the ramp's nearer end is at most the time. On a curve across 0, of which the farther end is from P to 2 P, times
+# nearer to 0 than P / 2 are rounded by a sum from P / 4 to 5 P / 4, so to multiples of P / 2^25; a way is at most half of 4 P.
+spacing, near = Fraction(1, 4) / 2**23, Fraction(1, 2)
+require(near / spacing <= 2**24 and near / 2**23 >= spacing, "what is on the grid is an f32, and times beyond lie no denser")
+require(TIME_ERROR <= Fraction(1, 4) * U and TIME_ERROR * 2 == spacing / 4 and spacing == Fraction(4) / 2**27, "a quarter")
+proven("the time of a place is within a quarter of the distance to the next time; on a curve across time 0 that is 2^-27 of the interval or more, else 2^-24 of the time")
+
+# --- Masses, in 2^-48 of T: the value; a place from the ramp's other end, whose rest is rounded by 2^-48 of itself, with a slope of 6 T at
+# most; the sum with what lies before, for a second number of (SECOND + 6) 2^-24; and 3 for coefficients and shares in pairs.
+middle = min(next(Fraction(k, 64) for k in range(64) if at(Extreme(c, SINGLE[3]).t, Fraction(k + 1, 64)) > Fraction(1, 2)) for c in corners())
+require(Fraction(1, 5) <= middle, "a time nearer to the other end")
+measured = (AT_PAIR[6] + 4 * 6 + 2 * (SECOND[6] + 6) + 3) * U * U
+require(measured < Fraction(1, 2**39), "measuring")
+proven(f"a mass is measured to 2^{log2(measured):.2f} of T; a time nearer to a ramp's other end lies beyond 1/5 of the ramp")
+
+T, rest = lambda r: sizes(r.m), lambda r: plus([ONE], by(r.t, -1))
+# Next to the curve's end, so fully open where the ramp ends; or with at most half of a mass before the place, whatever is open at the ends.
+BY_END, BY_HALF = (extremes(OPEN), None), (extremes(), before_half)
+# What a mass may be of T: half of the distance, with a quarter lost on either side, is 2^-25 of the time, or 2^-28 of the interval.
+by_time, across = U / 2 / (2 * measured), Fraction(1, 2**28) / (2 * measured)
+for factor, right, (ramps, until), most, claim in (
+    (128, lambda r: times(r.t, r.f), BY_END, by_time, "next to the counted end T is at most {} t f"),
+    (128, lambda r: r.f, BY_END, min(by_time * Fraction(49, 50) / 40, across), "and at most {} f"),
+    (256, lambda r: times(r.t, r.f), BY_HALF, by_time, "up to half of the mass T is at most {} t f"),
+    (128, lambda r: r.f, BY_HALF, across, "and at most {} f"),
+    (512, lambda r: times(rest(r), r.f), BY_HALF, by_time, "and at most {} (1 - t) f"),
+):
+    require(factor <= most, "the distance of times")
+    require(holds(factor, T, right, ramps, until) and not holds(Fraction(factor, 2), T, right, ramps, until), claim)
+    proven(f"{claim.format(factor)}; {float(most):.0f} would do")
+# What lies before a far ramp, with its sums: 2 · 16 roundings of a pair, as a part of the time or 2^3 more of the interval. There f is at
+# least 1 / OPEN of the join's.
+DARK = 64
+before = 2 * 2 * 16 * U * U * 2**3 / (U / 2)
+far = [extreme for extreme in extremes([(1, i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])]
+require(holds(DARK, lambda r: [ONE], lambda r: r.f, far, before_half) and not holds(Fraction(DARK, 4), lambda r: [ONE], lambda r: r.f, far, before_half), "openness on a far ramp")
+require(before * DARK < Fraction(1, 4), "what lies before")
+proven(f"on a far ramp openness is at least 1/{DARK}, so what rounds the sums costs at most 2^{log2(before * DARK):.1f} of the distance")
+plateau = 2 * (OVER + PLUS) * U * U / (Fraction(1, 2**28))
+require(plateau < Fraction(1, 2**10), "the plateau")
+proven(f"on the plateau a mass is measured to 2^{log2(plateau):.1f} of the distance")
+
+
+# --- 1 less a mass from the end, by all values of p bits from 1/16 ulp of 1 to 1/2: in 2^-(4 p), with second numbers up to so many half ulps.
+def keeps_order(p, halves):
+    whole = np.int64(1) << (4 * p)
+    found = []
+    for e in range(2 * p - 3, 3 * p):
+        hi = np.arange(2 ** (p - 1), 2**p, dtype=np.int64)[:, None] << e
+        most = halves << e >> 1
+        short = np.unique(np.arange(2**p, dtype=np.int64)[:, None] << np.arange(e + halves))
+        lo = np.concatenate([-short[short <= most], short[short <= most]])[None, :]
+        upper = rounded(whole - hi, p)
+        answer = rounded(upper + rounded(whole - hi - upper - lo, p), p)
+        found.append(np.stack([np.broadcast_to(hi + lo, answer.shape).ravel(), answer.ravel()]))
+    masses, answers = np.concatenate(found, axis=1)
+    order = np.lexsort((-answers, masses))
+    return bool((np.diff(answers[order]) <= 0).all())
+
+
+require(all(keeps_order(p, 1) for p in (4, 5, 6)) and not keeps_order(5, 2), "1 less a mass")
+proven("1 less a mass keeps the order if the mass's second number is at most half an ulp of the first, for all masses of 4 to 6 bits; with an ulp it does not")

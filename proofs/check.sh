@@ -30,7 +30,7 @@ fi
 export python
 
 # The slowest first.
-scripts=(rounding pairs ticks words lifting certificate octaves cdf series solve guess markov vectors)
+scripts=(rounding ticks words solve pairs cdf domain certificate octaves series guess)
 [ $# -eq 0 ] || scripts=("$@")
 
 log=$(mktemp)

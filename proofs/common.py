@@ -1,60 +1,98 @@
-"""What all scripts here share: the source's constants, the tools, and one printed line for each claim."""
+"""What all scripts here share: pins and constants of the source, the tools, and one printed line for each claim."""
 
+import hashlib
 import re
 import subprocess
 import sys
 import time
 from fractions import Fraction
+from math import log2 as double_log2
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# All of src/: what a script reads there is found wherever it stands.
-SOURCE = "".join(path.read_text() for path in sorted((HERE.parent / "src").rglob("*.rs")))
-DOCS = " ".join((HERE.parent / "docs" / "internals" / "proofs.md").read_text().split())
+SRC = HERE.parent / "src"
+SCRIPT = Path(sys.argv[0]).stem
 
-# Half the distance between the f32 around 1, and the greatest relative error of one rounding.
+# Half the distance between the f32 around 1, and the greatest relative error of one rounding; the same of f64.
 U = Fraction(1, 2**24)
+U64 = Fraction(1, 2**53)
+
+# Lemmas that other scripts use. The script named proves each, and fails if the number is not this one.
+AT = {6: 118, 3: 31}  # series.py: the error of `Series::at`, in 2^-48 of its terms
+AT_PAIR = {6: 229, 3: 64}  # series.py: that of `Series::at_pair`
+SECOND = {6: 12, 3: 6}  # series.py: the second number of `Series::at`, in 2^-24 of its terms
+OVER, PLUS = Fraction(301, 10), 16  # pairs.py: the errors of `Pair::over`, and `plus` with four ulp, in 2^-48
+MASS_TERMS = 512  # domain.py: a mass's terms without their signs, as a multiple of the mass
+TIME_TERMS = 14  # domain.py: the same of a time
 
 
-def source(pattern):
-    """The groups of the only match of `pattern` in src/: a constant that changed its form is a failure."""
-    found = re.findall(pattern, SOURCE)
-    if len(found) != 1:
-        sys.exit(f"src: {len(found)} matches of {pattern!r}, not 1: read the constant anew")
-    return found[0]
+def bare(rust):
+    """Without comments, attributes, whitespace, and the comma that a line break leaves behind a last item."""
+    rust = re.sub(r"#\[[^\]]*\]", "", re.sub(r"//[^\n]*", "", rust))
+    return re.sub(r",(?=[)}\]])", "", re.sub(r"\s+", "", rust))
 
 
-def documented(pattern):
-    """The same of docs/internals/proofs.md, with single spaces: a number that it states, which a script then holds it to."""
-    found = re.findall(pattern, DOCS)
-    if len(found) != 1:
-        sys.exit(f"docs/internals/proofs.md: {len(found)} matches of {pattern!r}, not 1: see what it states now")
-    return found[0]
+def end_of(text, start):
+    """Behind the item that begins at `start`: its body, or its semicolon."""
+    depth = 0
+    for i in range(start, len(text)):
+        depth += (text[i] in "([{") - (text[i] in ")]}")
+        if depth == 0 and text[i] in ";}":
+            return i + 1
+    sys.exit("an item without an end")
 
 
-def number(said):
-    """A number in raised digits, as texts have exponents."""
-    return float(said.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹·", "0123456789.")))
+def item(file, kind_and_name):
+    """The text of a function, constant or type: `Type::name` in the type's impls, `::name` outside of all impls."""
+    text = re.sub(r"//[^\n]*", "", (SRC / file).read_text()) if (SRC / file).exists() else ""
+    kind, _, name = kind_and_name.rpartition("::")
+    is_in_impl = "::" in kind_and_name
+    starts = re.finditer(rf"^impl\b[^{{\n]*\b{kind}\b[^{{\n]*{{", text, re.M)
+    impls = [text[found.start() : end_of(text, found.start())] for found in starts]
+    if not is_in_impl:
+        impls = [text]
+    elif not kind:
+        for impl in impls:
+            text = text.replace(impl, "")
+        impls = [text]
+    pattern = rf"\b(?:fn|const|struct|enum) {name}\b"
+    found = [part[at.start() : end_of(part, at.start())] for part in impls for at in re.finditer(pattern, part)]
+    return found[0] if len(found) == 1 else None
 
 
-def promised(function):
-    """The n of the last "2⁻ⁿ" in the comment of a function that begins so: it promises an error of so much."""
-    comment = source(rf"((?: *//[^\n]*\n)+)(?: *#\[[^\n]*\n)*    pub\(crate\) const fn {re.escape(function)}")
-    return int(number(re.findall(r"2⁻([⁰¹²³⁴-⁹]+)", comment)[-1]))
+def hash_of(file, name):
+    found = item(file, name)
+    return found and hashlib.sha256(bare(found).encode()).hexdigest()[:8]
 
 
-def plain(rust):
-    """Without whitespace, comments, and the comma that a line break leaves behind a last item."""
-    return re.sub(r",(?=[)}\]])", "", re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", rust)))
+def pinned(table):
+    """Stops unless each item reads as when its transcription was made. A line of the table: a file, then names and hashes."""
+    for line in table.strip().splitlines():
+        file, *rest = line.split()
+        for name, pin in zip(rest[::2], rest[1::2]):
+            found = hash_of(file, name)
+            if found is None:
+                sys.exit(f"src/{file} has not one {name}: name it anew in proofs/{SCRIPT}.py")
+            if found != pin:
+                sys.exit(f"src/{file}: {name} has changed: compare the transcription in proofs/{SCRIPT}.py with it, then pin {found}")
 
 
-PLAIN = plain(SOURCE)
+CONSTANTS = {}
+for path in sorted(SRC.rglob("*.rs")):
+    for name, value in re.findall(r"const (\w+): \w+ =\s*([^;]*);", path.read_text()):
+        CONSTANTS.setdefault(name, []).append(value)
 
 
-def code(start, text):
-    """Fails unless the only item of src/ that begins with `start` reads as the transcription was made from it."""
-    if PLAIN.count(plain(start)) != 1 or plain(start + text) not in PLAIN:
-        sys.exit(f"src: `{start.strip()}` has changed: compare the transcription with it, then the text here")
+def constant(name):
+    """The value of a constant of src/."""
+    values = CONSTANTS.get(name, [])
+    if len(values) != 1:
+        sys.exit(f"src/ has {len(values)} constants {name}, not 1")
+    text = re.sub(r" as \w+|\.to_bits\(\)|(?<=\d)_(?=\d)|(?<=\d)[iu]\d\d\b", "", values[0])
+    text = re.sub(r"power_of_two(_f64)?\(", "power(", re.sub(r"\d+\.\d*", lambda n: f"Fraction('{n[0].rstrip('.')}')", text))
+    text = re.sub(r"\b[A-Z][A-Z_0-9]+\b", lambda n: f"({constant(n[0])})" if n[0] in CONSTANTS else n[0], text)
+    value = eval(text, {"Fraction": Fraction, "power": lambda n: Fraction(2) ** n})
+    return int(value) if value == int(value) else Fraction(value)
 
 
 def exactly(number):
@@ -68,40 +106,24 @@ def exactly(number):
 
 
 def log2(x):
-    import math
-
     x = Fraction(x)
-    return math.log2(x.numerator) - math.log2(x.denominator)
+    return double_log2(x.numerator) - double_log2(x.denominator)
 
 
-count = 0
 started = time.monotonic()
 
 
 def proven(claim):
     """Prints a claim that has just been checked, with the time since the last one."""
-    global count, started
-    now = time.monotonic()
-    print(f"proven {now - started:7.2f} s  {Path(sys.argv[0]).stem}: {claim}", flush=True)
-    count, started = count + 1, now
-
-
-def tested(claim):
-    """The same for what was tried on many words, but not proven."""
     global started
     now = time.monotonic()
-    print(f"tested {now - started:7.2f} s  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+    print(f"proven {now - started:7.2f} s  {SCRIPT}: {claim}", flush=True)
     started = now
-
-
-def open_point(claim):
-    """What is not proven, so that no run hides it."""
-    print(f"open              {Path(sys.argv[0]).stem}: {claim}", flush=True)
 
 
 def require(condition, claim):
     if not condition:
-        print(f"FAILED  {Path(sys.argv[0]).stem}: {claim}", flush=True)
+        print(f"FAILED  {SCRIPT}: {claim}", flush=True)
         sys.exit(1)
 
 

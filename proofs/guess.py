@@ -1,13 +1,13 @@
-"""src/guess.rs: the division by a constant, and that logarithms fit their words. By exact arithmetic and z3."""
+"""The first guess: the division by a constant, and that logarithms fit their words. By exact arithmetic and z3."""
 
 from solver import *
 
-code("const fn divided(x: i32, k: i32) -> i32 {", "(((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32 }")
-code("const fn rough_log(x: f32) -> i32 {", "(x.to_bits() as i32 >> 3) - 127 * LOG_ONE }")
-code("let root = divided(log - rough_log(c[i]), i as i32 + 1);", "")
-LOG_ONE = 1 << int(source(r"const LOG_ONE: i32 = 1 << (\d+);"))
-words = source(r"const RECIPROCALS: \[i32; 8\] = \[([^\]]*)\];").split(",")
-reciprocals = [1 << int(word.split("<<")[1]) if "<<" in word else int(word) for word in words]
+pinned("""
+search/guess.rs guess e18650f6 divided eed4515e rough_log 9e8a10e6 RECIPROCALS 9fa5011a
+""")
+
+LOG_ONE = constant("LOG_ONE")
+reciprocals = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0]
 
 a, b = BitVecs("a b", 32)
 log_a, log_b = (a >> 3) - 127 * LOG_ONE, (b >> 3) - 127 * LOG_ONE

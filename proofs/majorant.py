@@ -5,6 +5,8 @@ number is a `Number`: what bounds its size, and what bounds its error. Each oper
 nothing overflows or is subnormal.
 """
 
+from math import comb
+
 from common import *
 
 

@@ -3,69 +3,28 @@ truncates, by Gappa."""
 
 from solver import *
 
+pinned("""
+octave/mod.rs top c6b09b9a below b73f9ae7 Octave::offset f842a0c4 times_high 6572aa47 times_high_by_halves 411fa41c polynomial dd3fe418
+octave/span.rs Span::new f245b7f1 center c648d563
+octave/build.rs top_beyond ffb7021a
+octave/candidate.rs candidate 5f0e210b
+inverse.rs Inverse::new b20a0b5f section 44bee705 look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
+fraction.rs Fraction::new a0cd572f
+""")
 
-code("pub(crate) const fn offset(&self, position: i32) -> i32 {", """
-    position.wrapping_sub(self.center as i32) << (self.center & SHIFT_MASK) }""")
-code("let below = top.wrapping_sub(bits);", """let index = (below >> 23) as usize; if index >= OCTAVES { return None; }
-    let octave = &self.octaves[side as usize][index];
-    let word = ((bits ^ (top ^ below) & 1 << 23) << 8) as i32;
-    Some((octave, word.wrapping_add(word & !(word >> 31)))) }""")
-code("pub(crate) const fn center(&self) -> i64 {", """fixed(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64 }""")
-code("pub(crate) const fn new(range: [f64; 2], top: u32) -> Option<Self> {", """let high = f32::from_bits(top);
-    let from = if range[0] > 0.5 * high as f64 { range[0] } else { 0.5 * high as f64 };
-    let to = if range[1] < high as f64 { range[1] } else { high as f64 };
-    if top < LEAST_TOP || from >= to { return None; }
-    let to = to as f32; let power = power_of_two(exponent(high));
-    let half = 0.5 * (to - from as f32) + 4.0 * f32::EPSILON * power; let middle = 0.5 * (from as f32 + to);
-    let (mut width, mut shift) = (power, 0);
-    while shift < MOST_SHIFT && half <= FILLED * width { width *= 0.5; shift += 1; }""")
-code("const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {", """let end = floor_bits(to);
-    let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
-    let least = if end > LEAST_TOP { end.div_ceil(TOP_STEP) * TOP_STEP } else { LEAST_TOP };
-    let top = least + steps * TOP_STEP;
-    let beyond = top.wrapping_sub(floor_bits(from));
-    if from > 0.0 && beyond.wrapping_add(16) & 0x7F_FFFF < 32 { top + TOP_STEP } else { top }""")
-code("let reach = span.half / span.width + 0.01;", """let (mut bound, mut most, mut steep, mut k) = (0.0, 0.0, 0.0, DEGREE);
-    while k > 0 { steep = steep * reach + bound; bound = c[k].abs() as f32 + bound * reach;
-    most = if bound <= most { most } else { bound }; k -= 1; }
-    steep = steep * reach + bound; most *= 1.0 + 1.0 / (1 << 16) as f32;
-    if !(most > 0.0 && most < f32::MAX) { return None; }
-    let exponent = exponent(most) - 30; let exponent = if exponent < self.unit { self.unit } else { exponent };""")
-code("octave.c[DEGREE - k] = rounded(c[k], exponent);", "")
-code("pub(crate) const fn direct(&self, Fraction { side, a }: Fraction) -> Option<i64> {", """let bits = a.to_bits();
-    let until_far = self.last_before_far[side as usize].wrapping_sub(bits);
-    if until_far < self.on_line_count[side as usize] { let word = in_words(bits);
-    Some(self.on_line(if side.is(Start) { word } else { word.wrapping_neg() })) } else {
-    self.by_octave(side, bits, side.other_if(until_far >> 31 == 1)) } }""")
-code("pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {", """let until_far = self.last_before_far[0].wrapping_sub(u.to_bits());
-    if until_far < self.on_line_count[0] { let time = self.on_line(in_words(u.to_bits()));""")
-code("let (time, scale) = match self.by_octave(side, bits, Side::end_if(until_far >> 31 == 1)) {", "")
-# A join within an ulp below 1/2 counts as 1/2, so that 1/2 alone may lie beyond it: it has a line, of one fraction and no slope.
-code("} else if plan.exposure.half_is_beyond_join() {", """plan.base = plan.searched_time(Fraction { side: Start, a: 0.5 }); plan.on_line_count[0] = 1; }""")
-code("pub(crate) fn nearer(u: f32) -> (Side, u32) {", """let (bits, late) = (u.to_bits(), (1.0 - u).to_bits());
-    let is_late = bits as i32 > 0.5f32.to_bits() as i32;
-    (Side::end_if(is_late), core::hint::select_unpredictable(is_late, late, bits)) }""")
-code("const fn by_octave(&self, side: Side, bits: u32, ramp: Side) -> Option<i64> {", """match self.look_up(side, ramp, bits) {
-    Some((octave, position)) if octave.exists() => { Some(octave.time(octave.offset(position))) } _ => None, } }""")
-code("last_before_far: [ last_before(", """exposure.joins(Start)[1]), last_before(exposure.joins(End)[1]), ],""")
-code("const fn last_before(join: f64) -> u32 {", """let (join, before_end) = (floor_bits(join), 1.0f32.to_bits() - 1);
-    if join < before_end { join } else { before_end } }""")
-code("let near = floor_bits(plan.exposure.joins(Side::BOTH[side])[0]);", "")
 
-SHIFT_MASK = int(source(r"const SHIFT_MASK: u32 = (\d+);"))
-STEP = 1 << int(source(r"const TOP_STEP: u32 = 1 << (\d+);"))
-LEAST_EXPONENT = 127 - int(source(r"const LEAST_TOP: u32 = \(1\.0 / \(1 << (\d+)\) as f32\)\.to_bits\(\);"))
-LEAST = LEAST_EXPONENT << 23
+SHIFT_MASK = constant("SHIFT_MASK")
+STEP = constant("EIGHTH")
 
 
 def look_up(top, bits):
-    """`Plan::look_up`: the index, and the significand with its sign."""
+    """`Inverse::look_up`: the index, and the significand with its sign."""
     below = top - bits
     return LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
 
 
 def offset(significand, center):
-    """The position that `Plan::look_up` makes of it, and `Octave::offset` of that."""
+    """The position that `Inverse::look_up` makes of it, and `Octave::offset` of that."""
     position = significand + (significand & ~(significand >> 31))
     return (position - center) << (center & SHIFT_MASK)
 
@@ -116,10 +75,9 @@ valid(
 # 4 EPSILON. It is exact unless it is above a quarter. The loop halves while half <= FILLED width, so after the last halving it is
 # at most 2 FILLED of the width; without one it is at most a quarter of a top that is less than twice the width, by a step, and 4 EPSILON.
 # The middle is off by the rounding of the sum of the ends, the center by what its lowest bits come to.
-FILLED = Fraction(source(r"const FILLED: f32 = (0\.\d+);"))
-MOST_SHIFT = int(source(r"const MOST_SHIFT: u32 = (\d+);"))
-REACH = Fraction(source(r"let reach = span\.half / span\.width \+ (0\.\d+);"))
-EPSILONS = int(source(r"let half = .* \+ (\d)\.0 \* f32::EPSILON \* power;"))
+FILLED, MOST_SHIFT = constant("FILLED"), constant("MOST_SHIFT")
+# In `candidate` and in `Span::new`.
+REACH, EPSILONS = Fraction(1, 100), 4
 WORD = 2**32
 EPSILON = WORD // 2**23
 MIDDLE = EPSILON // 2  # half of the rounding of a sum below 4
@@ -128,35 +86,18 @@ LOW_BITS = SHIFT_MASK
 SERVED = EPSILON // 2
 
 
-def most_filled(filled, shift):
-    """The greatest half, in the width's 2^-32."""
-    whole = (2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON
-    return max(2 * filled * WORD, whole if shift == 0 else 0) * (1 + 2 * U)
-
-
-def served_fits(filled, extension=EPSILONS):
-    """Is the offset of each served fraction at most the half, and does that fit the word?"""
-    return extension * EPSILON >= SERVED + MIDDLE + LOW_BITS and most_filled(filled, 0) < WORD / 2
-
-
+# The greatest half, in the width's 2^-32: after a halving, and without one.
+WHOLE = ((2 - Fraction(STEP, 1 << 23)) / 4 * WORD + EPSILONS * EPSILON) * (1 + 2 * U)
+half = lambda filled: 2 * filled * WORD * (1 + 2 * U)
+# Is the offset of each served fraction at most the half, and does that fit the word?
+served_fits = lambda filled, more=EPSILONS: more * EPSILON >= SERVED + MIDDLE + LOW_BITS and max(half(filled), WHOLE) < WORD / 2
 require(served_fits(FILLED) and not served_fits(Fraction(1, 4)) and not served_fits(FILLED, 1), "served")
 proven(f"the offset of each fraction that a part serves is within its half and fits the word, for FILLED = {float(FILLED)} and any shift; with 0.25, or a half of one EPSILON more than the part, not so")
-
-
-def beyond_fits(filled, shift):
-    """The same for fractions up to 4 EPSILON beyond the part."""
-    return most_filled(filled, shift) + (MIDDLE + LOW_BITS) * 2**shift < WORD / 2
-
-
-def reach_holds(shift):
-    return (MIDDLE + LOW_BITS) * 2**shift <= REACH * WORD
-
-
-far = max(shift for shift in range(32) if beyond_fits(FILLED, shift))
-within = max(shift for shift in range(32) if reach_holds(shift))
-
-
-require(MOST_SHIFT <= far and not beyond_fits(FILLED, far + 1), "fractions beyond a part fit the word")
+# The same for fractions up to 4 EPSILON beyond the part, and what the reach allows.
+off = lambda shift: (MIDDLE + LOW_BITS) * 2**shift
+far = max(shift for shift in range(32) if half(FILLED) + off(shift) < WORD / 2)
+within = max(shift for shift in range(32) if off(shift) <= REACH * WORD)
+require(WHOLE + off(0) < WORD / 2 and MOST_SHIFT <= min(far, within) and far < 31, "fractions beyond a part fit the word")
 proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shifts up to {MOST_SHIFT} (up to {far} would do)")
 # Tops keep 16 ulp from where a range begins.
 bits, top = BitVecs("bits top", 32)
@@ -169,8 +110,7 @@ valid(
 
 # Horner's sums. With |x| within the reach, each is at most the bound of the exact one, half a unit for each coefficient's rounding
 # and one for each product's, and the bound is computed with up to three roundings a step.
-DEGREE = int(source(r"pub\(crate\) const DEGREE: usize = (\d+);"))
-GUARD = 1 / Fraction(2 ** int(source(r"most \*= 1\.0 \+ 1\.0 / \(1 << (\d+)\) as f32;")))
+DEGREE, GUARD = constant("DEGREE"), Fraction(1, 2**16)
 
 
 def sums_fit(guard, per_step=Fraction(3, 2)):
@@ -179,9 +119,8 @@ def sums_fit(guard, per_step=Fraction(3, 2)):
     return greatest + sum(per_step * reach**k for k in range(DEGREE)) < 2**31
 
 
-require(reach_holds(within) and sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
+require(sums_fit(GUARD) and not sums_fit(GUARD / 2**6), "Horner's sums")
 proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a part serves, and {EPSILONS} EPSILON beyond with shifts up to {within}")
-require(MOST_SHIFT <= within, "the reach covers all shifts")
 
 # The plateau's line, by the bits of a fraction: those above `before` and up to `last`, which are below 2^31, as all are.
 last, before = BitVecs("last before", 32)
@@ -214,9 +153,8 @@ valid(
     Implies(ULT(end, 127 << 23), UGE(UDiv(end, BitVecVal(STEP, 32)) * STEP, end)),
 )
 
+
 # Horner's rule: each product is rounded down. `e` is what has been lost so far. The least x, -1/2, is never reached.
-
-
 def horner(least, most, size="0.4999"):
     steps = ["x = fixed<-32,ne>(X);", "e1 = -d1;"]
     for k in range(2, DEGREE + 1):
@@ -228,11 +166,6 @@ $ x in (0);
 """
 
 
-code("pub(crate) const fn times_high(a: i32, x: i32) -> i32 {", "if HALVES { times_high_by_halves(a, x) } else { ((a as i64 * x as i64) >> 32) as i32 } }")
-code("pub(crate) const fn times_high_by_halves(a: i32, x: i32) -> i32 {", """let [a_low, x_low] = [a & 0xFFFF, x & 0xFFFF];
-    let [a_high, x_high] = [a >> 16, x >> 16]; let carried = (a_low as u32).wrapping_mul(x_low as u32) >> 16;
-    let middle = a_high * x_low + carried as i32; let other = a_low * x_high + (middle & 0xFFFF);
-    a_high * x_high + (middle >> 16) + (other >> 16) }""")
 # The four products of halves, each within what it may be.
 high, first, second, low = Ints("high first second low")
 most_low, least_high = 2**16 - 1, -(2**15)
@@ -245,15 +178,11 @@ valid(
     Implies(products, And(high + middle / 2**16 + other / 2**16 == (high * 2**32 + (first + second) * 2**16 + low) / 2**32, word(middle), word(other))),
     Implies(products, other < 2**31 - 2**17),
 )
-HALF_TRUNCATION = Fraction(source(r"const HALF_TRUNCATION: f32 = ([\d.]+);"))
-MEAN_TRUNCATION = Fraction(source(r"const MEAN_TRUNCATION: f64 = (-[\d.]+);"))
+HALF_TRUNCATION, MEAN_TRUNCATION = constant("HALF_TRUNCATION"), constant("MEAN_TRUNCATION")
 least, most = MEAN_TRUNCATION - HALF_TRUNCATION, MEAN_TRUNCATION + HALF_TRUNCATION
-stated = documented(r"truncates by (-[\d.]+) to ([\d.]+) units")
-require([least, most] == [Fraction(x) for x in stated], "the document's bounds are those of the constants")
 require(gappa(horner(float(least), float(most))), "Horner's truncation")
 near = Fraction(1, 500)
 require(not gappa(horner(float(least + near), float(most))) and not gappa(horner(float(least), float(most - near))), "tighter")
 require(not gappa(horner(float(least), float(most), "0.5")), "at x = 1/2 it is more")
 proven(f"Horner's rule in integers truncates by {float(least)} to {float(most)} units, which is MEAN_TRUNCATION and HALF_TRUNCATION about it, for |x| up to 0.4999")
-require(most_filled(FILLED, 1) / WORD < Fraction(4999, 10000) and most_filled(FILLED, 0) / WORD < Fraction(4999, 10000), "x is below 1/2")
-code("let middle = fixed_f64(c[0] - MEAN_TRUNCATION * step, self.unit);", "")
+require(max(half(FILLED), WHOLE) < Fraction(4999, 10000) * WORD, "x is below 1/2")

@@ -1,16 +1,21 @@
-"""From fractions to ticks: the order of fractions, whole units of time, and the nearest tick. By z3 and exact fractions."""
+"""From fractions to ticks: the order of fractions, whole units of time, and the nearest tick; and that ticks never step back."""
 
+import box
 from solver import *
 
+pinned("""
+fraction.rs of_parts 36f90104
+trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 536aa558 exponent_of_ticks f79152f3 TickScale::new f3f8ffa3 TickScale::tick ed10ecd3
+trigger/pulse.rs at e0b4f7ee
+number/moment.rs in_units 65d70f00
+number/units.rs fixed_down 12e34aed time_exponent 96eb982d
+exposure.rs moment f08dceba sought 05355bcf
+octave/candidate.rs candidate 5f0e210b
+inverse.rs time_units 0a5d4365 direct_units 0f0faea8 searched_units 8d6e0d1a
+""")
+
 # --- Fractions. R rounds to an f32, D divides by 2n and rounds. Both keep order, R keeps n, and D makes 1/2 of that.
-code("pub(crate) const fn new(odd: u32, more: f32, n: u32) -> Self {", """
-    let (part, rest) = (odd as f32 + more, (2 * n - odd) as f32 - more);
-    let all = (2 * n) as f32;
-    if part <= rest { Self { side: Start, a: part / all } } else { Self { side: End, a: rest / all } }""")
-code("Fraction::new(2 * i + 1, more, self.n)", "}")
-code("Pulse { on: self.ticks.around(i, -self.duty),", "off: self.ticks.around(i, self.duty) }")
-code("if n > MOST_TRIGGERS {", "return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS }); }")
-MOST_TRIGGERS = 1 << int(source(r"const MOST_TRIGGERS: u32 = 1 << (\d+);"))
+MOST_TRIGGERS = constant("MOST_TRIGGERS")
 require(2 * MOST_TRIGGERS <= 2**24, "2i + 1, 2n and their difference are exact")
 n, half = Real("n"), Q(1, 2)
 exact, part, rest, a, b = ([Real(f"{name}{i}") for i in (0, 1)] for name in ("exact", "part", "rest", "a", "b"))
@@ -53,53 +58,63 @@ def single(x):
 exact = 257 - Fraction(0.7388458251953125)
 end, ulp = single(single(exact)[0] / 2052)
 require(abs(end - exact / 2052) > Fraction(148, 100) * ulp, "an end that is farther off than 1.48 ulp")
+# Two ends of pulses that are neighbours are at 1/4n or later, or the second is three times as far as the first: with v = 1 - d < 1/2 the
+# next is 1 + d.
+v, w = Reals("v w")
+apart = lambda least: Implies(And(d > 0, d <= 1, i >= 1, v == i - d, w == i + d), Or(v >= least, w >= 3 * v))
+valid("neighbouring fractions of a frame are at least 1/4n, or one is three times the other", apart(half), apart(Q(51, 100)))
+LEAST = Fraction(1, 4 * MOST_TRIGGERS)
 
-# --- Times in whole units: rounded down as one number, and from either end of a section in order.
-code("let Pair { hi, lo } = self.way.shifted(self.unit - unit);", """let whole = fixed(hi, 0);
-    let rest = (hi - whole as f32) + lo; let down = fixed(rest, 0); let way = whole + down - ((down as f32) > rest) as i64;
-    let [base, until] = [fixed(self.base, unit), fixed(self.until, unit)]; let time = if self.back { base - way } else { base + way };
-    let is_beyond = if self.back { time < until } else { time > until }; if is_beyond { until } else { time }""")
-hi, lo, lost = Reals("hi lo lost")
-cut = lambda x: If(x >= 0, ToInt(x), -ToInt(-x))
-whole = cut(hi)
+# --- Times in whole units: base and way are each rounded down, and no time is beyond the section.
+whole, hi, lo, lost = Int("whole"), *Reals("hi lo lost")
 rest = hi - whole + lo + lost
-way = whole + cut(rest) - If(cut(rest) > rest, 1, 0)
-valid(
-    "in_units: a way is rounded down as one number, but for what its rest is rounded by",
-    Implies(hi >= 0, way == ToInt(hi + lo + lost)),
-    Implies(hi >= 0, whole + cut(rest) == ToInt(hi + lo + lost)),
-)
-# From 2^24 on `hi` is whole, and the rest is `lo`. Below, `lo` is at most (6 + 3) 2^-24 of terms that are 14 times the way at most.
-terms = int(documented(r"the terms of a time are at most (\d+) times the time"))
-order = documented(r"ways of at least 2²⁴ units keep their order, and shorter ones if they are 2⁻(\S+) of a unit apart")
-require(9 * terms + 1 < 2**7 and 2 * Fraction(2**7, 2**25) <= Fraction(1, 2**int(number(order))), "what a rest is rounded by")
-first, last, way, back = Reals("first last way back")
+as_one = lambda so: Implies(so, whole + ToInt(rest) == ToInt(hi + lo + lost))
+valid("in_units: a way is rounded down as one number, but for what its rest is rounded by", as_one(whole == ToInt(hi)), whole + ToInt(rest) == ToInt(hi + lo))
+# From 2^24 on `hi` is whole, and the rest is `lo`. Below, `lo` is at most 9 * 2^-24 of terms that are TIME_TERMS times the way.
+WAYS = 2 * (9 * TIME_TERMS + 1) * 2**24 * U * U
+require(WAYS < Fraction(1, 2**16), "what a rest is rounded by")
+proven(f"in_units: so ways of at least 2^24 units keep their order, and shorter ones if they are 2^{log2(WAYS):.1f} of a unit apart")
+base, until, way, back = Reals("base until way back")
 smaller = lambda x, y: If(x < y, x, y)
-forwards, backwards = smaller(cut(first) + ToInt(way), cut(last)), -smaller(ToInt(back) - cut(last), -cut(first))
-section = And(first <= last, way >= 0, back >= 0, first + way <= last - back)
-is_whole = lambda x: x == ToInt(x)
-one_side = Or(first >= 0, last <= 0, is_whole(first), is_whole(last))
-valid(
-    "in_units: a time found from a section's start is not after a later one found from its end, but on a section across time 0 with no end in whole units",
-    Implies(And(section, one_side), forwards <= backwards),
-    Implies(section, forwards <= backwards),
-)
-valid("in_units: even there by one unit at most", Implies(section, forwards <= backwards + 1))
+section = And(base <= until, way >= 0, back >= 0, way <= until - base, back <= until - base)
+forwards = smaller(ToInt(base) + ToInt(way), ToInt(until))
+backwards = -smaller(ToInt(back) - ToInt(until), -ToInt(base))
+early = lambda most: And(forwards > base + way - most, forwards <= base + way)
+about = lambda most: And(backwards > until - back - most, backwards < until - back + most)
+valid("in_units: a time from a section's start is early by less than two units", Implies(section, early(2)), Implies(section, early(1)))
+valid("in_units: one from its end is off by less than one", Implies(section, about(1)), Implies(section, about(Q(9, 10))))
+within = And(forwards >= ToInt(base), forwards <= ToInt(until), backwards >= ToInt(base), backwards <= ToInt(until))
+valid("in_units: neither is beyond the section's ends, as those are rounded down, so times of two sections are in order", Implies(section, within))
 
-# --- Ticks. The scale, by the exponents of a length, from 2^37 units, and a rate. An interval has at most 2^TICK_BITS ticks.
-code("let up = length.leading_zeros().wrapping_sub(1) & 31;", """let up = if up > 1 { up } else { 0 };
-    let zeros = ticks_per_unit.leading_zeros() & 31; let down = (up + zeros) as i32 - unit - 33;
-    let down = if down < 63 { down as u32 } else { 63 }; Self { start, up, rate: ticks_per_unit << zeros, down }""")
-code("let delay = time.wrapping_sub(self.start);", """let delay = if delay > 0 { delay as u64 } else { 0 };
-    let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
-    let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF); let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
-    (((product >> (self.down & 63)) + 1) >> 1) as u32 }""")
-code("let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);", """
-    let ticks = high * rate + (low * rate).div_ceil(1 << 32); 96 - ticks.saturating_sub(1).leading_zeros() as i32 + unit }""")
-code("if exponent_of_ticks(length, ticks_per_unit, unit) > TICK_BITS {", "return Err(too_high(length, ticks_per_unit, unit)); }")
-code("let most = if end - start > most { end - start } else { most };", "(most.to_bits() >> 52) as i32 - 1023 - 61 }")
-TICK_BITS = int(source(r"const TICK_BITS: i32 = (\d+);"))
-SHORTEST, LONGEST = 61 - 24, 62
+# --- Never a step back. Let two fractions be neighbours: an ulp apart, at least 2^-24 of the lesser. A time's measuring, of its way:
+TIME = AT_PAIR[3] * TIME_TERMS * U * U
+INVERSE, ULP_ERROR = constant("INVERSE_ERROR"), constant("ULP_ERROR")
+# The way takes at most FULL times the mass at the openness of its end: so measuring it costs FULL times as much of an exposure.
+FULL = 1024
+reach = lambda r: box.sizes(box.times(r.t, r.f))
+require(box.holds(FULL, reach, lambda r: r.m, box.extremes()) and not box.holds(FULL * Fraction(9, 10), reach, lambda r: r.m, box.extremes()), "a way at full openness")
+proven(f"openness times the way since an end is at most {FULL} times the mass")
+# The least interval in units, and the exposure of what is as open as the curve's most open control value.
+SHORTEST = int(61 + log2(constant("LEAST_INTERVAL")))
+UNITS = 2**SHORTEST * Fraction(1, 20)
+ulp = U
+searched = INVERSE + FULL * TIME
+require(ulp - 2 * searched > 0 and (ulp - 2 * INVERSE) * LEAST * UNITS / 2 > WAYS and ulp - 2 * INVERSE > 4 * FULL * TIME, "searches from one end")
+proven(f"two searches from one end: what the mass and the time are off by is {float(2 * searched / ulp):.2f} ulp; and the ways are 2^{log2((ulp - 2 * INVERSE) * LEAST * UNITS):.1f} of a unit or more apart")
+# From either end, at 1/2. The first is not late, the second early by less than a unit.
+require((ulp / 2 - INVERSE) * UNITS > 1 + 2 * TIME * 2**SHORTEST and (ulp / 2 - INVERSE) / 20 > 2 * TIME, "searches from either end")
+proven(f"a search from either end: times are 2^{log2((ulp / 2 - INVERSE) * UNITS):.1f} units apart or more, and a unit would do")
+# A polynomial's certificate counts three units: one by which its own end is cut, and two by which a search beside it may be early.
+UNITS_IN_CERTIFICATE = 3
+require(UNITS_IN_CERTIFICATE == 1 + 2 and 2 * ULP_ERROR < 1 and ULP_ERROR + searched / ulp < 1, "polynomials")
+proven(f"a polynomial beside another takes {float(2 * ULP_ERROR):.2f} ulp of exposure, beside a search {float(ULP_ERROR + searched / ulp):.2f}, with all units of time")
+# The plateau's line is off by 2^-6 ulp of its least u (domain.py).
+line = Fraction(1, 2**6) + 2 / (constant("FINE") / 2**23 * UNITS)
+require(line + max(ULP_ERROR, searched / ulp) < 1, "the line")
+proven(f"the plateau's line, beside a polynomial or a search, takes {float(line + max(ULP_ERROR, searched / ulp)):.2f} ulp")
+
+# --- Ticks. The scale, by the exponents of a length and a rate. An interval has at most 2^TICK_BITS ticks.
+TICK_BITS, LONGEST = constant("TICK_BITS"), 62
 ticks = BitVec("ticks", 128)
 upper = LShR(ticks + (2**32 - 1), 32)
 for e in range(97):
@@ -108,7 +123,7 @@ for e in range(97):
     solver.add((LShR(upper - 1, e - 32) == 0 if e >= 32 else BoolVal(False)) != ULE(ticks, BitVecVal(1 << e, 128)))
     require(solver.check() == unsat, "exponent_of_ticks")
 require(2 ** (LONGEST - 32) * (2**32 - 1) + 2**32 < 2**64, "exponent_of_ticks: the upper 64 bits")
-proven("exponent_of_ticks: the least power of two that is not below, for every number of ticks from 2^37 units to 2^96")
+proven(f"exponent_of_ticks: the least power of two that is not below, for every number of ticks from 2^{SHORTEST} units to 2^96")
 downs = set()
 for exponent in range(SHORTEST, LONGEST + 1):
     up = 62 - exponent if exponent < 61 else 0
@@ -131,30 +146,8 @@ for down in range(least, 64):
         solver.add(Not(claim))
         require(solver.check() == expected, f"tick: moved down by {down}")
 proven(f"TickScale: the tick is floor(delay rate + 1/2) exactly, for every delay in units, length and rate: moved down by {least} or more, and nothing overflows")
-# What a tick may be off by: half a tick, and the time before. A direct time is the exact time of a fraction, in whole units; only a
-# start that is no whole number is cut, and then there are 2^61 units or nearly so many. A time that is searched for is rounded down by
-# less than a unit, and measured by `at_pair`; its base is cut as a start is.
-errors = [Fraction(int(said), 2**48) for said in documented(r"and within (\d+), (\d+) and (\d+) · 2⁻⁴⁸ of the three terms for degree 3")]
-most_ticks = 2**TICK_BITS
-cut_off = Fraction(most_ticks, 2**61 - 2**24)
-
-
-def shortest():
-    """The ramps of one f32 unit, 2^37 units: by the differences of their control times, which are whole multiples, those that never run back."""
-    for a in range(4):
-        for b in range(4):
-            middle = 1 - a - b
-            if middle >= 0 or middle**2 <= a * b:
-                yield abs(3 * a), abs(3 * (middle - a)), abs(a - 2 * middle + b)
-
-
-found = max(sum(error * term for error, term in zip(errors, ramp)) for ramp in shortest())
-require(sorted(shortest()) == [(0, 0, 1), (0, 3, 2), (3, 3, 1), (3, 6, 4)], "the shortest ramps")
-half_tick = Fraction(1, 2)
-off = {
-    2**SHORTEST: half_tick + Fraction(most_ticks, 2**SHORTEST) + found * most_ticks,
-    2 ** (SHORTEST + 1): half_tick + Fraction(most_ticks, 2 ** (SHORTEST + 1)) + max(errors) * terms * most_ticks + 2 * cut_off,
-}
-promise = Fraction(documented(r"Each tick is within (0\.\d+) tick of the exact time"))
-require(max(off.values()) <= promise < max(off.values()) + Fraction(1, 1000), f"{[float(x) for x in off.values()]}")
-proven("a tick is off by at most " + ", ".join(f"{float(x):.5f} in intervals of 2^{log2(length):g} units" for length, x in off.items()) + f" or more: the promise is {float(promise)}; direct ones by at most 1/2 and 2^{log2(cut_off):.1f}")
+# What a tick may be off by: half a tick, the measuring of the way, two units and the start's.
+unit = Fraction(2**TICK_BITS, 2**SHORTEST)
+off = Fraction(1, 2) + TIME * 2**TICK_BITS + 3 * unit
+require(Fraction(506, 1000) < off < Fraction(508, 1000), f"{float(off)}")
+proven(f"a tick is within {float(off):.4f} tick of the exact time of a fraction within {float(INVERSE / ulp):g} ulp of its own, or where a polynomial answers within 1/2 and 2^{log2(2 * unit):g} of one within {float(ULP_ERROR)} ulp")

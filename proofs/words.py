@@ -2,9 +2,14 @@
 
 from solver import *
 
+pinned("""
+inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 89095067
+number/pair.rs upper 5180492f ::flipped 279c50d6 significand a3252cda
+number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
+octave/candidate.rs rounded 0d9916e4
+""")
+
 # The plateau's line.
-code("const fn on_line(&self, u: u32) -> i64 {", """let (high, low) = ((self.slope as u64) >> 32, self.slope as u32 as u64);
-    let way = high * u as u64 + ((low * u as u64) >> 32); self.base.wrapping_add(way as i64) }""")
 # The two products, of 32 bits by 32, are exact in 64; here they are any numbers that such products may be.
 p, q = Ints("p q")
 greatest = (2**32 - 1) ** 2
@@ -14,11 +19,7 @@ valid(
     Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**63)),
     Implies(products, q + p / 2**32 < 2**62),
 )
-code("const fn in_words(bits: u32) -> u32 {", """let shift = (0.5f32.to_bits() >> 23).wrapping_sub(bits >> 23);
-    (bits << 8 | 1 << 31) >> (shift & 31) }""")
-code("let last_before_line = if near < FINE.to_bits()", """{ FINE.to_bits() } else { near };
-    plan.on_line_count[side] = plan.last_before_far[side].saturating_sub(last_before_line);""")
-FINE = 127 - (int(source(r"const FINE: f32 = 1\.0 / (\d+)\.0;")).bit_length() - 1)
+FINE = 127 + int(log2(constant("FINE")))
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
 whole = (bits << 8) | (1 << 31)
@@ -29,18 +30,11 @@ def line(first):
     return Implies(And(UGE(bits, first << 23), ULT(bits, 127 << 23)), And(ULE(shift, 31), back == whole))
 
 
-valid("in_words: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
+valid("in_line_units: a fraction from FINE to 1 is a whole number of 2^-32", line(FINE), line(FINE - 1))
 
 # The rounding of a time. All f32 near a number of 25 or more bits, and all middles between two of them, are even numbers.
 # So an odd number may stand for all that lies between its even neighbours.
-code("fn upper_word(time: i64) -> Option<i32> {", """let high = (time >> 32) as i32;
-    let has_enough = high.wrapping_add(1 << 25) as u32 >= 1 << 26; has_enough.then_some(high | (time as u32 != 0) as i32) }""")
-code("let sign = (time >> 63) as i32;", """let is_word = (time >> 32) as i32 == sign; let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
-    let (high, low) = ((time >> 32) as i32, time as u32);
-    let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
-    let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
-    filled as f32 * f32::from_bits((127 - down - up) << 23) * self.scale }""")
-LEAST_BITS = int(source(r"high\.wrapping_add\(1 << (\d+)\) as u32 >= 1 << 26"))
+LEAST_BITS = 25
 
 time, even = BitVec("time", 64), BitVec("even", 72)
 
@@ -93,7 +87,6 @@ proven("rounded_near_0: the word is full, and rounds as the exact time rounds; f
 
 # Bits of f32.
 x = BitVec("x", 32)
-code("const fn upper(x: f32) -> f32 {", "f32::from_bits(x.to_bits() & 0xFFFF_F000) }")
 significand = (x & 0x7FFFFF) | (1 << 23)
 high = significand & 0xFFFFF000
 is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
@@ -102,49 +95,38 @@ valid(
     Implies(is_normal, And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(significand - high, 1 << 12), ULT(LShR(high, 12), 1 << 12))),
     Implies(is_normal, ULT(significand - high, (1 << 12) - 1)),
 )
-code("pub(crate) const fn flipped(x: f32, sign: u32) -> f32 {", "f32::from_bits(x.to_bits() ^ sign) }")
 valid(
     "flipped: the sign bit alone changes, for every f32 and NaN",
     And((x ^ (1 << 31)) << 1 == x << 1, LShR(x ^ (1 << 31), 31) == 1 - LShR(x, 31), x ^ 0 == x),
     (x ^ (1 << 31)) == x + (1 << 30),
 )
 
-# `exponent`, `fixed` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
+# `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
 # with the bits of a significand is the same for all: a shift.
-code("pub(crate) const fn exponent(x: f32) -> i32 {", "(x.to_bits() >> 23 & 0xFF) as i32 - 127 }")
-code("pub(crate) const fn fixed(x: f32, e: i32) -> i64 {", """let (bits, exponent) = (x.to_bits(), exponent(x));
-    let significand = (bits & 0x7F_FFFF) as i64;
-    let (significand, exponent) = if exponent > -127 { (significand | 1 << 23, exponent) } else { (significand, -126) };
-    let up = exponent - 23 - e;
-    let units = if up >= 0 { significand << (up & 63) } else if up > -24 { significand >> (-up & 63) } else { 0 };
-    if x < 0.0 { -units } else { units } }""")
 up, sig = BitVec("up", 64), BitVec("sig", 64)
-# A number below 2^63 units: sig 2^up < 2^63, so up is at most 62 where sig is not 0.
-fits = And(up <= 62, up >= -400, ULT(sig, 1 << 24), Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= sig))
-units = If(up >= 0, sig << (up & 63), If(up > -24, sig >> (-up & 63), BitVecVal(0, 64)))
-down = If(-up > 60, BitVecVal(60, 64), -up)
-floor = And(units << down <= sig, sig - (units << down) < BitVecVal(1, 64) << down)
-valid(
-    "fixed: the whole units of a number below 2^63 of them, rounded towards 0",
-    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
-    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
-)
-code("pub(crate) const fn fixed_f64(x: f64, e: i32) -> i64 {", """let bits = x.to_bits();
-    let significand = (bits & ((1 << 52) - 1) | 1 << 52) as i64;
-    let up = (bits >> 52 & 0x7FF) as i32 - 1075 - e;
-    let units = if up > 10 { i64::MAX } else if up >= 0 { significand << (up & 63) } else if up > -64 { significand >> (-up & 63) } else { 0 };
-    if (bits as i64) < 0 { -units } else { units } }""")
+# A number below 2^63 units: |sig| 2^up < 2^63, so up is at most 62 where sig is not 0.
+size = If(sig < 0, -sig, sig)
+fits = And(up <= 62, up >= -400, sig > -(1 << 24), sig < 1 << 24, Implies(up >= 0, LShR(BitVecVal(2**63 - 1, 64), up) >= size))
+
+
+def whole(most_down):
+    units = If(up >= 0, sig << (up & 63), sig >> If(up > -most_down, -up & 63, BitVecVal(most_down, 64)))
+    down = If(-up > 60, BitVecVal(60, 64), -up)
+    floor = And(units << down <= sig, sig - (units << down) < BitVecVal(1, 64) << down)
+    return Implies(fits, If(up >= 0, units >> up == sig, floor))
+
+
+valid("fixed_down: the whole units of a number below 2^63 of them, rounded down", whole(63), whole(23))
 # A subnormal number, whose exponent counts as 0, has no unit: up is at most -64 where e is at least -1011.
 fits = And(up <= 10, up >= -4000, ULT(sig, 1 << 53), UGE(sig, 1 << 52))
 units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(0, 64)))
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
 valid(
-    "fixed_f64: the whole units of a double below 2^63 of them, rounded towards 0",
+    "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0",
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
 )
-code("const fn rounded(x: f64, e: i32) -> i32 {", "let halves = fixed_f64(x, e - 1); ((halves + if halves < 0 { -1 } else { 1 }) / 2) as i32 }")
 units = Real("units")
 valid(
     "rounded: from whole halves of a unit to the nearest unit; the other sign mirrors it",
@@ -153,7 +135,6 @@ valid(
 )
 # `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
 # has one less, also across a power of two.
-code("pub(crate) const fn floor_bits(x: f64) -> u32 {", "let rounded = x as f32; let bits = rounded.to_bits(); if rounded as f64 > x { bits - 1 } else { bits } }")
 y = FP("y", Float64())
 rounded = fpFPToFP(RNE(), y, Float32())
 below = fpBVToFP(fpToIEEEBV(rounded) - 1, Float32())
@@ -168,9 +149,6 @@ valid(
 )
 
 # `significand` cuts a double's 53 bits: 24 and 24 more.
-code("pub(crate) const fn significand(x: f64) -> (Pair, i32) {", """const UNIT: f32 = 1.0 / (1u64 << 47) as f32; let bits = x.to_bits();
-    let hi = f32::from_bits(127 << 23 | (bits >> 29) as u32 & 0x7F_FFFF);
-    let lo = (bits as u32 >> 5 & 0xFF_FFFF) as f32 * UNIT; (Pair { hi, lo }, (bits >> 52) as i32 - 1023) }""")
 double = BitVec("double", 64)
 exact = (double & (2**52 - 1)) | 2**52
 hi = (LShR(double, 29) & 0x7FFFFF) | (1 << 23)

@@ -93,7 +93,8 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     from_nearer_end(|side| {
         let part = point.fraction(side);
         if ramp.is(side) {
-            part
+            // With the greatest `hi`, as `minus` keeps the order of such pairs.
+            Pair::sum(part.hi, part.lo)
         } else {
             exposure.ramp(side).share.plus(exposure.plateau).plus(part)
         }
@@ -102,7 +103,6 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
 
 /// The fraction collected since the start, by those since a side's end, in [`WHOLE`]: that since the start where it is
 /// below half, else the rest of that since the end.
-#[inline(always)]
 fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();
@@ -114,8 +114,8 @@ fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     fraction / WHOLE
 }
 
-/// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded to
-/// a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+/// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded
+/// to a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
 #[inline]
 fn on_grid(exposure: &Exposure, t: f32) -> f32 {
     let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];

@@ -1,8 +1,8 @@
 //! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons.
 //!
-//! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: `t'` is at least `3 p²` within
-//! 1/8 of the start, for a ramp of length 1, as much at the end, and 1/22 between. By rules 2 and 3 a ramp of a shutter
-//! has at least 1/20 of the exposure that its length would have fully open (proofs/domain.py).
+//! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: `t'` is at least `3 p²`
+//! within 1/8 of the start, for a ramp of length 1, as much at the end, and 1/22 between. By rules 2 and 3 a ramp of a
+//! shutter has at least 1/20 of the exposure that its length would have fully open (proofs/domain.py).
 
 use crate::error::{CurveError, Part, tried};
 use crate::number::units::DOUBLE_WORD;

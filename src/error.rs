@@ -42,8 +42,8 @@ pub enum CurveError {
         /// The control point: 1 or 2.
         point: u8,
     },
-    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the whole
-    /// interval. They may have been given as fractions of the ramp, or as times.
+    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the
+    /// whole interval. They may have been given as fractions of the ramp, or as times.
     FractionOutsideRamp {
         /// The ramp.
         part: Part,

@@ -58,7 +58,6 @@ impl Exposure {
         Ok((Self { ramps, plateau, area }, shapes))
     }
 
-    #[inline(always)]
     pub(crate) const fn ramp(&self, side: Side) -> &Ramp {
         &self.ramps[side as usize]
     }
@@ -78,13 +77,12 @@ impl Exposure {
     }
 
     /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
-    /// `INVERSE_ERROR · a`. Where a search reaches its limit of evaluations there is no bound. Of 0 it is the end itself,
-    /// though no light may fall there; of what is negative, too, and of NaN the start.
-    #[inline(always)]
+    /// `INVERSE_ERROR · a`; where a search reaches its limit of evaluations there is no bound. Of 0, and of what is
+    /// negative, it is the end itself, though no light may fall there.
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());
-        if a.is_nan() || a <= 0.0 {
-            return Moment::at(self.end_time(if a.is_nan() { Side::Start } else { side }));
+        if !(a > 0.0) {
+            return Moment::at(self.end_time(side));
         }
         match self.sought(fraction) {
             Sought::Plateau(past_near) => {
@@ -118,7 +116,6 @@ impl Exposure {
         }
     }
 
-    #[inline(always)]
     const fn sought(&self, fraction: Fraction) -> Sought<'_> {
         let (side, a_in_whole) = (fraction.side, Pair::new(fraction.get() * WHOLE));
         let near = self.ramp(side).share;

@@ -16,8 +16,8 @@
 //! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
 //! search by less than a quarter, and on the line `A u` is rounded down.
 //!
-//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step 1,
-//! too: there the line begins 1/512 from either end.
+//! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
+//! 1, too: there the line begins 1/512 from either end.
 
 use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
@@ -33,8 +33,8 @@ use crate::ramp::bezier::CubicBezier;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Inverse<const OCTAVES: usize> {
     pub(crate) exposure: Exposure,
-    /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that is
-    /// more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
+    /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that
+    /// is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
     time_of_word: f32,
     /// By side: the bits of the last `f32` at or before the far ramp's join. One with greater bits is on the far ramp.
     line_last_bits: [u32; 2],
@@ -80,9 +80,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
         if this.exposure.has_plateau() {
-            // The line at u = 0 and at u = 1, as if the shutter opened and closed at once, with the same exposure. It is
-            // off by a few units. An ulp of the least `u` on it, 2⁻³², takes 2⁸ of them, as by the rules of `domain` its
-            // slope is at least 2⁴⁰ (proofs/domain.py).
+            // The line at u = 0 and at u = 1, as if the shutter opened and closed at once, with the same exposure. It
+            // is off by a few units. An ulp of the least `u` on it, 2⁻³², takes 2⁸ of them, as by the rules of `domain`
+            // its slope is at least 2⁴⁰ (proofs/domain.py).
             let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
             let first =
                 fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
@@ -117,7 +117,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// The early return keeps register saves off the plateau, whose answers then take a third fewer cycles.
+    /// For a `static` curve the early return keeps register saves off the plateau, whose answers then take a third fewer
+    /// cycles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
@@ -136,7 +137,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
                 Some(time) => (time as f32, self.time_of_word),
                 None => (self.rounded_near_0(time), 1.0),
             },
-            None => (f32::from_bits(self.searched_bits(fraction)), 1.0),
+            None => (f32::from_bits(self.searched_bits(u)), 1.0),
         };
         // One product and one return for all three.
         time * scale
@@ -236,11 +237,17 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         self.exposure.moment(fraction).in_units(self.unit_exponent())
     }
 
-    /// The time at a fraction, by a search. Out of line: direct answers save no registers for it. It returns bits, not a
-    /// float, so that the caller cannot tail-call it: all answers on ramps share one return.
+    /// The time of `u` by a search. Out of line, with `u`, which is still in its register: direct answers save none for
+    /// it, 6 cycles of each. It returns bits, not a float, so that the caller cannot tail-call it: all answers on ramps
+    /// share one return.
     #[cold]
     #[inline(never)]
-    fn searched_bits(&self, fraction: Fraction) -> u32 {
+    fn searched_bits(&self, u: f32) -> u32 {
+        let fraction = if u > 0.5 {
+            Fraction { side: End, bits: (1.0 - u).to_bits() }
+        } else {
+            Fraction { side: Start, bits: u.to_bits() }
+        };
         self.exposure.moment(fraction).time().to_bits()
     }
 

@@ -30,13 +30,13 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// Hz.
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
-/// another number than 8. The promised accuracy is the same for every number. With 8 some one `u` in 256 of a
-/// typical curve needs a search, with 0 every `u` on the ramps does. A curve takes 384 bytes, and 96 more for each of
+/// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
+/// curve need a search, about one in 256, with 0 all on the ramps do. A curve takes 376 bytes, and 96 more for each of
 /// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
 ///
-/// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers, down
-/// to a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a polynomial, a
-/// search answers.
+/// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers,
+/// down to a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a
+/// polynomial, a search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) inverse: Inverse<OCTAVES>,
@@ -125,10 +125,9 @@ impl ShutterCurve {
 
     /// One Bezier `(t(p), f(p))` alone as a density: the opening ramp of a shutter whose closing ramp has no length.
     ///
-    /// [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do not depend on its scale. But `f`
-    /// may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best by a power of two, which
-    /// rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of
-    /// the scaled density.
+    /// [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do not depend on its scale. But
+    /// `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best by a power of two,
+    /// which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -324,9 +323,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
     /// README says how many cycles such a tick costs at most.
     ///
-    /// It is at most 2²². With 8 octaves it is 127 or more on typical curves, and up to twice that for each octave more.
-    /// It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure lies on
-    /// the plateau.
+    /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves, and up to about twice that with one
+    /// more. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure
+    /// lies on the plateau.
     ///
     /// In a constant the compiler checks it:
     ///
@@ -348,8 +347,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They count
-    /// from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step back.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They
+    /// count from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step
+    /// back.
     ///
     /// Their times, in the curve's unit and to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.

@@ -6,10 +6,11 @@ import { go, tell } from './model.js';
 import { inWords, remedies } from './remedies.js';
 import { INNER, NUMBERS } from './scene.js';
 
-const isNew = watch();
+const isNew = watch(), isOther = watch();
 /** Draws it. */
 export function draw({ wrong, busy, note, view, now: { scene } }) {
-  if (isNew(wrong, busy, busy?.words, note, view)) {
+  // While something is computed, a button that is pressed stays.
+  if (isNew(wrong, note, view)) {
     const isWrong = Boolean(wrong || note?.isWrong);
     const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
     const helps = wrong?.isLink ? [button('Go on without it', () => go(-1))] : wrong ? (view && !wrong.id ? remedies(scene).map(([words, changes]) => button(words, () => mend(changes))) : [])
@@ -18,6 +19,8 @@ export function draw({ wrong, busy, note, view, now: { scene } }) {
     $('problem').classList.toggle('wrong', isWrong);
     if ($('problem').firstElementChild.textContent !== words) $('problem').firstElementChild.textContent = words;
     $('problem').lastElementChild.replaceChildren(...helps);
+  }
+  if (isOther(busy, busy?.words)) {
     $('busy').hidden = !busy;
     if (busy) write($('busy').firstElementChild, `${busy.words} …`);
   }

@@ -130,7 +130,7 @@ function listen() {
   const play = async (isUnasked) => {
     player ??= await import('./play.js');
     // Whoever does something meanwhile is not disturbed.
-    if (isUnasked !== true || (!graph.dragged && model.cursor === null)) player.play();
+    if (isUnasked !== true || (!graph.dragged && model.cursor === null && !model.hold)) player.play();
   };
   $('play').onclick = play;
   // Where motion is not wanted, nothing moves unless it is asked to.

@@ -20,13 +20,13 @@ export function play() {
   const list = collected({ scene, view });
   const [start, end] = [list[0][0], list.at(-1)[0]];
   let first;
-  tell({ hold: null });
+  tell({ hold: null, cursor: start, isPlaying: true });
   const next = (time) => {
     first ??= time;
     const part = (time - first) / LENGTH;
     // Another curve, or a pointer, ends it.
-    if (part > 1 || model.view !== view || (time !== first && !model.isPlaying)) return stop();
-    tell({ cursor: start + part * (end - start), isPlaying: true });
+    if (part > 1 || model.view !== view || !model.isPlaying) return stop();
+    tell({ cursor: start + part * (end - start) });
     frame = requestAnimationFrame(next);
   };
   frame = requestAnimationFrame(next);

@@ -131,8 +131,10 @@ export function draw({ now: { scene, trace }, note }, samples) {
 
 function panel(shown, trace, note, isHand, scene) {
   if (!shown) return [empty];
-  const { file, name, asked, measured, fit } = shown;
-  const again = (changes) => read(file, { ...asked, ...changes });
+  const { file, name, measured, fit } = shown;
+  let { asked } = shown;
+  // What was chosen before may still be read.
+  const again = (changes) => read(file, (asked = { ...asked, ...changes }));
   const parts = [element('h3', name)];
   const controls = form(shown, again);
   if (!fit) {
@@ -247,10 +249,10 @@ function form({ asked, measured: { names, read }, fit }, again) {
   const columns = Array.from({ length: count }, (_, i) => [i + 1, names[i] ? `${i + 1}: ${names[i]}` : `column ${i + 1}`]);
   const time = read ? (read.time ?? '') : count > 1 ? 1 : '';
   const signal = read?.signal ?? Math.min(2, count);
-  const both = (time, signal) => ({ columns: (time ? [time, signal] : [signal]).map(Number) });
+  const both = () => ({ columns: ['time', 'signal'].map((name) => made.elements[name].value).filter(Boolean).map(Number) });
   if (columns.length) {
-    choice('time', 'time', [['', 'none: by the rate'], ...columns], time, (value) => both(value, signal));
-    choice('light', 'signal', columns, signal, (value) => both(time, value));
+    choice('time', 'time', [['', 'none: by the rate'], ...columns], time, both);
+    choice('light', 'signal', columns, signal, both);
   }
   choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])], asked.unit ?? '', (unit) => ({ unit: unit || null, rate: null }));
   number('samples a second', 'rate', asked.rate ?? (read?.rate ? short(read.rate, 7) : ''), 'by the times');

@@ -38,8 +38,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
     await page.evaluate((hash) => (location.hash = hash), scene(i));
     await page.until((name) => document.getElementById('name').value === name, `r${i}`);
     const toml = await page.evaluate(async () => {
-      const { toml } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'toml.js'));
-      const { model } = await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'model.js'));
+      const [{ toml }, { model }] = await Promise.all([part('toml.js'), part('model.js')]);
       return toml(model.now.scene);
     });
     const file = join(scratch, `r${i}.toml`);
@@ -50,7 +49,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
     } catch (error) {
       // What the program refuses the page refuses, for the same reason.
       refused++;
-      const reason = await page.evaluate(async () => (await import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', 'model.js'))).model.wrong.reason);
+      const reason = await page.evaluate(async () => (await part('model.js')).model.wrong.reason);
       assert.ok(reason.length > 10 && error.stderr.includes(reason), `${toml}${reason}\n${error.stderr}`);
       assert.ok(await page.isDisabled('#copy'));
       continue;

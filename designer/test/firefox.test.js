@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, bouncing, choose, curve, drag, drop, middle, open, page, preset, ready, setUp, ticks, trace, values, wait } from './harness.js';
+import { ROOT, bouncing, choose, curve, drag, drop, middle, open, page, preset, ready, setUp, settled, ticks, trace, values } from './harness.js';
 
 setUp('firefox');
 
@@ -34,18 +34,18 @@ test('in Firefox a misfit is exported by its own times, and several traces make 
   assert.match(await page.text('#code'), /trigger_times = /);
   assert.equal((await ticks()).length, 12);
   await drop(['250.csv', trace({ open: 1.5 })], ['125.csv', trace({ open: 5.5 })]);
-  await page.waitForSelector('#speeds:not([hidden])', { timeout: 60_000 });
+  await page.waitForSelector('#speeds:not([hidden])');
   assert.deepEqual(await page.$$eval('#speeds-table tbody tr', (all) => all.map((row) => row.children[1].textContent)), ['1/250', '1/125']);
 });
 
 test('in Firefox a reload keeps the steps, a drag is undone, and what is refused is mended', { timeout: 180_000 }, async () => {
   await open('', { width: 1280, height: 2800 });
-  await wait(300);
+  await settled();
   await preset('leaf');
-  await wait(300);
+  await settled();
   const leaf = await curve();
   await preset('box');
-  await wait(300);
+  await settled();
   await page.reload();
   await ready();
   await page.goBack();

@@ -20,7 +20,6 @@ export let server, url, browser, page;
 export let complaints, requests;
 export const forgive = () => (complaints.length = 0);
 
-export const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 export const shutter = (...args) => execFileSync(SHUTTER, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 
 /** A browser of its own, without what others have kept. */
@@ -61,6 +60,8 @@ export async function open(hash = '', size = { width: 1360, height: 2800 }, sear
   page.on('console', (message) => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('request', (request) => requests.push(request.url()));
+  // One of the page's modules.
+  await page.evaluateOnNewDocument(() => (globalThis.part = (name) => import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', name))));
   await page.setViewport(size);
   await page.goto(url + search + hash);
   await ready();
@@ -70,11 +71,48 @@ export async function open(hash = '', size = { width: 1360, height: 2800 }, sear
 export async function ready(on = page) {
   await on.waitForSelector('body[data-ready]');
   await on.waitForSelector('#forms button');
+  await drawn(on);
 }
+
+/** Until a frame is drawn, and the page's observers are told of it. */
+export const drawn = (on = page) => on.evaluate(() => new Promise((done) => new IntersectionObserver(done).observe(document.body)));
+
+/** Until the form of what is on the screen is written. */
+export const written = () => page.until(() => !document.getElementById('code').classList.contains('waits'));
+
+/** Until the address is that of what is on the screen: a step that comes sooner shares its entry. */
+export const settled = () => page.until(async () => {
+  const [{ hash }, { model }] = await Promise.all([part('scene.js'), part('model.js')]);
+  return location.hash === hash(model.now);
+});
+
+/** Until it has played, if main.js does so unasked. Of two timers, and of two that load a module, the page’s is the first. */
+export const played = () => page.evaluate(async () => {
+  await new Promise((done) => setTimeout(done, 800));
+  await part('play.js');
+});
+
+/** Fits do not begin until `release()` in the page. */
+export const hold = () => page.evaluate(() => {
+  const { postMessage } = Worker.prototype;
+  globalThis.held = [];
+  Worker.prototype.postMessage = function (message) {
+    if (message.question.includes('"ask":"fit"')) held.push([this, message]);
+    else postMessage.call(this, message);
+  };
+  globalThis.release = () => {
+    Worker.prototype.postMessage = postMessage;
+    for (const [worker, message] of held) worker.postMessage(message);
+  };
+});
+
+/** Until the next worker is ended: what it computes never comes. */
+export const ended = () => new Promise((done) => page.once('workerdestroyed', done));
 
 /** The page with what a test asks of it. */
 export function extend(page) {
   const on = (sel, act, ...args) => page.$eval(sel, act, ...args);
+  page.setDefaultTimeout?.(60_000);
   return Object.assign(page, {
     text: (sel) => on(sel, (it) => it.textContent),
     attribute: (sel, name) => on(sel, (it, name) => it.getAttribute(name), name),
@@ -91,9 +129,9 @@ export function extend(page) {
       it.dispatchEvent(new Event(it.tagName === 'SELECT' ? 'change' : 'input', { bubbles: true }));
       if (it.tagName === 'SELECT') it.dispatchEvent(new Event('input', { bubbles: true }));
     }, value),
-    until: (what, ...args) => page.waitForFunction(what, { timeout: 60_000 }, ...args),
+    until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */
-    says: (words) => page.waitForFunction((words) => document.body.innerText.includes(words), { timeout: 60_000 }, words),
+    says: (words) => page.waitForFunction((words) => document.body.innerText.includes(words), {}, words),
     press: async (keys) => {
       const all = keys.split('+');
       for (const key of all.slice(0, -1)) await page.keyboard.down(key);
@@ -107,6 +145,11 @@ export function extend(page) {
       found.focus();
       found.click();
     }, words),
+    resize: async (width, height) => {
+      await page.setViewport({ width, height });
+      await page.until((width) => innerWidth === width, width);
+      await drawn(page);
+    },
     box: async (sel) => (await page.$(sel)).boundingBox(),
   });
 }
@@ -117,18 +160,17 @@ export const preset = (name) => page.$eval(`#presets [data-name="${name}"]`, (it
 export async function copiedBy(act) {
   await page.evaluate(() => navigator.clipboard.writeText('nothing'));
   await act();
-  for (let i = 0; i < 500; i++) {
-    const text = await page.evaluate(() => navigator.clipboard.readText());
-    if (text !== 'nothing') return text;
-    await wait(20);
-  }
-  assert.fail('nothing was copied');
+  const copied = await page.until(async () => {
+    const text = await navigator.clipboard.readText();
+    return text !== 'nothing' && text;
+  });
+  return copied.jsonValue();
 }
 
 /** A form, once it is written. */
 export async function choose(form) {
   await page.click(`#form-${form}`);
-  await page.until(() => !document.getElementById('code').classList.contains('waits'));
+  await written();
 }
 
 /** A form as it is copied. */
@@ -151,7 +193,7 @@ export async function saved(act) {
   rmSync(downloads, { recursive: true });
   mkdirSync(downloads);
   await act();
-  for (let i = 0; i < 300; i++, await wait(20)) {
+  for (let i = 0; i < 3000; i++, await new Promise((done) => setTimeout(done, 20))) {
     const [name] = readdirSync(downloads);
     if (name && !name.endsWith('.crdownload')) return { name, path: join(downloads, name) };
   }

@@ -9,8 +9,8 @@ import { connect } from 'node:net';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { ROOT, SCENES, browser, choose, complaints, copied, copiedBy, curve, drag, drop, extend, forgive, middle, open, page, planned, preset, ready, saved, scratch, setUp,
-  shutter, start, ticks, trace, url, wait } from './harness.js';
+import { ROOT, SCENES, browser, choose, complaints, copied, copiedBy, curve, drag, drawn, drop, extend, forgive, hold, middle, open, page, planned, played, preset, ready, saved, scratch, setUp,
+  settled, shutter, start, ticks, trace, url, written } from './harness.js';
 
 // Everything within one ramp or the other: the most that a curve can ask of the crate.
 const ALL_RAMP = '#name=ramps&unit=ms&times=0,5,5,10&inner=0.2,0,0.3,1,0.7,1,0.8,0&triggers=256&timer_hz=10000000&min_gap=0';
@@ -167,9 +167,8 @@ test('two hundred actions are undone to the bit, and redone', async () => {
 test('Back and Forward, the buttons and the keys go the same steps', async () => {
   await open();
   const states = [await seen()];
-  const paused = () => wait(180);
   const done = async () => {
-    await paused();
+    await settled();
     states.push(await seen());
   };
   await preset('leaf');
@@ -184,20 +183,20 @@ test('Back and Forward, the buttons and the keys go the same steps', async () =>
   await done();
   for (const k of [3, 2]) {
     await page.goBack();
-    await paused();
+    await settled();
     assert.deepEqual(await seen(), states[k], `back to ${k}`);
   }
   await page.click('#undo');
   assert.deepEqual(await seen(), states[1]);
   await page.press('Control+y');
   assert.deepEqual(await seen(), states[2]);
-  await paused();
+  await settled();
   await page.goForward();
-  await paused();
+  await settled();
   assert.deepEqual(await seen(), states[3]);
   await page.press('Control+Shift+Z');
   assert.deepEqual(await seen(), states[4]);
-  await paused();
+  await settled();
   // What is undone and done otherwise cannot be redone; a key in a field undoes the same steps, and stays there.
   await page.focus('#triggers');
   await page.press('Control+z');
@@ -271,8 +270,7 @@ test('at 1024 pixels no number is cut, nor one of the ticks at 320', async () =>
   assert.deepEqual(cut, []);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1024);
   for (const width of [1024, 320]) {
-    await page.setViewport({ width, height: 5000 });
-    await page.waitForSelector('#ticks td');
+    await page.resize(width, 5000);
     assert.deepEqual(await page.$$eval('#ticks :is(th, td)', (all) => all.filter((it) => it.scrollWidth > it.clientWidth).map((it) => it.textContent)), [], String(width));
   }
 });
@@ -284,17 +282,20 @@ test('a handle keeps within what is allowed: it slides along the border, and not
     const sheet = new CSSStyleSheet();
     sheet.replaceSync('#facts dd { width: 110px }');
     document.adoptedStyleSheets = [sheet];
-    globalThis.shifts = [];
-    new PerformanceObserver((list) => {
-      for (const { value, sources } of list.getEntries()) shifts.push([value, ...sources.map(({ node, previousRect, currentRect }) => `${node?.outerHTML?.slice(0, 80) ?? node?.data} ${JSON.stringify([previousRect, currentRect])}`)]);
-    }).observe({ type: 'layout-shift', buffered: true });
+    const shifts = [];
+    const keep = (list) => list.forEach(({ value, sources }) => shifts.push([value, ...sources.map(({ node, previousRect, currentRect }) => `${node?.outerHTML?.slice(0, 80) ?? node?.data} ${JSON.stringify([previousRect, currentRect])}`)]));
+    const observer = new PerformanceObserver((list) => keep(list.getEntries()));
+    observer.observe({ type: 'layout-shift', buffered: true });
+    globalThis.take = () => (keep(observer.takeRecords()), shifts.splice(0));
   });
-  await wait(300);
-  await page.evaluate(() => (shifts.length = 0));
+  const shifts = async () => {
+    await written();
+    await drawn();
+    return page.evaluate(() => take());
+  };
   for (const shown of ['leaf', 'led']) {
     await preset(shown);
-    await wait(100);
-    await page.evaluate(() => (shifts.length = 0));
+    await shifts();
     for (const name of shown === 'leaf' ? ['open_start', 't1', 't2', 'open_end', 'close_start', 't5', 't6', 'close_end'] : ['t1', 'close_start', 'close_end']) {
       const [x, y] = await middle(name);
       await page.mouse.move(x, y);
@@ -312,8 +313,7 @@ test('a handle keeps within what is allowed: it slides along the border, and not
       // The curve goes back, and with it the panels. Until a button is let go the browser keeps what it saw to itself.
       await page.keyboard.press('Escape');
       await page.mouse.up();
-      await wait(150);
-      assert.deepEqual(await page.evaluate(() => shifts), [], `${shown}: ${name}`);
+      assert.deepEqual(await shifts(), [], `${shown}: ${name}`);
     }
   }
   // Openness is 0 at least, not a rounding below.
@@ -483,7 +483,7 @@ test('a move writes nothing that is not seen', async () => {
   await page.$eval('#ticks', (it) => it.scrollIntoView());
   await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 256);
   await page.evaluate(() => scrollTo(0, 0));
-  await wait(200);
+  await drawn();
   const [x, y] = await middle('t2');
   await page.mouse.move(x, y);
   await page.mouse.down();
@@ -533,7 +533,7 @@ test('while a handle is dragged only the rows in sight are written, and all once
   await page.until(() => document.querySelectorAll('#ticks tbody tr').length === 256);
   for (const isAtEnd of [false, true]) {
     await page.$eval('#ticks', (it, top) => it.parentElement.scrollTo(0, top), isAtEnd ? 1e5 : 0);
-    await wait(100);
+    await drawn();
     const before = await ticks();
     await drag('t2', -30, 10);
     const during = await ticks();
@@ -559,19 +559,17 @@ test('a newcomer sees pictures, words, the speed, and an exposure that plays unl
   assert.match(await page.text('header'), /shutter opens.*trace.*flash/s);
   for (const link of ['docs.rs/shutter-curve', 'docs.rs/crate/shutter-curve', 'measuring.md']) assert.ok(await page.count(`header a[href*="${link}"]`), link);
   // It plays, and what has come so far fills; then the picture is whole.
-  const light = () => page.evaluate(() => document.getElementById('flashed').toDataURL());
-  await page.until(() => document.querySelector('path.cross').getAttribute('d'));
-  const begun = await light();
+  const begun = await (await page.until(() => document.querySelector('path.cross').getAttribute('d') && document.getElementById('flashed').toDataURL())).jsonValue();
   await page.until(() => !document.querySelector('path.cross').getAttribute('d'));
-  assert.notEqual(await light(), begun);
+  assert.notEqual(await page.evaluate(() => document.getElementById('flashed').toDataURL()), begun);
   await page.fill('#nominal', '8');
   assert.equal(await page.text('#speed'), '1/133 s for 1/125, −0.09 EV');
   await page.fill('#nominal', '');
   assert.equal(await page.text('#speed'), '1/133 s');
   await page.emulateMediaFeatures([{ name: 'prefers-reduced-motion', value: 'reduce' }]);
   await page.reload();
-  await page.waitForSelector('body[data-ready]');
-  await wait(1200);
+  await ready();
+  await played();
   assert.equal(await page.attribute('path.cross', 'd'), '');
   await page.click('#play');
   await page.until(() => document.querySelector('path.cross').getAttribute('d'));
@@ -615,7 +613,11 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await open();
   const value = (id) => page.value(`#${id}`);
   const trace = () => page.attribute('#graph path.trace', 'd');
-  const select = (name, value) => page.fill(`#trace [name=${name}]`, value);
+  const choice = (name, value) => page.fill(`#trace [name=${name}]`, value);
+  const select = async (...it) => {
+    await choice(...it);
+    await page.until(() => document.getElementById('busy').hidden);
+  };
   const rows = (unit, value, header = '') => header + Array.from({ length: 800 }, (_, i) => {
     const f = i < 200 || i > 560 ? 0 : i < 280 ? (i - 200) / 80 : i < 440 ? 1 : (560 - i) / 120;
     return [...(unit ? [(i * unit).toPrecision(6)] : []), value(f + 0.01 * Math.sin(i * i)).toFixed(4)].join(',');
@@ -675,10 +677,11 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await page.push('Say which way');
   await select('rises', 'false');
   await page.waitForSelector('#trace dl');
-  // A column without a pulse.
-  await select('rises', '');
-  await page.until(() => document.querySelector('#trace dl') && document.querySelector('#trace [name=rises]')?.value === '');
-  await select('signal', '2');
+  // A column without a pulse, chosen before the other choice is read.
+  await hold();
+  await choice('rises', '');
+  await choice('signal', '2');
+  await page.evaluate(() => release());
   await page.waitForSelector('#trace .wrong');
   assert.doesNotMatch(await page.text('main'), /--[a-z]|shutter fit/);
   await page.push('Choose the columns');
@@ -710,7 +713,7 @@ test('broken and huge traces get a message, and the page goes on', async () => {
   await open();
   const before = await copied('json');
   const refused = async (message) => {
-    await page.waitForSelector('#problem.wrong:not([hidden])', { timeout: 60_000 });
+    await page.waitForSelector('#problem.wrong:not([hidden])');
     assert.match(await page.text('#problem'), message);
     await page.push('Close');
     assert.ok(!(await page.isSeen('#problem')));
@@ -832,6 +835,7 @@ test('two curves are compared, and the link has both', async () => {
   await open();
   await page.click('#compare');
   await preset('liquid-crystal');
+  await page.until(() => document.querySelector('#graph path.other').getAttribute('d'));
   const other = await page.attribute('#graph path.other', 'd');
   assert.match(other, /^M.*C/);
   assert.ok(await page.isSeen('.other-key'));
@@ -881,7 +885,7 @@ test('axe finds nothing: plain, wrong, with a trace, with doses, narrow, each in
       await drop(['one.csv', Array.from({ length: 900 }, (_, i) => (i > 300 && i < 600 ? 1 : 0)).join('\n')]);
       await page.waitForSelector('#trace .wrong');
     },
-    narrow: () => page.setViewport({ width: 390, height: 2800 }),
+    narrow: () => page.resize(390, 2800),
   };
   for (const [name, enter] of Object.entries(states)) {
     await enter();
@@ -932,8 +936,7 @@ test('in forced colours the chosen tab and the pressed preset can be told', asyn
 test('Tab goes in the order of the picture at every width', async () => {
   await open();
   for (const width of [1360, 1024, 700, 390]) {
-    await page.setViewport({ width, height: 2800 });
-    await wait(50);
+    await page.resize(width, 2800);
     const sections = await page.evaluate(() => {
       const seen = [];
       for (const it of document.querySelectorAll('a, button, input, select, summary, [tabindex="0"]')) {
@@ -1045,14 +1048,10 @@ test('on a host with max-age=600 a new version is whole, under any path; without
     const [old, renewed] = [['Curve designer', '', true], ['New designer', 'new', true]];
     const isEither = (found) => [old, renewed].some((it) => JSON.stringify(it) === JSON.stringify(found));
     // What is kept whole is a version, and nothing else is kept.
-    const isKept = async (page, isOld) => {
-      for (let i = 0; i < 200; i++, await wait(100)) {
-        const names = await page.evaluate(() => caches.keys());
-        if (names.length !== 1 || (names[0] === version) !== isOld) continue;
-        if ((await page.evaluate(async (name) => (await (await caches.open(name)).keys()).length, names[0])) === readdirSync(files).length - 1) return;
-      }
-      assert.fail('it is not kept');
-    };
+    const isKept = (page, isOld) => page.until(async (version, isOld, count) => {
+      const names = await caches.keys();
+      return names.length === 1 && (names[0] === version) === isOld && (await (await caches.open(names[0])).keys()).length === count;
+    }, version, isOld, readdirSync(files).length - 1);
     await visit(async (page) => {
       await page.goto(server.url);
       assert.deepEqual(await whole(page), old);

@@ -2,7 +2,7 @@
 
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, open, page, ready, setUp, wait } from './harness.js';
+import { ROOT, drawn, open, page, ready, setUp, written } from './harness.js';
 
 setUp();
 
@@ -15,6 +15,7 @@ test('the picture is made', async () => {
   await page.says('the curve explains the trace');
   await page.$eval('body', (it) => it.scrollIntoView());
   await page.mouse.move(2, 2);
-  await wait(500);
+  await written();
+  await drawn();
   await page.screenshot({ path: join(ROOT, 'docs', 'designer.png') });
 });

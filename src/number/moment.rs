@@ -3,11 +3,10 @@
 use crate::number::pair::Pair;
 use crate::number::units::{fixed_down, power_of_two};
 
-/// `base + way 2^exponent`, or `base - way 2^exponent` where `back`, rounded once. `way` is at most 2¹⁰⁵. The exponent is at
-/// least -252, so that half of it is that of a normal number; and unless `way` is 0 at most 22, so that `way 2^exponent`
-/// is at most 2¹²⁷.
+/// `base + way 2^exponent`, or `base - way 2^exponent` where `back`, rounded once. `way` is at most 2¹⁰⁵. The exponent
+/// is at least -252, so that half of it is that of a normal number; and unless `way` is 0 at most 22, so that `way
+/// 2^exponent` is at most 2¹²⁷.
 // proofs/rounding.py
-#[inline(always)]
 pub(crate) const fn rounded_sum(base: f32, way: Pair, exponent: i32, back: bool) -> f32 {
     // By two factors, as ±2^exponent may not be a normal number itself.
     let half = exponent >> 1;
@@ -24,7 +23,6 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, exponent: i32, back: bool)
 }
 
 /// `x 2^exponent`, rounded once.
-#[inline(always)]
 pub(crate) const fn rounded((x, exponent): (Pair, i32)) -> f32 {
     let value = x.shifted(exponent);
     let is_small = value.hi.abs() < power_of_two(-78);
@@ -81,7 +79,6 @@ impl Moment {
     }
 
     /// The time, rounded once.
-    #[inline(always)]
     pub(crate) const fn time(self) -> f32 {
         let time = rounded_sum(self.base, self.way, self.way_exponent, self.back);
         let is_beyond = if self.back { time < self.until } else { time > self.until };

@@ -1,10 +1,10 @@
 //! Pairs: unevaluated sums `hi + lo` of two `f32`, some 48 bits, for processors whose only fast float is `f32`.
 //!
 //! Every machine computes the same bits: plain sums and products, none fused, and what each loses (Knuth 1969, Dekker
-//! 1971). Functions that round state their error for operands whose `lo` is at most half an ulp of `hi`; `proofs/pairs.py`
-//! proves it, and more for a greater `lo`. Answers of `sum`, `plus`, `minus` and `from_f64` have such a `lo`; that of
-//! `minus_loose` may exceed `hi`; other ones are a few ulp. Nothing may overflow or become subnormal: callers scale by
-//! powers of two.
+//! 1971). Functions that round state their error for operands whose `lo` is at most half an ulp of `hi`;
+//! `proofs/pairs.py` proves it, and more for a greater `lo`. Answers of `sum`, `plus`, `minus` and `from_f64` have such
+//! a `lo`; that of `minus_loose` may exceed `hi`; other ones are a few ulp. Nothing may overflow or become subnormal:
+//! callers scale by powers of two.
 
 use crate::number::units::power_of_two;
 

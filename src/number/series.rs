@@ -14,7 +14,6 @@ impl Series<'_> {
     /// The value at `x`. It is within 2⁻⁴¹ Σ |c_k| |x|^k: Horner's rule in `hi`, while `lo` collects what its sums and
     /// products lose (Graillat, Langlois and Louvet 2005).
     // proofs/series.py
-    #[inline(always)]
     pub(crate) const fn at(self, x: f32) -> Pair {
         // Hidden from the compiler, which would unroll the loop: 500 bytes less in a search.
         let mut c = core::hint::black_box(self.c);
@@ -33,14 +32,12 @@ impl Series<'_> {
     /// The value at a place, `S(hi + lo) = S(hi) + S'(hi) lo`. The second term is at most N · 2⁻²⁴ of Σ |c_k| |x|^k, so
     /// single precision is enough for it: the value is within 2⁻⁴⁰ of that sum.
     // proofs/series.py
-    #[inline(always)]
     pub(crate) const fn at_pair(self, place: Pair) -> Pair {
         let Pair { hi, lo } = self.at(place.hi);
         Pair { hi, lo: lo + self.slope(place.hi) * place.lo }
     }
 
     /// The slope at `x`, in single precision.
-    #[inline(always)]
     pub(crate) const fn slope(self, x: f32) -> f32 {
         let mut c = self.c;
         let mut slope = (c.len() + 1) as f32 * self.last.hi;

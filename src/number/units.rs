@@ -35,19 +35,16 @@ pub(crate) const EIGHTH: u32 = 1 << 20;
 
 /// The factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰ to 2⁸¹ of mass,
 /// so that all coefficients keep their bits. A ramp without length has no mass, and any factor will do.
-#[inline(always)]
 pub(crate) const fn mass_per_fraction(share: f32) -> f32 {
     power_of_two(mass_exponent(share))
 }
 
 /// `1 / mass_per_fraction(share)`
-#[inline(always)]
 pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
     power_of_two(-mass_exponent(share))
 }
 
 /// The exponent of [`mass_per_fraction`]. A share is 0, or at least 2⁻³⁰ of [`WHOLE`] (proofs/domain.py).
-#[inline(always)]
 const fn mass_exponent(share: f32) -> i32 {
     let exponent = exponent(share);
     if exponent < 0 { 0 } else { 80 - exponent }
@@ -55,7 +52,6 @@ const fn mass_exponent(share: f32) -> i32 {
 
 /// The exponent of a ramp's unit of time. The ramp is 2⁶⁴ to 2⁶⁵ of them long (0 if it has no length), so
 /// that its last coefficient, of the third power of a place, has a normal second number.
-#[inline(always)]
 pub(crate) const fn ramp_exponent(start: f32, end: f32) -> i32 {
     exponent(end - start) - 64
 }
@@ -111,7 +107,6 @@ pub(crate) const fn floor_bits(x: f64) -> u32 {
 }
 
 /// `2^n`, a normal number.
-#[inline(always)]
 pub(crate) const fn power_of_two(n: i32) -> f32 {
     f32::from_bits(((n + 127) as u32) << 23)
 }
@@ -121,7 +116,6 @@ pub(crate) const fn power_of_two_f64(n: i32) -> f64 {
 }
 
 /// `floor(log2 |x|)` of a normal `x`; -127 of a subnormal one or 0.
-#[inline(always)]
 pub(crate) const fn exponent(x: f32) -> i32 {
     (x.to_bits() >> 23 & 0xFF) as i32 - 127
 }

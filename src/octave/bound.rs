@@ -1,8 +1,9 @@
 //! The greatest error of a polynomial on a stretch, bounded from samples.
 //!
-//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q` and
-//! the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times a weight has degree 8 · 6 + 3 = 51, and a polynomial of
-//! degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and Zeller 1964).
+//! On the stretch, `s` runs from -1 to 1. The error in time, `R(s) = Q(x(s)) - t(s)`, by the octave's polynomial `Q`
+//! and the offset `x`, is sampled at the N + 1 points `cos(k π / N)`. `R` times a weight has degree 8 · 6 + 3 = 51, and
+//! a polynomial of degree `n < N` is nowhere greater than its greatest sample over `cos(n π / 2N)` (Ehlich and Zeller
+//! 1964).
 
 use crate::number::units::{WORD, fixed_towards_0};
 use crate::octave::Octave;
@@ -74,7 +75,8 @@ const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     are_counted
 }
 
-/// The value, in the coefficients' unit, at `s`, which counts 2⁻³⁰. Each product is rounded down; as |s| <= 1, a loss does not grow.
+/// The value, in the coefficients' unit, at `s`, which counts 2⁻³⁰. Each product is rounded down; as |s| <= 1, a loss
+/// does not grow.
 #[inline(never)]
 pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     let (mut value, mut c) = (0, c);
@@ -87,8 +89,8 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     value
 }
 
-/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: in steps, and
-/// over its limit. Samples are off by at most `noise` steps.
+/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: in steps,
+/// and over its limit. Samples are off by at most `noise` steps.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,

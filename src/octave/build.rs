@@ -27,8 +27,8 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     [0.0, if is_hidden { 0.0 } else { to }]
 }
 
-/// Builds the octaves of a side, with `2^unit_exponent` as the unit of time: the far ramp's, then the near ramp's. Returns the
-/// ramps' stored tops ([`octave`](crate::octave)), in [`EIGHTH`]s above [`LEAST_TOP`].
+/// Builds the octaves of a side, with `2^unit_exponent` as the unit of time: the far ramp's, then the near ramp's.
+/// Returns the ramps' stored tops ([`octave`](crate::octave)), in [`EIGHTH`]s above [`LEAST_TOP`].
 // Out of line, with a slice: one copy for any number of octaves.
 #[inline(never)]
 pub(crate) const fn build(
@@ -61,9 +61,9 @@ pub(crate) const fn build(
 const fn on_ramp(view: &View, octaves: &mut [Octave]) -> (u32, usize) {
     let range = range(view.exposure, view.side, view.ramp);
     if range[0] >= range[1] {
-        // No octaves, so a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near ramp
-        // is, by fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of these,
-        // each has an index behind the far ramp's octaves, where all are NONE.
+        // No octaves, so a search has to answer. A far ramp then begins at 1/2 or later, and is never looked up. A near
+        // ramp is, by fractions up to FINE, its own and the plateau's (see `range`). With a top at or above all of
+        // these, each has an index behind the far ramp's octaves, where all are NONE.
         let far = view.exposure.join_fractions(view.side)[1];
         return (top_beyond([0.0, if far < FINE as f64 { far } else { FINE as f64 }], 0), 0);
     }

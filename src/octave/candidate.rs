@@ -28,18 +28,19 @@ pub(crate) struct Candidate {
     pub(crate) octave: Octave,
     /// The octave's middle as a time since the side's end.
     pub(crate) middle: f64,
-    /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these *steps*.
+    /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these
+    /// *steps*.
     pub(crate) step: f64,
     /// A bound of the polynomial's slope, in steps for a width.
     pub(crate) slope_bound_steps: f32,
-    /// What rounding adds to its time, in steps: Horner's; a unit of time, to which the side's end is cut; and two units,
-    /// by which `Moment::in_units` may cut the time of a neighbour that is searched, and which has to stay in order.
+    /// What rounding adds to its time, in steps: Horner's; a unit of time, to which the side's end is cut; and two
+    /// units, by which `Moment::in_units` may cut the time of a neighbour that is searched, and which has to stay in
+    /// order.
     pub(crate) truncation_steps: f32,
 }
 
 /// The polynomial along a stretch. The unit of its coefficients, the step, is the least power of two in which Horner's
 /// sums fit 32 bits, but at least a unit of time. None if its numbers are out of range.
-#[inline(always)]
 pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Option<Candidate> {
     let c = interpolated(span, stretch);
     // |x| <= reach, with room for a center's rounding.

@@ -1,7 +1,7 @@
 //! The certificate of an octave: bounds of its polynomial's errors, on every `a` that it serves.
 //!
-//! The error in time is bounded from samples ([`bound`](crate::octave::bound)), and so is that error times the openness over
-//! the area, the error in exposure. With what rounding adds, both are held against their per_step.
+//! The error in time is bounded from samples ([`bound`](crate::octave::bound)), and so is that error times the openness
+//! over the area, the error in exposure. With what rounding adds, both are held against their per_step.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{FIRST_STRIDE, KINDS, SAMPLE_OFF, Sampled, errors};
@@ -77,8 +77,8 @@ pub(crate) const fn certificate(
     let Some(sampled) = Sampled::new(&stretch.position, &time_steps) else {
         return ErrorOverLimit::REFUSED;
     };
-    // From a sample to the polynomial; from that to the answer `bounds` adds the rounding. A sample's position is rounded
-    // by 1/2 and a trace.
+    // From a sample to the polynomial; from that to the answer `bounds` adds the rounding. A sample's position is
+    // rounded by 1/2 and a trace.
     let noise = per_step.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
     let mut stride = FIRST_STRIDE;
     loop {
@@ -92,8 +92,8 @@ pub(crate) const fn certificate(
     }
 }
 
-/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`]. Arrays are polynomials of `s` along a
-/// stretch.
+/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`]. Arrays are polynomials of `s`
+/// along a stretch.
 struct PerStep {
     /// What rounding adds to an error in time, in steps.
     rounding_steps: f32,
@@ -147,8 +147,8 @@ impl PerStep {
 
     /// The bounds that follow from the greatest errors, in time, and in exposure at each place.
     ///
-    /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way it
-    /// may be greater than at the place itself.
+    /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way
+    /// it may be greater than at the place itself.
     #[inline(never)]
     const fn bounds(&self, [time, exposure]: [f32; KINDS]) -> ErrorOverLimit {
         let error = time + self.rounding_steps;
@@ -159,9 +159,10 @@ impl PerStep {
         let slowest =
             if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;
-        // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a parabola
-        // that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or `way` is the
-        // whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch ([`Span`]).
+        // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a
+        // parabola that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or
+        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch
+        // ([`Span`]).
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;

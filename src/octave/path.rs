@@ -1,7 +1,7 @@
 //! A ramp in `f64`, seen from a side: openness, time and fraction as polynomials of the Bezier's parameter `p`.
 //!
-//! So an error is judged without an inverse: each `p` has its time and its fraction. Only nodes and the ends of stretches
-//! are found by an inverse, and neither has to be exact.
+//! So an error is judged without an inverse: each `p` has its time and its fraction. Only nodes and the ends of
+//! stretches are found by an inverse, and neither has to be exact.
 
 use crate::exposure::Exposure;
 use crate::fraction::Side;
@@ -197,8 +197,8 @@ pub(crate) const fn singles(c: &[f64], constant: f64, factor: f64) -> [f32; 7] {
     single
 }
 
-/// Where an increasing polynomial is nearly 0, in `[low, high]`, and the slope before the last step: by Newton's method, or
-/// by bisection where that would leave the bracket.
+/// Where an increasing polynomial is nearly 0, in `[low, high]`, and the slope before the last step: by Newton's
+/// method, or by bisection where that would leave the bracket.
 #[inline(never)]
 pub(crate) const fn root(c: &[f32; 7], [mut low, mut high]: [f32; 2], guess: f32) -> (f32, f32) {
     let (mut x, mut last, mut rounds) = (guess, 0.0, 0);

@@ -4,10 +4,10 @@ use crate::number::units::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
 use crate::octave::path::{Path, Stretch};
 
-/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves nothing,
-/// `half` is at most a quarter of the top, which is at most 15/8 of the power. A word of offsets ends at 0.5 width. Of the
-/// 0.02 between, the center's error takes 0.009: `middle` is rounded by 2⁸ positions, the shift takes the place of 31, and
-/// each is at most 2¹⁷ offsets.
+/// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves
+/// nothing, `half` is at most a quarter of the top, which is at most 15/8 of the power. A word of offsets ends at 0.5
+/// width. Of the 0.02 between, the center's error takes 0.009: `middle` is rounded by 2⁸ positions, the shift takes the
+/// place of 31, and each is at most 2¹⁷ offsets.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;
@@ -17,8 +17,8 @@ pub(crate) struct Span {
     pub(crate) from: f64,
     pub(crate) to: f32,
     pub(crate) middle: f32,
-    /// `middle ± half` leads more than two ulp of `a` beyond `from` and `to`: a polynomial errs by less than half of one, so
-    /// the time that it gives lies within.
+    /// `middle ± half` leads more than two ulp of `a` beyond `from` and `to`: a polynomial errs by less than half of
+    /// one, so the time that it gives lies within.
     pub(crate) half: f32,
     /// The power of two at or below the octave's top. A position counts 2⁻³² of it.
     pub(crate) power: f32,

@@ -18,8 +18,9 @@ use crate::number::units::{
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
-/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance between
-/// neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most the greater
+/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance
+/// between neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most
+/// the greater
 /// |time| next to it, so neighbours are at least 2⁻²⁴ `d` apart. Else times are on a grid, at least 2⁻²⁶ `d` apart
 /// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
@@ -177,8 +178,8 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl RampPoint<'_> {
-    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's time
-    /// has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
+    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's
+    /// time has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
     #[inline(always)]
     const fn place_from(&self, side: Side) -> Pair {
         if self.side.is(side) {

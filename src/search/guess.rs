@@ -9,15 +9,14 @@
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`power`] comes out 0 to 0.086 octaves too great. A root is lowered by the middle of that: so it is as often too small as
-/// too great.
+/// [`power`] comes out 0 to 0.086 octaves too great. A root is lowered by the middle of that: so it is as often too
+/// small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.
 const RECIPROCALS: [i32; 8] = [0, 1 << 30, 1 << 29, 357913942, 1 << 28, 214748365, 178956971, 0];
 
 /// The distance at which the series with the coefficients `c` reaches about `sought`.
-#[inline(always)]
 pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
     let log = rough_log(sought);
     let (mut least, mut i) = (i32::MAX, 0);
@@ -31,9 +30,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// 0 is taken for 2⁻¹²⁷, and a negative number for far less. As 2⁸⁰ of mass lie on a ramp of 2³⁰ places, the root of such a
-/// coefficient is too great to be the least.
-#[inline(always)]
+/// 0 is taken for 2⁻¹²⁷, and a negative number for far less. As 2⁸⁰ of mass lie on a ramp of 2³⁰ places, the root of
+/// such a coefficient is too great to be the least.
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
 }
@@ -41,13 +39,11 @@ const fn rough_log(x: f32) -> i32 {
 /// `x / k` within 4/3 of its last place, for `k` from 1 to 6 and the difference `x` of two logarithms. (The compiler
 /// would check the divisor of a division.)
 // proofs/guess.py: divided
-#[inline(always)]
 pub(crate) const fn divided(x: i32, k: i32) -> i32 {
     (((x << 2) as i64 * RECIPROCALS[(k & 7) as usize] as i64) >> 32) as i32
 }
 
 /// The number with this linear logarithm, at least 0; beyond all `f32` it is infinite or NaN.
-#[inline(always)]
 const fn power(log: i32) -> f32 {
     let log = log + 127 * LOG_ONE;
     let log = if log < 0 { 0 } else { log };

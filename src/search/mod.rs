@@ -8,9 +8,9 @@
 //! 2. measures in pairs what is missing,
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
-//! After [`FREE_EVALUATIONS`] evaluations the next place is the middle of a bracket. Between neighbouring `f32` a step is
-//! less than an ulp, and [`left`] accepts it. That the step stays between them is not proven, so [`MAX_EVALUATIONS`] end a search;
-//! then its place has no bound. No search in the tests comes to that.
+//! After [`FREE_EVALUATIONS`] evaluations the next place is the middle of a bracket. Between neighbouring `f32` a step
+//! is less than an ulp, and [`left`] accepts it. That the step stays between them is not proven, so [`MAX_EVALUATIONS`]
+//! end a search; then its place has no bound. No search in the tests comes to that.
 
 pub(crate) mod guess;
 
@@ -19,8 +19,8 @@ use crate::number::series::Series;
 use crate::number::units::LAST_PLACE;
 use guess::guess;
 
-/// After so many evaluations each further place halves the bracket. No search in the tests takes as
-/// many.
+/// After so many evaluations each further place halves the bracket. Few searches take as many: on a density that is
+/// dark at both ends, where its inner times cross, 55 in all were seen.
 const FREE_EVALUATIONS: u32 = 10;
 /// So many halvings of its bits bring any bracket in 0 to [`LAST_PLACE`] down to neighbours.
 const BISECTION: u32 = 31;
@@ -37,21 +37,21 @@ const PAIRS_BELOW: f32 = 1.0 / 8192.0;
 const LEAST_STEP: i32 = -2 << 23;
 const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 
-/// The rounding error of `d1` and `d2` ([`Taylor`]), as a share of their terms: from the end from which the pairs count,
-/// and from the other one, where the distance is rounded, too.
+/// The rounding error of `d1` and `d2` ([`Taylor`]), as a share of their terms: from the end from which the pairs
+/// count, and from the other one, where the distance is rounded, too.
 // proofs/solve.py
 pub(crate) const ROUNDING_SAME: f32 = 1.0 / (1 << 20) as f32;
 const ROUNDING_OTHER: f32 = 1.25 * ROUNDING_SAME;
 
-/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. It moves only from
-/// the other end, for masses. For a last step of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ =
-/// 0.63 · 2⁻²⁶, which fits into 3/4 of a mass's error of 2⁻²⁶.
+/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. It moves only
+/// from the other end, for masses. For a last step of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ ·
+/// 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 3/4 of a mass's error of 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Where a search starts: an end of the ramp, and the series from there.
 pub(crate) struct Anchor<const N: usize> {
-    /// Is it the other end than that from which the pairs count? Then distances count back.
-    is_other_end: bool,
+    /// 0, or [`LAST_PLACE`] at the other end than that from which the pairs count: from there distances count back.
+    place: f32,
     /// The series by powers of the distance from here.
     c: [f32; N],
     /// What it has to reach, at least 0.
@@ -62,22 +62,23 @@ impl<const N: usize> Anchor<N> {
     /// The end from which the pairs count.
     #[inline(always)]
     pub(crate) const fn same_end(c: [f32; N], sought: f32) -> Self {
-        Self { is_other_end: false, c, sought }
+        Self { place: 0.0, c, sought }
     }
 
     /// The other end.
     #[inline(always)]
     pub(crate) const fn other_end(c: [f32; N], sought: f32) -> Self {
-        Self { is_other_end: true, c, sought }
+        Self { place: LAST_PLACE, c, sought }
     }
 
     /// The distance of a place from here, and the place at a distance.
     #[inline(always)]
     const fn mirrored(&self, x: f32) -> f32 {
-        if self.is_other_end { LAST_PLACE - x } else { x }
+        (self.place - x).abs()
     }
 
-    /// Steps from the guess until [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are used up. Returns the series around the last distance, and the evaluations.
+    /// Steps from the guess until [`PAIRS_BELOW`] of what is sought is missing, or [`FREE_EVALUATIONS`] are used up.
+    /// Returns the series around the last distance, and the evaluations.
     #[inline(always)]
     const fn approach(&self, error: f32) -> (Taylor, u32) {
         // Or the error that is allowed anyway. In bits: comparing integers does not wait for the FPU, and a NaN is too
@@ -202,8 +203,8 @@ pub(crate) const fn left<const N: usize>(
     first + size * (rounding * slopes + 5.0 * moved.abs() * squares + 3.4 * cubes * (s * s))
 }
 
-/// The place where `series` reaches `target`, within `error`. The last step leaves at most 3/4 of that; the last quarter
-/// is for measuring. At the limit of evaluations there is no bound.
+/// The place where `series` reaches `target`, within `error`. The last step leaves at most 3/4 of that; the last
+/// quarter is for measuring. At the limit of evaluations there is no bound.
 #[inline(always)]
 pub(crate) const fn solve<const N: usize>(
     series: Series,
@@ -211,13 +212,12 @@ pub(crate) const fn solve<const N: usize>(
     anchor: &Anchor<N>,
     error: f32,
 ) -> Found {
-    let Anchor { is_other_end, ref c, sought } = *anchor;
+    let Anchor { place, ref c, sought } = *anchor;
     // The anchor itself.
     if sought <= 0.5 * error {
-        return Found { place: Pair::new(anchor.mirrored(0.0)), evaluations: 0 };
+        return Found { place: Pair::new(place), evaluations: 0 };
     }
-    let rounding = if is_other_end { ROUNDING_OTHER } else { ROUNDING_SAME };
-    let sign = (is_other_end as u32) << 31;
+    let (rounding, sign) = if place > 0.0 { (ROUNDING_OTHER, 1 << 31) } else { (ROUNDING_SAME, 0) };
     let (mut local, mut evaluations) = anchor.approach(error);
     // What is measured is an `f32`. From the other end `LAST_PLACE - x` may be none: so `p` is at `x + moved` from the
     // anchor. If that is far from `x`, the slopes differ.

@@ -1,12 +1,14 @@
-//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item at once.
+//! The iterators over a frame, which is the triggers or the pulses of one exposure: from either end, or any item at
+//! once.
 
 use core::ops::Range;
 
 use crate::trigger::pulse::{Pulse, Pulses};
 use crate::trigger::ticks::Ticks;
 
-/// An iterator over the ticks of a frame's triggers, from [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It goes from either end, and
-/// to any trigger at once.
+/// An iterator over the ticks of a frame's triggers, from
+/// [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It goes from either end, and to any trigger at
+/// once.
 ///
 /// If the curve is a `static`, a `static` can hold the iterator, too. An interrupt handler takes one tick after the
 /// other from it:
@@ -39,8 +41,8 @@ pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
-/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It goes from
-/// either end, and to any pulse at once.
+/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It goes
+/// from either end, and to any pulse at once.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) frame: Pulses<'a, OCTAVES>,

@@ -69,8 +69,8 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }
 
-    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a pulse
-    /// it is within one and a half ulp (proofs/ticks.py).
+    /// The fraction `(2i + 1 + more) / 2n`. For a trigger `more` is 0, and this is the nearest `f32`. For an end of a
+    /// pulse it is within one and a half ulp (proofs/ticks.py).
     #[inline(always)]
     const fn fraction(&self, i: u32, more: f32) -> Fraction {
         let (odd, whole) = (2 * i + 1, 2 * self.n);
@@ -191,8 +191,8 @@ impl TickScale {
     pub(crate) const fn tick(&self, time_units: i64) -> u32 {
         let delay = time_units.wrapping_sub(self.start_units);
         // A time's last units may be wrong, and place it before the start. None is beyond the end: there a polynomial
-        // would err by all of `1 - u`, and its certificate allows half an ulp of that; the line is rounded down and ends
-        // below its time at u = 1, at most the curve's end; and a search stops at `Moment::until`.
+        // would err by all of `1 - u`, and its certificate allows half an ulp of that; the line is rounded down and
+        // ends below its time at u = 1, at most the curve's end; and a search stops at `Moment::until`.
         let delay = if delay > 0 { delay as u64 } else { 0 };
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);

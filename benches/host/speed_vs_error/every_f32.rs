@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use crate::support::cases::CASES;
+use crate::support::cases::{CASES, DIM};
 use crate::support::curves::{Kind, named};
 use crate::support::oracle::Curve;
 use crate::sweep::Sweep;
@@ -19,15 +19,14 @@ const IN_U: [&str; 10] = [
     "fast_open_slow_close",
     "pedestal_.2",
     "ends of order p^6",
-    "time stands still inside",
-    "openness touches 0 inside",
+    "handles cross by 15/16",
+    DIM,
     "a vertical step",
     "ramps of 1e-6 beside a plateau of 1",
     "times from -1 to 1",
 ];
 /// For the cdf and the openness; the last is of the class on which it stepped back.
-const IN_TIME: [&str; 4] =
-    ["rman_soft", "time stands still inside", "openness touches 0 inside", "a join before time 0"];
+const IN_TIME: [&str; 4] = ["rman_soft", "handles cross by 15/16", DIM, "a join before time 0"];
 
 /// Below this, no octave serves, whatever their number.
 const LOWEST_OCTAVE: f32 = 1.0 / (1 << 20) as f32;

@@ -2,8 +2,7 @@
 //! that a Newton step or two give the exact answer. Fast enough for every `f32`, and judged by the oracle where it finds
 //! the greatest errors.
 
-use crate::support::oracle::lift::Lifted;
-use crate::support::oracle::{Curve, ulp_f32};
+use crate::support::oracle::{Curve, Points, ulp_f32};
 use crate::support::peers::horner;
 
 /// The exact inverse, cdf and openness of a curve.
@@ -91,9 +90,9 @@ struct Ramp {
 }
 
 impl Ramp {
-    fn new(points: [(f32, f32); 4], is_late: bool) -> Self {
-        let forwards = Lifted::new(points);
-        let (early, late) = (End::new(&forwards, 1.0), End::new(&forwards.reversed(), -1.0));
+    fn new(points: Points, is_late: bool) -> Self {
+        let [a, b, c, d] = points;
+        let (early, late) = (End::new(points, 1.0), End::new([d, c, b, a], -1.0));
         let extrema = early.extrema();
         let ends = if is_late { [late, early] } else { [early, late] };
         let mass = 0.5 * (ends[0].mass(1.0).0 + ends[1].mass(1.0).0);
@@ -136,20 +135,21 @@ struct End {
 }
 
 impl End {
-    fn new(ramp: &Lifted, sign: f64) -> Self {
+    fn new(points: Points, sign: f64) -> Self {
         let powers = |first: f64, d: [f64; 3]| {
             [first, 3.0 * d[0], 3.0 * (d[1] - d[0]), d[2] - 2.0 * d[1] + d[0]]
         };
-        let f = ramp.openness.map(f64::from);
-        let way = powers(0.0, ramp.steps.map(|d| d.hi));
-        let openness = powers(f[0], [f[1] - f[0], f[2] - f[1], f[3] - f[2]]);
+        let steps = |x: [f64; 4]| [x[1] - x[0], x[2] - x[1], x[3] - x[2]];
+        let (t, f) = (points.map(|p| f64::from(p.0)), points.map(|p| f64::from(p.1)));
+        let way = powers(0.0, steps(t).map(|d| sign * d));
+        let openness = powers(f[0], steps(f));
         let mut mass = [0.0; 7];
         for i in 0..4 {
             for j in 1..4 {
                 mass[i + j] += openness[i] * way[j] * j as f64 / (i + j) as f64;
             }
         }
-        Self { time: ramp.ends[0].into(), sign, way, mass, openness, x: 0.5 }
+        Self { time: t[0], sign, way, mass, openness, x: 0.5 }
     }
 
     fn way(&self, x: f64) -> (f64, f64) {

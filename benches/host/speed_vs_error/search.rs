@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::support::aimed::{FAMILIES, aimed};
 use crate::support::cases::{judge_on, shutter};
-use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical};
+use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical, settled};
 use crate::support::oracle::{Curve, Dd, Exact, Points, ulp_f32};
 use crate::support::promise::Figures;
 
@@ -73,7 +73,7 @@ fn step(curve: &Curve, rng: &mut Rng) -> Curve {
             _ => points[i].1 = (f64::from(points[i].1) + size) as f32,
         }
     }
-    next
+    settled(next)
 }
 
 /// The lines of `docs/internals/search.csv`, after trying about `curves` curves of either half.

@@ -4,8 +4,8 @@ use shutter_curve::ShutterCurve;
 
 use crate::follower::Follower;
 use crate::support::cases::shutter;
-use crate::support::oracle::{Curve, Exact, exp2, ulp_f32};
-use crate::support::promise::CDF_FLOOR;
+use crate::support::oracle::{Curve, Exact, ulp_f32};
+use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR};
 use crate::sweep::{CHUNK, SAMPLED, Sweep, in_parts};
 
 /// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of so
@@ -63,18 +63,19 @@ fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2]
             without_floor = without_floor.max(missed.0 / ulp_f32(missed.1));
         }
         let missed = self::missed(got[1], opennesses);
-        let error = missed.0 / ulp_f32(missed.1).max(truth.least_ulp);
+        let error = missed.0 / ulp_f32(missed.1.max(DENSITY_FLOOR));
         if error > openness.error {
             (openness.error, worst[1]) = (error, place);
         }
         if place % SAMPLED == 0 {
             cdf.judge(exact.near(t).cdf_ulp(got[0], CDF_FLOOR));
-            openness.judge(exact.near(t).openness_ulp(got[1]));
+            openness.judge(exact.near(t).openness_ulp(got[1], DENSITY_FLOOR));
         }
     }
     let [of_cdf, of_openness] = worst.map(at);
     cdf.judge(exact.near(of_cdf).cdf_ulp(shutter.cdf(of_cdf), CDF_FLOOR));
-    openness.judge(exact.near(of_openness).openness_ulp(shutter.openness(of_openness)));
+    let got = shutter.openness(of_openness);
+    openness.judge(exact.near(of_openness).openness_ulp(got, DENSITY_FLOOR));
     cdf.steps_back = Some(steps_back);
     cdf.without_floor = Some(without_floor);
     [cdf, openness]
@@ -102,8 +103,6 @@ struct Truth {
     window: [[f64; 2]; 3],
     /// Where it does, what finds the other two; they move on their own.
     sides: Option<[Follower; 2]>,
-    /// A deep dip's openness is promised to 2⁻⁴⁷ of the greatest, which for the curves here is near 1.
-    least_ulp: f64,
 }
 
 impl Truth {
@@ -112,7 +111,7 @@ impl Truth {
         let sides = follower.across.is_some().then(|| [Follower::new(curve), Follower::new(curve)]);
         // `around` moves on by one.
         let window = [first - 1, first - 1, first].map(|place| follower.values(at(place).into()));
-        Self { follower, window, sides, least_ulp: exp2(-47) }
+        Self { follower, window, sides }
     }
 
     /// The least and the greatest cdf and openness within an ulp of the time at the next `place`.

@@ -1,4 +1,4 @@
-//! The curves of the tests' reference data and those found by search, as Rust, each with its hard inputs.
+//! The curves of the tests' reference data and their hard cases, as Rust, each with its hard inputs.
 
 use std::cmp::Reverse;
 use std::{env, fmt::Write, fs, path::PathBuf};
@@ -14,10 +14,9 @@ mod support;
 const ROWS: [&str; 4] = ["rman_soft", "raised_cosine", "trapezoid", "box"];
 
 fn main() {
-    let found = CASES.iter().filter(|case| case.name.starts_with("search: "));
-    let found = found.map(|case| (case.name, false, case.curve()));
+    let cases = CASES.iter().map(|case| (case.name, false, case.curve()));
     let data = named().into_iter().map(|c| (c.name, c.kind == Kind::Typical, c.curve));
-    let mut curves: Vec<_> = data.chain(found).collect();
+    let mut curves: Vec<_> = data.chain(cases).collect();
     curves.sort_by_key(|(name, is_typical, _)| {
         (ROWS.iter().position(|row| row == name).unwrap_or(ROWS.len()), !is_typical)
     });

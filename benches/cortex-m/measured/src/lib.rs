@@ -7,7 +7,7 @@ pub mod answers;
 #[path = "../../../../tests/support/baseline.rs"]
 pub mod baseline;
 
-/// A curve of the reference data or found by search.
+/// A curve of the reference data, or a hard case.
 pub struct Curve {
     pub name: &'static str,
     pub opening: baseline::Ramp,
