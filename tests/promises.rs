@@ -9,8 +9,9 @@ mod support;
 use support::aimed::{FAMILIES, aimed};
 use support::cases::{CASES, shutter};
 use support::curves::{
-    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, hard_us,
-    instant, line, named, random_density, random_hard, random_typical,
+    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted,
+    hard_openness, hard_times, hard_us, instant, line, named, placed, random_density, random_hard,
+    random_typical, settled, shape,
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
@@ -147,7 +148,7 @@ fn random_densities() {
 
 fn judge_aimed(family: usize) {
     let mut figures = Figures::default();
-    for index in 0..300 * times() {
+    for index in 0..1200 * times() {
         figures.judge(&aimed(family, SEED, index), &mut Rng::new(SEED, index));
     }
     report(FAMILIES[family].0, &figures);
@@ -201,6 +202,51 @@ families! {
     designs_handles_to_the_end: 5,
     designs_other_units_and_levels: 6,
     designs_joins_next_to_time_0: 7,
+}
+
+/// Ramps of which an octave just takes a place: where handles cross, or where it is dark, a trace more and a search
+/// would answer there. So errors are as great as polynomials may have them, anywhere in the octave.
+#[test]
+fn octaves_at_their_limit() {
+    let (mut figures, mut direct) = (Figures::default(), 0);
+    for index in 0..1200 * times() {
+        let rng = &mut Rng::new(SEED, index);
+        let [at, a, b] = [0; 3].map(|_| rng.unit());
+        let (flat, rest) =
+            (hard_openness(rng), [0.0, 1.0, 30.0, 1000.0][rng.below(4) as usize] as f32);
+        let t = hard_times(rng);
+        let with = |dial: f64| {
+            let first = dial * MOST_CROSSED + at * (1.0 - dial * MOST_CROSSED);
+            let ramp = match index % 3 {
+                0 => shape([0.0, first, first - dial * MOST_CROSSED, 1.0], flat),
+                1 => shape(t, [1e-12f64.powf(dial), 0.0, a * 1e-6f64.powf(dial), 1.0]),
+                _ => shape([0.0, a * (1.0 - dial), b * (1.0 - dial), 1.0], flat),
+            };
+            settled(Curve::shutter(placed(ramp, false, 0.0, 1.0), instant(1.0 + rest)))
+        };
+        // The middle of the ramp's parameter.
+        let place = |curve: &Curve| Exact::new(curve).middle().to_f32();
+        let is_direct = |dial: f64| shutter::<8>(&with(dial)).is_direct(place(&with(dial)));
+        let (mut low, mut high) = (0.0, 1.0);
+        if !is_direct(low) || is_direct(high) {
+            continue;
+        }
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            *(if is_direct(middle) { &mut low } else { &mut high }) = middle;
+        }
+        direct += 1;
+        for curve in [with(low), with(low).mirrored()] {
+            let exact = Exact::new(&accepted(curve));
+            let u = f64::from(place(&with(low)));
+            let us = (0..600).map(|i| u * exp2(-1) * (1.0 + f64::from(i) / 200.0));
+            let us = us.map(|u| if curve == with(low) { u } else { 1.0 - u } as f32);
+            figures.asked::<8>(&exact, &Questions::fractions(&exact, us.collect(), false));
+        }
+    }
+    println!("{direct} dials");
+    assert!(direct >= 150, "only {direct}");
+    report("octaves at their limit", &figures);
 }
 
 /// Curves on which a version failed, or that an attack had in the source's rules, as far as they are accepted.

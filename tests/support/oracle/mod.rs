@@ -549,6 +549,11 @@ impl Exact {
         masses.into_iter().map(|mass| mass / self.area).collect()
     }
 
+    /// The fraction at the middle of the opening ramp's parameter.
+    pub fn middle(&self) -> Dd {
+        self.opening.masses(self.opening.spot(0.5))[0] / self.area
+    }
+
     /// The times of the ends and the joins, of 1/2, and of the other [`landmarks`](Self::landmarks).
     pub fn landmark_times(&self) -> Vec<Dd> {
         let curve = &self.curve;
