@@ -212,11 +212,11 @@ fn settings_are_printed_as_they_are_read() {
         "delay 4.247ms",
         "edge falling",
         "frames 3 20ms",
-        "curve 0 1e-9 0.1 0.25",
+        "curve 0 1e-7 0.1 0.25",
     ]);
     let rest = "n 12, gap 100us, duty 0.3, delay 4247us, edge falling, frames 3, every 20ms, curve";
     assert_eq!(settings.to_string(), format!("{rest} of its own"));
-    assert_eq!(settings.in_full().to_string(), format!("{rest} 0.0 1e-9 0.1 0.25"));
+    assert_eq!(settings.in_full().to_string(), format!("{rest} 0.0 1e-7 0.1 0.25"));
 }
 
 proptest! {
