@@ -107,12 +107,6 @@ impl CubicBezier {
     }
 }
 
-impl From<[(f32, f32); 4]> for CubicBezier {
-    fn from(points: [(f32, f32); 4]) -> Self {
-        Self::new(points)
-    }
-}
-
 /// The time at a `fraction` of the interval from `start` to `end`; or its ramp's end, if that is passed by no more than
 /// rounding explains. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
 const fn snapped(fraction: f32, [start, end]: [f64; 2], [from, to]: [f32; 2]) -> f32 {

@@ -98,7 +98,7 @@ pub fn of_ramps(ramps: [Ramp; 2], us: &[f32]) -> [u64; 4] {
 
 fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let hash = &mut Fnv(0xCBF2_9CE4_8422_2325);
-    let [opening, closing] = ramps.map(CubicBezier::from);
+    let [opening, closing] = ramps.map(CubicBezier::new);
     hash.add([opening == closing]);
     if let Some(curve) = hash.curve(ShutterCurve::<OCTAVES>::with_octaves(opening, closing)) {
         answers(hash, &curve, us.iter().copied().chain((0..512).map(uniform)).chain(ODD));
