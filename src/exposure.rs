@@ -81,7 +81,7 @@ impl Exposure {
     /// negative, it is the end itself, though no light may fall there.
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());
-        if !(a > 0.0) {
+        if a <= 0.0 || a.is_nan() {
             return Moment::at(self.end_time(side));
         }
         match self.sought(fraction) {
