@@ -452,7 +452,7 @@ fn pulses_of_the_whole_share_touch() {
     for n in [1, 2, 12, 100, 1 << 22] {
         let pulses = SOFT.pulse_ticks(n, 1.0, 1 << 23).unwrap();
         assert_eq!(pulses.clone().next().map(|pulse| pulse.on), Some(0));
-        assert_eq!(pulses.clone().last().map(|pulse| pulse.off), Some(1 << 23));
+        assert_eq!(pulses.clone().next_back().map(|pulse| pulse.off), Some(1 << 23));
         let few: Vec<Pulse> = pulses.take(100).collect();
         assert!(few.windows(2).all(|pair| pair[0].off == pair[1].on));
     }
