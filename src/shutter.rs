@@ -25,9 +25,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
-/// Times may be in any unit, the same throughout: those that go in, those that come out, and the exposure. The density
-/// is per that unit, and a timer's rate is in ticks per that unit. **Seconds are recommended**: then that rate is in
-/// Hz.
+/// Times are in seconds, or in any other unit that all of them use ([Units](crate#units)).
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
 /// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
@@ -354,19 +352,14 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// Their times, in the curve's unit and to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
     ///
-    /// `ticks_per_unit` is the number of ticks in one unit of the curve's time: the timer's rate in Hz for a curve in
-    /// seconds, a thousandth of it for one in ms. No error can tell a rate that was meant for another unit. **Seconds
-    /// are recommended.**
+    /// `ticks_per_unit` is the timer's rate: in Hz for a curve in seconds, a thousandth of that for one in ms. No error
+    /// can tell a rate that was meant for another unit.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
-    /// // The same box of 8 ms in seconds and in ms, on a timer of 1 MHz.
-    /// let in_s: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
-    /// assert!(in_s.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
-    /// let in_ms: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 8.0, 8.0));
-    /// assert!(in_ms.trigger_ticks(4, 1_000)?.eq([1000, 3000, 5000, 7000]));
-    /// // A million ticks in a millisecond are a timer of 1 GHz.
-    /// assert!(in_ms.trigger_ticks(4, 1_000_000)?.eq([1_000_000, 3_000_000, 5_000_000, 7_000_000]));
+    /// // A box of 8 ms on a timer of 1 MHz.
+    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
+    /// assert!(curve.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
