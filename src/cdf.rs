@@ -1,8 +1,9 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the part of the exposure until the place at which the time is reached, counted from the nearer end of the
-//! curve, as the inverse counts. Its place may be off by a quarter of the distance to the next time, and measuring the
-//! part there loses far less than lies between two times: so it never steps back (proofs/cdf.py).
+//! A cdf is the part of the exposure until a *place* ([`ramp`](crate::ramp)), that of the time, counted from the nearer
+//! end of the curve, as the inverse counts. A place is off by less than what a quarter of the distance to the next time
+//! takes, and measuring the part there loses far less than lies between two times; on either side of a join it is
+//! counted up to the same share. So it never steps back (proofs/cdf.py).
 
 use crate::exposure::Exposure;
 use crate::fraction::Side::{self, End, Start};
@@ -93,7 +94,7 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     from_nearer_end(|side| {
         let part = point.fraction(side);
         if ramp.is(side) {
-            // With the greatest `hi`, as `minus` keeps the order of such pairs.
+            // With the nearest `hi`: `minus` keeps the order of such pairs (proofs/cdf.py).
             Pair::sum(part.hi, part.lo)
         } else {
             exposure.ramp(side).share.plus(exposure.plateau).plus(part)
@@ -101,21 +102,22 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     })
 }
 
-/// The fraction collected since the start, by those since a side's end, in [`WHOLE`]: that since the start where it is
-/// below half, else the rest of that since the end.
+/// The fraction collected since the start, where `fraction_since(side)` is that since a side's end, in [`WHOLE`]: below
+/// half that since the start, else the rest of that since the end. These are measured apart, and may differ by a trace at
+/// half.
 fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();
     let fraction = if from_start < HALF {
         from_start.max(0.0)
     } else {
-        Pair::new(WHOLE).minus(fraction_since(End)).rounded().clamp(HALF, WHOLE)
+        Pair::new(WHOLE).minus(fraction_since(End)).rounded().max(HALF)
     };
     fraction / WHOLE
 }
 
 /// The time `t`. Inside a curve across time 0, where `f32` may lie closer together than a place is exact, it is rounded
-/// to a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0.
+/// to a multiple of 1/4, 1/2 or 1 ulp of the end that is farther from 0; or to an end, if that is passed.
 #[inline]
 fn on_grid(exposure: &Exposure, t: f32) -> f32 {
     let [start, end] = [exposure.end_time(Start), exposure.end_time(End)];
@@ -129,7 +131,7 @@ const fn gridded(start: f32, end: f32, t: f32) -> f32 {
     if t.abs() >= half {
         return t;
     }
-    // The farther end is 2 to 4 times `half`, and `t + 1.5 half` is 0.5 to 2.5 times it. So an ulp of that sum, to
+    // The farther end is 2 to 4 times `half`, and `t + 1.5 half` is 0.5 to 2.5 times `half`. So an ulp of that sum, to
     // which `t` is rounded, is 1/4, 1/2 or 1 ulp of the farther end.
     let t = (t + 1.5 * half) - 1.5 * half;
     if t < start {

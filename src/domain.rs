@@ -1,8 +1,9 @@
 //! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons.
 //!
-//! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: `t'` is at least `3 p²`
-//! within 1/8 of the start, for a ramp of length 1, as much at the end, and 1/22 between. By rules 2 and 3 a ramp of a
-//! shutter has at least 1/20 of the exposure that its length would have fully open (proofs/domain.py).
+//! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
+//! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, as much mirrored at the end, and 1/22
+//! between. By rules 2 and 3 a ramp of a shutter has at least 1/20 of the exposure that its length would have fully
+//! open (proofs/domain.py).
 
 use crate::error::{CurveError, Part, tried};
 use crate::number::units::DOUBLE_WORD;
@@ -41,7 +42,7 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
     tried!(check_section(close, end, least, Part::Closing));
     tried!(check_points(opening, Part::Opening));
     tried!(check_points(closing, Part::Closing));
-    // A ramp that is the whole curve has no join.
+    // A ramp that is the whole curve, or has no length, has no join.
     let ([.., opened], [closing, ..]) = (opening.opennesses(), closing.opennesses());
     if start < open && open < end && opened < 1.0 {
         return Err(CurveError::NotFullyOpen(Part::Opening));

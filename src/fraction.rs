@@ -56,7 +56,7 @@ impl Side {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fraction {
     pub(crate) side: Side,
-    /// The bits of an `f32` from 0 to 1/2.
+    /// The bits of an `f32`: from 0 to 1/2 for a `u` in [0, 1].
     pub(crate) bits: u32,
 }
 

@@ -13,8 +13,9 @@
 //! 9. Halley's steps; what they leave, measured in pairs; a last step with a bounded error ([`solve`](crate::search)).
 //! 10. One rounding to `f32`.
 //!
-//! A greater `u` has no earlier time: a polynomial errs by less than half of the distance between neighbouring `u`, a
-//! search by less than a quarter, and on the line `A u` is rounded down.
+//! A greater `u` has no earlier time (but for a search that reaches its limit, [`search`](crate::search)): a polynomial
+//! errs by less than half of the distance between neighbouring `u`, a search by less than a quarter, and on the line `A
+//! u` is rounded down.
 //!
 //! A tick's time, [`Inverse::time_units`], is not rounded to `f32`, and its fraction is counted from its side in step
 //! 1, too: there the line begins 1/512 from either end.
@@ -36,7 +37,8 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
     /// The time of 2³² units. A *unit* is the power of two of which the curve's greatest |time|, or its length if that
     /// is more, has 2⁶¹ to 2⁶² ([`time_exponent`]).
     time_of_word: f32,
-    /// By side: the bits of the last `f32` at or before the far ramp's join. One with greater bits is on the far ramp.
+    /// By side: the bits of the last `f32` below 1 that is at or before the far ramp's join. One with greater bits is
+    /// on the far ramp.
     line_last_bits: [u32; 2],
     /// By side: how many `f32` are on the line: the one with `line_last_bits`, and those next below it; 0 without a
     /// line.
@@ -55,7 +57,8 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
 enum Section {
     /// On the plateau's line: the time, in units.
     Line(i64),
-    /// On the ramp at a side; or on the plateau, but too near to an end for the line.
+    /// On the ramp at a side. Or on the plateau, but too near to an end for the line: the near ramp then has no octaves
+    /// (`build::range`), and a search answers.
     Ramp(Side),
 }
 
@@ -117,8 +120,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// The time by which the fraction `u` has been collected: the start for `u <= 0` and NaN, the end for `u >= 1`.
     ///
-    /// For a `static` curve the early return keeps register saves off the plateau, whose answers then take a third fewer
-    /// cycles.
+    /// For a `static` curve the early return keeps register saves off the plateau, whose answers then take a third
+    /// fewer cycles.
     #[inline(always)]
     pub(crate) fn inverse_cdf(&self, u: f32) -> f32 {
         // The line counts `u` from the start, up to its last `f32`: so it is tried before the nearer end is known.
@@ -237,9 +240,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         self.exposure.moment(fraction).in_units(self.unit_exponent())
     }
 
-    /// The time of `u` by a search. Out of line, with `u`, which is still in its register: direct answers save none for
-    /// it, 6 cycles of each. It returns bits, not a float, so that the caller cannot tail-call it: all answers on ramps
-    /// share one return.
+    /// The time of `u` by a search. Out of line, and with `u` itself: keeping its fraction until here would cost each
+    /// direct answer 6 cycles of register saves. It returns bits, not a float, so that the caller cannot tail-call it:
+    /// all answers on ramps share one return.
     #[cold]
     #[inline(never)]
     fn searched_bits(&self, u: f32) -> u32 {
@@ -258,13 +261,13 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // A time of one word moves up by 31, which keeps its sign.
         let sign = (time >> 63) as i32;
         let is_word = (time >> 32) as i32 == sign;
-        let (time, down) = if is_word { (time << 31, 31) } else { (time, 0) };
+        let (time, moved) = if is_word { (time << 31, 31) } else { (time, 0) };
         let (high, low) = ((time >> 32) as i32, time as u32);
         // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
         // Two factors: their product may not be a normal number.
-        filled as f32 * f32::from_bits((127 - down - up) << 23) * self.time_of_word
+        filled as f32 * f32::from_bits((127 - moved - up) << 23) * self.time_of_word
     }
 
     /// [`rounded_near_0`](Self::rounded_near_0) for the plateau, which seldom needs it.

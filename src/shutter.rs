@@ -20,7 +20,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///    (a box), and the plateau may have none (a triangle).
 /// 2. Inner control times lie between their ramp's ends, and every openness in [0, 1]. Inner times may be out of order,
 ///    but the first may pass the second by at most 15/16 of the ramp.
-/// 3. Ramps are fully open, at openness 1, where they meet the plateau or each other.
+/// 3. Ramps that have length are fully open, at openness 1, where they meet the plateau or each other.
 /// 4. The interval is 2⁻⁶⁴ to 2⁶⁴ long, and at least 2⁻¹⁶ of its greatest |time|.
 /// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.

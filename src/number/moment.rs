@@ -34,7 +34,7 @@ pub(crate) const fn rounded((x, exponent): (Pair, i32)) -> f32 {
 #[cold]
 #[inline(never)]
 const fn rounded_small_sum(base: f32, way: Pair, scale: f32) -> f32 {
-    // In units of 2⁻⁴⁸ all numbers below are normal.
+    // In units of 2⁻⁴⁸ all that counts below is normal.
     const UP: i32 = 48;
     let (base, scale) = (base * power_of_two(UP), scale * power_of_two(UP));
     let (hi, lo) = (way.hi * scale, way.lo * scale);
@@ -47,8 +47,8 @@ const fn rounded_small_sum(base: f32, way: Pair, scale: f32) -> f32 {
     ((sum.hi + odd_sum(sum.lo, odd_sum(near.lo, lo))) - rounder) * power_of_two(-UP)
 }
 
-/// `a + b` rounded to odd: if inexact, the neighbour whose last bit is set. So it is midway between two `f32` only if
-/// `a + b` is, and adding it to a greater number rounds once in all.
+/// `a + b` rounded to odd: if inexact, the neighbour whose last bit is set. So it is midway between two neighbours of a
+/// greater number only if `a + b` is, and adding it to that number rounds once in all.
 #[inline(always)]
 const fn odd_sum(a: f32, b: f32) -> f32 {
     let sum = Pair::sum(a, b);
@@ -66,7 +66,7 @@ const fn odd_sum(a: f32, b: f32) -> f32 {
 pub(crate) struct Moment {
     pub(crate) base: f32,
     pub(crate) back: bool,
-    /// At least 0, in `2^way_exponent`.
+    /// In `2^way_exponent`; at least 0 but for a trace on the plateau.
     pub(crate) way: Pair,
     pub(crate) way_exponent: i32,
     /// The other end of the ramp or the plateau, which no answer passes.

@@ -1,5 +1,5 @@
-//! The units that several files share. All are powers of two, so changing from one to another never rounds, but for the
-//! last, which is whole.
+//! The units that several files share. All are powers of two, so changing from one to another rounds nothing that
+//! counts, but for the last, which is whole.
 //!
 //! | counted | from 0 at | to | as |
 //! |---|---|---|---|

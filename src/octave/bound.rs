@@ -37,11 +37,11 @@ const FACTOR: [f32; FIRST_STRIDE + 1] = [0.0, 1.093_840_8, 1.489_072_5];
 // proofs/certificate.py
 const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 
-/// The number of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time, whose weight
-/// is 1; and that in exposure, by the openness.
+/// The number of kinds of errors along a stretch. Each is `R` times a *weight*, a cubic of `s`: the error in time,
+/// whose weight is 1; and that in exposure, by the openness.
 pub(crate) const KINDS: usize = 2;
 
-/// A sample's position counts 2⁻²⁰ of one, its time 2⁻²⁴ of a step.
+/// A sample's position counts 2⁻²⁰ of a position, its time 2⁻²⁴ of a step.
 const POSITION_BITS: i32 = 20;
 const TIME_BITS: i32 = 24;
 /// What a sample's time loses at most, by three products and four numbers that are cut (`proofs/certificate.py`).

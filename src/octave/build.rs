@@ -10,7 +10,7 @@ use crate::octave::span::Span;
 use crate::octave::{Octave, below};
 use crate::ramp::shape::Shape;
 
-/// By how many steps a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
+/// By how many eighths a ramp's tops are raised: the first of these that gives every octave a polynomial, or else the
 /// last. (The octave at the join is often too much for one; from a raised top it has less of the ramp.) Found by trial.
 const MOVES: [u32; 4] = [0, 5, 6, 4];
 
@@ -21,10 +21,10 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
         return [far, 0.5];
     }
     // The line begins above FINE. If the near ramp's join is below that, what is between them is on the plateau. But
-    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that gets none.
-    let is_hidden = near < far && near < FINE as f64;
+    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that gets no octaves.
+    let would_take_plateau = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
-    [0.0, if is_hidden { 0.0 } else { to }]
+    [0.0, if would_take_plateau { 0.0 } else { to }]
 }
 
 /// Builds the octaves of a side, with `2^unit_exponent` as the unit of time: the far ramp's, then the near ramp's.
@@ -43,12 +43,13 @@ pub(crate) const fn build(
         let ramp = [side.other(), side][i];
         let Some((_, rest)) = octaves.split_at_mut_checked(first) else { break };
         let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit_exponent }, rest);
-        // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 steps above LEAST_TOP = 2⁻²⁸.
+        // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 eighths above LEAST_TOP = 2⁻²⁸.
         // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
         // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above the near ramp's join and
         //   above LEAST_TOP / 2.
-        // - The near ramp's first top is below twice the greater of its join, or without octaves the far ramp's, and
-        //   LEAST_TOP. So it is below 4 times the far ramp's last top, and times 2ⁿ below 8 times its first one.
+        // - Let j be the near ramp's join, or the far ramp's if the near one has no octaves. The near ramp's first top
+        //   is below 2 j or 2 LEAST_TOP. So it is below 4 times the far ramp's last top, and times 2ⁿ below 8 times its
+        //   first one.
         tops[ramp as usize] = ((top - LEAST_TOP + ((first as u32) << 23)) / EIGHTH) as u8;
         first += count;
         i += 1;
@@ -118,14 +119,15 @@ const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
     if errors.are_certain() { candidate.octave } else { Octave::NONE }
 }
 
-/// The bits of a ramp's first top: the least that is at or above the range's end, raised by `steps`, or by one more.
+/// The bits of a ramp's first top: the least that is at or above the range's end, raised by so many eighths, or by one
+/// more.
 #[inline(never)]
-const fn top_beyond([from, to]: [f64; 2], steps: u32) -> u32 {
+const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
     // At or above the range's end: as joins are rounded, an `f32` just beyond it may be looked up here.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };
-    let top = least + steps * EIGHTH;
+    let top = least + eighths * EIGHTH;
     // One more where the range begins within 16 ulp of an octave's end: rounding might put its first fraction into the
     // octave below.
     let beyond = top.wrapping_sub(floor_bits(from));

@@ -18,16 +18,16 @@ pub(crate) const NODES: [f32; DEGREE + 1] = [
     0.984_807_7,
 ];
 
-/// What rounding adds to `P(x)`, in the unit of the coefficients: from -1.992 to 0.664 (`proofs/octaves.py`). Half of
-/// that range, and its mean, for which the octave's middle makes up.
+/// What the eight products of `Octave::polynomial`, each rounded down, add to `P(x)`: from -1.992 to 0.664 in the unit
+/// of the coefficients (`proofs/octaves.py`). Half of that range, and its mean, for which the octave's middle makes up.
 const HALF_TRUNCATION: f32 = 1.328;
 const MEAN_TRUNCATION: f64 = -0.664;
 
 /// An octave, and how its polynomial is held against the exact time.
 pub(crate) struct Candidate {
     pub(crate) octave: Octave,
-    /// The octave's middle as a time since the side's end.
-    pub(crate) middle: f64,
+    /// The time of the octave's middle since the side's end.
+    pub(crate) middle_time: f64,
     /// The unit of the coefficients, as a time: `2^unit_exponent` times the factor's size. Errors count in these
     /// *steps*.
     pub(crate) step: f64,
@@ -84,7 +84,7 @@ pub(crate) const fn candidate(view: &View, span: &Span, stretch: &Stretch) -> Op
     octave.factor = if view.side.is_end() { -factor } else { factor };
     Some(Candidate {
         octave,
-        middle: middle as f64 * power_of_two_f64(view.unit_exponent),
+        middle_time: middle as f64 * power_of_two_f64(view.unit_exponent),
         step,
         slope_bound_steps: slope_bound / step as f32,
         truncation_steps: HALF_TRUNCATION + 3.0 / factor as f32,

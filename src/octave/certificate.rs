@@ -1,7 +1,7 @@
 //! The certificate of an octave: bounds of its polynomial's errors, on every `a` that it serves.
 //!
 //! The error in time is bounded from samples ([`bound`](crate::octave::bound)), and so is that error times the openness
-//! over the area, the error in exposure. With what rounding adds, both are held against their per_step.
+//! over the area, the error in exposure. With what rounding adds, both are held against their limits.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
 use crate::octave::bound::{FIRST_STRIDE, KINDS, SAMPLE_OFF, Sampled, errors};
@@ -18,7 +18,7 @@ pub(crate) const ULP_ERROR: f32 = 0.49;
 /// How far off a fraction may be in a look-up, since joins are rounded.
 // proofs/certificate.py
 pub(crate) const JOIN_OFF: f32 = 1.0 / (1u64 << 54) as f32;
-/// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 1083 times as great, with 60
+/// How far off a fraction may be on a path, as a share of it: it is a sum of terms up to 512 times as great, with 60
 /// roundings of an `f64`.
 // proofs/certificate.py
 pub(crate) const FRACTION_OFF: f32 = 1.0 / (1u64 << 36) as f32;
@@ -26,7 +26,7 @@ pub(crate) const FRACTION_OFF: f32 = 1.0 / (1u64 << 36) as f32;
 // proofs/octaves.py
 const MOST_OFFSET: f32 = 0.4999;
 /// How far off a time may be on a path, as a share of it: it is a sum of terms up to 14 times as great
-/// (`proofs/solve.py`), with 9 roundings of an `f64`, counted on paper.
+/// (`proofs/domain.py`), with 9 roundings of an `f64`, counted on paper.
 const TIME_OFF: f32 = 1.0 / (1u64 << 46) as f32;
 
 /// By how much rounding changes the openness at a sample, as a share of its coefficients without signs.
@@ -62,12 +62,12 @@ pub(crate) const fn certificate(
     span: &Span,
     stretch: &Stretch,
 ) -> ErrorOverLimit {
-    let Candidate { ref octave, middle, step, slope_bound_steps, .. } = *candidate;
+    let Candidate { ref octave, middle_time, step, slope_bound_steps, .. } = *candidate;
     let mut time_steps = stretch.time;
-    time_steps[0] -= middle;
+    time_steps[0] -= middle_time;
     scale(&mut time_steps, 1.0 / step, 1.0);
     let per_step = PerStep::new(view, candidate, span, stretch, &time_steps);
-    let weights = [[1.0, 0.0, 0.0, 0.0], per_step.exposure];
+    let weights = [[1.0, 0.0, 0.0, 0.0], per_step.backward];
     let (center, per_position) = span.offsets();
     // An offset beyond its word would wrap. It is greatest at an end.
     let [x0, x1, x2, x3, x4, x5, x6] = singles(&stretch.position, center, per_position);
@@ -77,8 +77,8 @@ pub(crate) const fn certificate(
     let Some(sampled) = Sampled::new(&stretch.position, &time_steps) else {
         return ErrorOverLimit::REFUSED;
     };
-    // From a sample to the polynomial; from that to the answer `bounds` adds the rounding. A sample's position is
-    // rounded by 1/2 and a trace.
+    // Rounding counts twice: a sample has its own, and so has the answer, in `bounds`. A sample's position is rounded
+    // by 1/2 and a trace.
     let noise = per_step.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
     let mut stride = FIRST_STRIDE;
     loop {
@@ -92,19 +92,18 @@ pub(crate) const fn certificate(
     }
 }
 
-/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`]. Arrays are polynomials of `s`
-/// along a stretch.
+/// What an error in time of one step comes to, over the limits of [`ErrorOverLimit`], and what [`bounds`](Self::bounds)
+/// needs besides. Arrays are polynomials of `s` along a stretch.
 struct PerStep {
+    forward: f32,
+    /// On the ramp.
+    backward: [f32; 4],
+    /// Beyond the ramp's join, or on both of its sides: at openness 1; 0 if the curve does not go on there.
+    backward_beyond: f32,
     /// What rounding adds to an error in time, in steps.
     rounding_steps: f32,
     /// The time along the stretch, in steps.
     time_steps: [f32; 4],
-    /// In exposure, on the ramp.
-    exposure: [f32; 4],
-    /// In exposure, beyond the ramp's join: at openness 1; 0 if the curve does not go on there.
-    exposure_beyond: f32,
-    /// In time.
-    time: f32,
 }
 
 impl PerStep {
@@ -122,26 +121,22 @@ impl PerStep {
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
-        let exposure_over_limit = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
-        let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, exposure_over_limit);
+        let backward = step / exposure.area / (ULP_ERROR * ulp - fraction_off) as f64;
+        let [f0, f1, f2, f3, ..] = singles(&stretch.openness, 0.0, backward);
         let [t0, t1, t2, t3, ..] = singles(time_steps, 0.0, 1.0);
         // The least size is that of an end.
         let [first, last] = [view.size_of_time(ends[0]), view.size_of_time(ends[1])];
         let size = if first < last { first } else { last };
         let goes_on = exposure.join_time(view.ramp) != exposure.end_time(view.ramp.other());
         Self {
+            forward: step as f32 / size / FORWARD_ERROR,
+            backward: [f0, f1, f2, f3],
+            backward_beyond: if stretch.is_joined && goes_on { backward as f32 } else { 0.0 },
             rounding_steps: truncation_steps
                 + SAMPLE_OFF
                 + slope_bound_steps * fraction_off / span.width
                 + (ends[1] / step) as f32 * TIME_OFF,
             time_steps: [t0, t1, t2, t3],
-            exposure: [f0, f1, f2, f3],
-            exposure_beyond: if stretch.is_joined && goes_on {
-                exposure_over_limit as f32
-            } else {
-                0.0
-            },
-            time: step as f32 / size / FORWARD_ERROR,
         }
     }
 
@@ -150,8 +145,8 @@ impl PerStep {
     /// The error in exposure is the integral of the openness from the exact time to the polynomial's, and on that way
     /// it may be greater than at the place itself.
     #[inline(never)]
-    const fn bounds(&self, [time, exposure]: [f32; KINDS]) -> ErrorOverLimit {
-        let error = time + self.rounding_steps;
+    const fn bounds(&self, [time_error, exposure_error]: [f32; KINDS]) -> ErrorOverLimit {
+        let error = time_error + self.rounding_steps;
         let rounding = self.rounding_steps + error * WEIGHT_OFF;
         // most >= t' >= slowest
         let [_, t1, t2, t3] = self.time_steps;
@@ -161,19 +156,21 @@ impl PerStep {
         let slowest = slowest - most / (1 << 20) as f32;
         // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a
         // parabola that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or
-        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch
-        // ([`Span`]).
+        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch: the
+        // part up to its end would take two ulp of exposure ([`Span::half`]), and it is bounded by less than half of
+        // one here.
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;
         }
         // |f'| <= steepest, so on the way the openness grows by `way steepest` at most.
-        let [_, f1, f2, f3] = self.exposure;
+        let [_, f1, f2, f3] = self.backward;
         let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        let on_ramp = exposure + rounding * absolute(&self.exposure, 1.0) + error * way * steepest;
-        let beyond = error * self.exposure_beyond;
+        let on_ramp =
+            exposure_error + rounding * absolute(&self.backward, 1.0) + error * way * steepest;
+        let beyond = error * self.backward_beyond;
         ErrorOverLimit {
-            forward: error * self.time,
+            forward: error * self.forward,
             backward: if beyond > on_ramp { beyond } else { on_ramp },
         }
     }

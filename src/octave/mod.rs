@@ -49,13 +49,13 @@ pub(crate) const DEGREE: usize = 8;
 /// The bits of a center that are its shift: an offset counts `2^shift` for a position.
 pub(crate) const SHIFT_MASK: u32 = 31;
 
-/// The bits of a top that is `steps` [`EIGHTH`]s above [`LEAST_TOP`].
+/// The bits of a top, by its [`EIGHTH`]s above [`LEAST_TOP`].
 #[inline(always)]
-pub(crate) const fn top(steps: u8) -> u32 {
-    (steps as u32 + LEAST_TOP / EIGHTH) * EIGHTH
+pub(crate) const fn top(eighths: u8) -> u32 {
+    (eighths as u32 + LEAST_TOP / EIGHTH) * EIGHTH
 }
 
-/// The bits of `top / 2^octaves`, for the bits of `top`.
+/// The bits of `top / 2^octaves`, for the bits of `top`; 0 if that is too small.
 pub(crate) const fn below(top: u32, octaves: usize) -> u32 {
     top.saturating_sub((octaves as u32) << 23)
 }

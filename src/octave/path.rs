@@ -8,11 +8,11 @@ use crate::fraction::Side;
 use crate::number::units::WORD;
 use crate::ramp::shape::Shape;
 
-/// [`root`] ends with a step below this share of `x`, which is about as close as an `f32` comes.
+/// [`root`] ends with a step below this share of `x`, about as close as an `f32` comes, or after [`MOST_ROUNDS`].
 const CLOSE: f32 = 1.0 / (1 << 20) as f32;
 /// 40 bisections resolve a `p` above 2⁻²⁰. A worse one only widens the stretch, and may cost the polynomial.
 const MOST_ROUNDS: usize = 40;
-/// The first step outwards of [`Path::parameter`], as a share of `p`.
+/// The first step outwards of [`Path::parameter`], as a share of `p`: small, as each further one is twice as long.
 const OUTWARDS: f64 = 1.0 / (1u64 << 36) as f64;
 
 /// A ramp, seen from a side of the curve, for which octaves are built.
@@ -45,7 +45,7 @@ impl View<'_> {
         Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
     }
 
-    /// The ramp's `p` at its join, which faces the side on the far ramp.
+    /// The ramp's `p` at its join: 1 on the near ramp; 0 on the far one, whose join faces the side.
     pub(crate) const fn join_parameter(&self) -> f64 {
         if self.ramp.is(self.side) { 1.0 } else { 0.0 }
     }

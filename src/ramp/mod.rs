@@ -19,13 +19,13 @@ use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
 /// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance
-/// between neighbouring times, which so keep their order. On a curve that does not run across time 0, `d` is at most
-/// the greater
-/// |time| next to it, so neighbours are at least 2⁻²⁴ `d` apart. Else times are on a grid, at least 2⁻²⁶ `d` apart
+/// between neighbouring times, which so keep their order. Where the curve does not cross time 0, `d <= |t|`, so
+/// neighbours of `t` are at least 2⁻²⁴ `d` away. Else times are on a grid, at least 2⁻²⁶ `d` apart
 /// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
-/// A place below this, 2⁻¹⁴⁷ of the ramp, counts as the end: as a subnormal number it could not be exact enough.
+/// A place below this, 2⁻¹⁴⁷ of the ramp, counts as the end, and so does a time below it: what a search measures there
+/// would be subnormal, and not exact enough. What is lost is far below the error of any answer.
 const LEAST_PLACE: f32 = power_of_two(-117);
 
 /// One end of a ramp, and the series from there.
@@ -58,7 +58,7 @@ impl Ramp {
     /// The ramp between two times, on a curve with this area.
     pub(crate) const fn new([start, end]: [f32; 2], shape: &Shape, area: f64) -> Self {
         let share = Pair::from_f64(shape.area() / area * WHOLE as f64);
-        let units_per_time = power_of_two_f64(-ramp_exponent(start, end));
+        let ramp_units_per_time = power_of_two_f64(-ramp_exponent(start, end));
         let mass_per_area = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
         let first = RampEnd { at: start, time_c: [Pair::ZERO; 2], mass_c: [Pair::ZERO; 5] };
         let mut ramp = Self {
@@ -74,7 +74,7 @@ impl Ramp {
             let (seen, seen_end) = (shape.seen_from(side), &mut ramp.ends[i]);
             // From either side both last coefficients have the same bits, but for the sign of the mass.
             ramp.last_of_time =
-                in_places(&seen.time_powers(), units_per_time, &mut seen_end.time_c);
+                in_places(&seen.time_powers(), ramp_units_per_time, &mut seen_end.time_c);
             let last = in_places(&seen.exposure_powers(), mass_per_area, &mut seen_end.mass_c);
             ramp.last_of_mass = last.flipped(side.sign());
             i += 1;
@@ -136,11 +136,10 @@ impl Ramp {
     /// The moment of a place, which is counted from the end that faces a side.
     #[inline(always)]
     pub(crate) const fn moment(&self, side: Side, place: Pair) -> Moment {
-        let way = self.time_since(side).at_pair(place);
         Moment {
             base: self.end_time(side),
             back: side.is_end(),
-            way: if way.rounded() < 0.0 { Pair::ZERO } else { way },
+            way: self.time_since(side).at_pair(place),
             way_exponent: self.way_exponent(),
             until: self.end_time(side.other()),
         }
@@ -162,7 +161,8 @@ impl Ramp {
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        if target.hi < LEAST_PLACE * c[0] {
+        // Next to the end time is `c[0] place`, if `t'` is not 0 there.
+        if target.hi < LEAST_PLACE * (c[0] + 1.0) {
             return Pair::ZERO;
         }
         let anchor = Anchor::same_end(c, target.hi);
@@ -178,8 +178,8 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl RampPoint<'_> {
-    /// The place from the end that faces a side. If that is not `self.side`, little cancels: where the half of a ramp's
-    /// time has passed, at least 1/7 of [`LAST_PLACE`] is left, as `t'` is not negative.
+    /// The place from the end that faces a side. If that is not `self.side`, little cancels: at half of a ramp's time
+    /// at least 1/7 of [`LAST_PLACE`] is left.
     #[inline(always)]
     const fn place_from(&self, side: Side) -> Pair {
         if self.side.is(side) {
@@ -196,21 +196,21 @@ impl RampPoint<'_> {
         mass.scaled(fraction_per_mass(self.ramp.share.hi))
     }
 
-    /// The openness `f 2^exponent`, at least 0, as `(f, exponent)`.
+    /// The openness `f 2^exponent`, as `(f, exponent)`.
     #[inline(never)]
     pub(crate) fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
-        let down = f.iter().fold(-127, |most, f| exponent(*f).max(most)) - 60;
-        let f = f.map(|f| Pair::new(f).shifted(-down).hi);
-        // The greatest f is about 2⁶⁰: so second numbers, and products with small places, are normal where they count.
+        // The greatest f becomes about 2⁶⁰: so each `lo`, and products with small places, are normal where they count.
+        let up = 60 - f.iter().fold(-127, |most, f| exponent(*f).max(most));
+        let f = f.map(|f| f * power_of_two(up));
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];
-        let second = d[1].minus_loose(d[0]);
-        let c = [d[0].thrice(), second.thrice()];
+        let bend = d[1].minus_loose(d[0]);
+        let c = [d[0].thrice(), bend.thrice()];
         // f[0] + c[0] p + c[1] p² + last p³
-        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(second) };
+        let series = Series { c: &c, last: d[2].minus_loose(d[1]).minus_loose(bend) };
         let value = Pair::new(f[0]).plus(series.at_pair(self.place.scaled(1.0 / LAST_PLACE)));
-        (if value.rounded() < 0.0 { Pair::ZERO } else { value }, down)
+        (value, -up)
     }
 }
 

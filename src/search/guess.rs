@@ -9,8 +9,8 @@
 /// A logarithm has 20 fraction bits, so that four times the difference of two fits 32 bits.
 const LOG_ONE: i32 = 1 << 20;
 
-/// [`power`] comes out 0 to 0.086 octaves too great. A root is lowered by the middle of that: so it is as often too
-/// small as too great.
+/// [`power`] comes out too great by up to 0.086 in the logarithm. A root is lowered by the middle of that: so it is as
+/// often too small as too great.
 const MIDDLE: i32 = (0.043 * LOG_ONE as f32) as i32;
 
 /// `2³⁰ / k`, rounded up, for `k` from 1 to 6.
@@ -30,8 +30,8 @@ pub(crate) const fn guess(c: &[f32], sought: f32) -> f32 {
 
 /// The base-2 logarithm, linear between powers of two: the bits of exponent and significand as they stand.
 ///
-/// 0 is taken for 2⁻¹²⁷, and a negative number for far less. As 2⁸⁰ of mass lie on a ramp of 2³⁰ places, the root of
-/// such a coefficient is too great to be the least.
+/// 0 is taken for 2⁻¹²⁷, and a negative number for far less. As 2⁸⁰ of mass or 2⁶⁴ of time lie on a ramp of 2³⁰ places,
+/// the root of such a coefficient is too great to be the least.
 const fn rough_log(x: f32) -> i32 {
     (x.to_bits() as i32 >> 3) - 127 * LOG_ONE
 }

@@ -8,9 +8,9 @@
 //! 2. measures in pairs what is missing,
 //! 3. takes one more step, and accepts it if a bound of what it leaves ([`left`]) is small enough; else goes on with 2.
 //!
-//! After [`FREE_EVALUATIONS`] evaluations the next place is the middle of a bracket. Between neighbouring `f32` a step
-//! is less than an ulp, and [`left`] accepts it. That the step stays between them is not proven, so [`MAX_EVALUATIONS`]
-//! end a search; then its place has no bound. No search in the tests comes to that.
+//! Where a step leads out of the bracket, and after [`FREE_EVALUATIONS`], the next place is its middle. Between
+//! neighbouring `f32` a step is less than an ulp, and [`left`] accepts it. That the step stays between them is not
+//! proven, so [`MAX_EVALUATIONS`] end a search; then its place has no bound. No search in the tests comes to that.
 
 pub(crate) mod guess;
 
@@ -43,9 +43,9 @@ const GREATEST_STEP: i32 = (1 << 23) + (1 << 21);
 pub(crate) const ROUNDING_SAME: f32 = 1.0 / (1 << 20) as f32;
 const ROUNDING_OTHER: f32 = 1.25 * ROUNDING_SAME;
 
-/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. It moves only
-/// from the other end, for masses. For a last step of some 2⁻¹³ of what is sought [`left`] then adds some 5 · 2⁻¹⁶ ·
-/// 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 3/4 of a mass's error of 2⁻²⁶.
+/// If rounding the place to an `f32` moves the distance by less than this share, the slopes are kept. From the same end
+/// nothing moves, and only masses are searched from the other end. For a last step of some 2⁻¹³ of what is sought
+/// [`left`] then adds some 5 · 2⁻¹⁶ · 2⁻¹³ = 0.63 · 2⁻²⁶, which fits into 3/4 of a mass's error of 2⁻²⁶.
 const MOVED: f32 = 1.0 / (1 << 16) as f32;
 
 /// Where a search starts: an end of the ramp, and the series from there.
@@ -81,12 +81,12 @@ impl<const N: usize> Anchor<N> {
     /// Returns the series around the last distance, and the evaluations.
     #[inline(always)]
     const fn approach(&self, error: f32) -> (Taylor, u32) {
-        // Or the error that is allowed anyway. In bits: comparing integers does not wait for the FPU, and a NaN is too
-        // much.
+        // With the error, which may be left anyway. In bits: comparing integers does not wait for the FPU, and a NaN
+        // counts as too much.
         let stop_below_bits = (PAIRS_BELOW * self.sought + error).to_bits() as i32;
         const LAST_BITS: i32 = LAST_PLACE.to_bits() as i32;
         let guess = guess(&self.c, self.sought);
-        // Not to the other end: there the slope may be 0.
+        // Not to the other end, where the slope may be 0. A later step may lead there, and the next one back.
         let mut x = if guess < 0.75 * LAST_PLACE { guess } else { 0.75 * LAST_PLACE };
         let mut evaluations = 0;
         loop {
@@ -219,8 +219,8 @@ pub(crate) const fn solve<const N: usize>(
     }
     let (rounding, sign) = if place > 0.0 { (ROUNDING_OTHER, 1 << 31) } else { (ROUNDING_SAME, 0) };
     let (mut local, mut evaluations) = anchor.approach(error);
-    // What is measured is an `f32`. From the other end `LAST_PLACE - x` may be none: so `p` is at `x + moved` from the
-    // anchor. If that is far from `x`, the slopes differ.
+    // Pairs measure at a place `p` that is an `f32`. `LAST_PLACE - x` may not be one, so `p` lies at `x + moved` from
+    // the anchor. If that is far from `x`, the slopes differ.
     let mut p = anchor.mirrored(local.x);
     let mut distance = anchor.mirrored(p);
     let mut moved = distance - local.x;
@@ -241,7 +241,8 @@ pub(crate) const fn solve<const N: usize>(
         let way = flipped(step, sign);
         let next = p + way;
         let is_inside = next.to_bits() as i32 >= low && next.to_bits() as i32 <= high;
-        // Measuring is off by at most 2⁻³⁰·⁹ of the target (proofs/solve.py), a quarter of an error of 2⁻²⁸ of it.
+        // Measuring is off by at most 2⁻³² of the target (proofs/solve.py), less than a quarter of its least error,
+        // 2⁻²⁸.
         if is_inside && left(c, &local, moved, missing, step, rounding) <= 0.75 * error {
             return Found { place: Pair::sum(p, way), evaluations };
         }

@@ -178,7 +178,7 @@ impl TickScale {
         let up = if up > 1 { up } else { 0 };
         let zeros = ticks_per_unit.leading_zeros() & 31;
         // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
-        // the interval makes a product of at least 2⁵⁹ and at most 2³² half ticks: so it moves down by 27 or more.
+        // the interval makes a product of at least 2⁶⁰ and at most 2³² half ticks: so it moves down by 28 or more.
         let down = (up + zeros) as i32 - exponent - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
@@ -189,11 +189,10 @@ impl TickScale {
     // proofs/ticks.py: tick
     #[inline(always)]
     pub(crate) const fn tick(&self, time_units: i64) -> u32 {
-        let delay = time_units.wrapping_sub(self.start_units);
-        // A time's last units may be wrong, and place it before the start. None is beyond the end: there a polynomial
-        // would err by all of `1 - u`, and its certificate allows half an ulp of that; the line is rounded down and
-        // ends below its time at u = 1, at most the curve's end; and a search stops at `Moment::until`.
-        let delay = if delay > 0 { delay as u64 } else { 0 };
+        // No time is outside the interval: there a polynomial would err by all of `u`, or of `1 - u`, and its
+        // certificate allows half an ulp; the line begins after the start, is rounded down, and ends at the curve's end
+        // at most; and a search stops at `Moment::until`.
+        let delay = time_units.wrapping_sub(self.start_units) as u64;
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);
         let product = high * self.rate as u64 + ((low * self.rate as u64) >> 32);
