@@ -29,9 +29,9 @@ const COSINES: &[i32; POINTS / 2 + 1] = &{
 /// `s = 1`, where `s` counts 2⁻³⁰.
 const ONE: f32 = (1 << 30) as f32;
 
-/// `1 / cos(51 π stride / 2N)`, by the stride.
+/// `1 / cos(51 π stride / 2N)`, by the stride, 1 or 2.
 // proofs/certificate.py
-const FACTOR: [f32; FIRST_STRIDE + 1] = [0.0, 1.093_840_8, 1.489_072_5];
+const FACTOR: [f32; 4] = [0.0, 1.093_840_8, 1.489_072_5, 0.0];
 
 /// More than what may make a bound too small: roundings of an `f32`, and samples off their points.
 // proofs/certificate.py
@@ -129,7 +129,7 @@ pub(crate) const fn errors(
     while kind < KINDS {
         let noise = noise * absolute(&weights[kind], 1.0);
         least[kind] -= noise;
-        most[kind] = SLACK * (seen[kind] + noise) * FACTOR[stride];
+        most[kind] = SLACK * (seen[kind] + noise) * FACTOR[stride & 3];
         kind += 1;
     }
     (least, most)
