@@ -8,8 +8,8 @@ from box import *
 from short import *
 
 pinned("""
-cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp c175bd32 from_nearer_end 70c248c7 on_grid af670c35 gridded 664f67ff
-ramp/mod.rs at_time 08d4d20d place_of_time b1567883 place_from 4b1484c7 fraction 21c2a107
+cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp 1939d75a from_nearer_end 877613b3 on_grid af670c35 gridded 664f67ff
+ramp/mod.rs at_time 08d4d20d place_of_time 0c1e7c2b place_from 4b1484c7 fraction 21c2a107
 number/pair.rs plus 557c4757 minus 631268a2 over e34c0f49
 number/units.rs fraction_per_mass f0b1684c
 """)
@@ -30,7 +30,8 @@ middle = min(next(Fraction(k, 64) for k in range(64) if at(Extreme(c, SINGLE[3])
 require(Fraction(1, 5) <= middle, "a time nearer to the other end")
 measured = (AT_PAIR[6] + 4 * 6 + 2 * (SECOND[6] + 6) + 3) * U * U
 require(measured < Fraction(1, 2**39), "measuring")
-proven(f"a mass is measured to 2^{log2(measured):.2f} of T; a time nearer to a ramp's other end lies beyond 1/5 of the ramp")
+require(measured * MASS_TERMS < 1, "a mass as measured")
+proven(f"a mass is measured to 2^{log2(measured):.2f} of T, so never below 0; a time nearer to a ramp's other end lies beyond 1/5 of the ramp")
 
 T, rest = lambda r: sizes(r.m), lambda r: plus([ONE], by(r.t, -1))
 # Next to the curve's end, so fully open where the ramp ends; or with at most half of a mass before the place, whatever is open at the ends.
@@ -60,7 +61,8 @@ require(plateau < Fraction(1, 2**10), "the plateau")
 proven(f"on the plateau a mass is measured to 2^{log2(plateau):.1f} of the distance")
 
 
-# --- 1 less a mass from the end, by all values of p bits from 1/16 ulp of 1 to 1/2: in 2^-(4 p), with second numbers up to so many half ulps.
+# --- 1 less a mass from the end, by all values of p bits from 1/16 ulp of 1 to 1/2: in 2^-(4 p), with second numbers up to so many half
+# ulps: one, as `Pair::sum` and `plus` leave them.
 def keeps_order(p, halves):
     whole = np.int64(1) << (4 * p)
     found = []
@@ -78,4 +80,4 @@ def keeps_order(p, halves):
 
 
 require(all(keeps_order(p, 1) for p in (4, 5, 6)) and not keeps_order(5, 2), "1 less a mass")
-proven("1 less a mass keeps the order if the mass's second number is at most half an ulp of the first, for all masses of 4 to 6 bits; with an ulp it does not")
+proven("1 less a mass keeps the order, as the mass's second number is at most half an ulp of the first: for all masses of 4 to 6 bits; with an ulp it would not")

@@ -7,6 +7,7 @@ domain.rs check f6cb7d9f check_section b2af6dd3 check_points 843de3a2
 exposure.rs Exposure::new 3f1397a4
 inverse.rs Inverse::new b20a0b5f last_before_line e915c97a
 number/units.rs mass_exponent 8d1444af time_exponent 96eb982d ramp_exponent bb4367a6 fixed_down 12e34aed fixed_towards_0 c6a6eaa3
+ramp/mod.rs openness cf44a862
 ramp/shape.rs powers 91a002ae exposure_powers 6be3a531 area 6e0daa9d
 """)
 
@@ -66,3 +67,8 @@ for what, number, left, right, on in (
 ):
     require(holds(number, left, right, on) and not holds(number * Fraction(9, 10), left, right, on), f"terms of a {what}")
     proven(f"the terms of a {what} since an end, without their signs, are at most {number} times the {what}")
+# The openness counts from the end that is nearer in time. Pairs round it by far less than 2^-10 of its terms.
+half_time = lambda r: plus(r.t, [-SHARE])
+number, left, right = 1024, lambda r: sizes(r.f), lambda r: r.f
+require(holds(number, left, right, ramps, half_time) and not holds(Fraction(number, 2), left, right, ramps, half_time), "terms of an openness")
+proven(f"the terms of an openness up to half of a ramp's time, without their signs, are at most {number} times the openness: so none is measured below 0")

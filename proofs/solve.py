@@ -1,15 +1,15 @@
 """The bound of what a step of the search leaves, term by term in exact fractions; and that a search ends.
 
 `c` are the coefficients' numbers in single precision; the true ones differ by one rounding. The slopes on the way are bounded by
-D, the sum of j |c_j| Y^(j-1) with Y = |x| + |s|. E is the sum of j |c_j| Y^(j-3) from the third on.
+D, the sum of j |c_j| Y^(j-1) with Y = x + |s|. E is the sum of j |c_j| Y^(j-3) from the third on.
 """
 
 import box
 from majorant import *
 
 pinned("""
-search/mod.rs mirrored b82cf3df Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left 099b0969 solve 00ecc2bd approach bcc2ca23
-ramp/mod.rs place_of_part d7e002b3 place_of_time b1567883
+search/mod.rs mirrored b10620d6 Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left 099b0969 solve 61dc59b9 approach bcc2ca23
+ramp/mod.rs place_of_part d7e002b3 place_of_time 0c1e7c2b
 number/pair.rs difference c74b730c
 """)
 
@@ -37,7 +37,7 @@ class Degree:
         self.near = self.count + self.more
 
     def sums(self, number, first, less):
-        """The sum of number(j) |c_j| Y^(j - less), with Y = |x| + |s|."""
+        """The sum of number(j) |c_j| Y^(j - less), with Y = x + |s|."""
         return {(j, a, j - less - a): Fraction(number(j) * comb(j - less, a))
                 for j in range(first, self.n + 1) for a in range(j - less + 1)}
 

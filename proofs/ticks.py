@@ -5,12 +5,13 @@ from solver import *
 
 pinned("""
 fraction.rs of_parts 36f90104
-trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 536aa558 exponent_of_ticks f79152f3 TickScale::new f3f8ffa3 TickScale::tick ed10ecd3
+trigger/ticks.rs fraction 2c774e95 around 8259bfdd Ticks::new 536aa558 exponent_of_ticks f79152f3 TickScale::new f3f8ffa3 TickScale::tick 5ab2dabf
 trigger/pulse.rs at e0b4f7ee
 number/moment.rs in_units 65d70f00
 number/units.rs fixed_down 12e34aed time_exponent 96eb982d
-exposure.rs moment f08dceba sought 05355bcf
-octave/candidate.rs candidate 5f0e210b
+exposure.rs moment b0a499d8 sought 05355bcf
+ramp/mod.rs moment 3ad522c9
+octave/candidate.rs candidate d3eb3555
 inverse.rs time_units 0a5d4365 direct_units 0f0faea8 searched_units 8d6e0d1a
 """)
 
@@ -74,6 +75,9 @@ valid("in_units: a way is rounded down as one number, but for what its rest is r
 WAYS = 2 * (9 * TIME_TERMS + 1) * 2**24 * U * U
 require(WAYS < Fraction(1, 2**16), "what a rest is rounded by")
 proven(f"in_units: so ways of at least 2^24 units keep their order, and shorter ones if they are 2^{log2(WAYS):.1f} of a unit apart")
+kept = Real("kept")
+in_units = And(whole == ToInt(hi), Implies(hi + lo >= 0, kept >= -whole))
+valid("in_units: a way of 0 or more is 0 units or more, as rounding its rest keeps whole numbers", *(Implies(And(in_units, hi + lo >= least), whole + ToInt(kept) >= 0) for least in (0, -1)))
 base, until, way, back = Reals("base until way back")
 smaller = lambda x, y: If(x < y, x, y)
 section = And(base <= until, way >= 0, back >= 0, way <= until - base, back <= until - base)
@@ -112,6 +116,21 @@ proven(f"a polynomial beside another takes {float(2 * ULP_ERROR):.2f} ulp of exp
 line = Fraction(1, 2**6) + 2 / (constant("FINE") / 2**23 * UNITS)
 require(line + max(ULP_ERROR, searched / ulp) < 1, "the line")
 proven(f"the plateau's line, beside a polynomial or a search, takes {float(line + max(ULP_ERROR, searched / ulp)):.2f} ulp")
+
+# --- No time is outside the interval: each tick counts from its start. A ramp's way is measured to less than itself. On the plateau it has
+# three roundings of numbers of 2^-24 of the fraction, which is 1/2 at most; without a near ramp nothing cancels. The line begins behind
+# the near ramp, and above FINE; its joins are off by JOIN_OFF and FRACTION_OFF. A polynomial collects its fraction but for ULP_ERROR.
+require(TIME < 1, "a way as measured")
+MOST_UNITS, FINE = 2**62, constant("FINE")
+trace = Fraction(1, 2) * 3 * U * U * MOST_UNITS
+line_off = (FINE / 2**23 / 2**6 + constant("JOIN_OFF")) * MOST_UNITS
+RAMP = 2**60 * constant("LEAST_SECTION")
+is_inside = lambda ramp: trace + 2 < ramp and line_off + 2 < ramp * (1 - constant("FRACTION_OFF"))
+require(is_inside(RAMP) and not is_inside(RAMP / 2**13), "the plateau, beside a near ramp")
+by_line = FINE * (1 - Fraction(1, 2**29)) * UNITS
+by_polynomial = constant("LEAST_TOP") / 2 * (1 - ULP_ERROR / 2**23) * UNITS - UNITS_IN_CERTIFICATE
+require(by_line > 2 and by_polynomial > 0, "the line and polynomials")
+proven(f"no time is outside the interval: a ramp's way is at least 0, the plateau's at least -2^{log2(trace):.1f} units, and its line is off by at most 2^{log2(line_off):.1f}, where a near ramp has 2^{log2(RAMP):g} or more; else the line begins 2^{log2(by_line):.1f} inside; a polynomial is 2^{log2(by_polynomial):.1f} inside")
 
 # --- Ticks. The scale, by the exponents of a length and a rate. An interval has at most 2^TICK_BITS ticks.
 TICK_BITS, LONGEST = constant("TICK_BITS"), 62

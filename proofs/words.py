@@ -3,7 +3,7 @@
 from solver import *
 
 pinned("""
-inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 89095067
+inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 979ba1b4
 number/pair.rs upper 5180492f ::flipped 279c50d6 significand a3252cda
 number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
 octave/candidate.rs rounded 0d9916e4
