@@ -1,4 +1,4 @@
-//! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons.
+//! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons; differences in `f64`.
 //!
 //! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
 //! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, as much mirrored at the end, and 1/22

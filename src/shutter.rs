@@ -25,6 +25,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
+/// Lengths and the exposure are taken as an `f64` rounds them.
+///
 /// Times are in seconds, or in any other unit that all of them use ([Units](crate#units)).
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes

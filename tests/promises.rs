@@ -277,6 +277,9 @@ fn faults() {
         [(16.0, 0.23115787), (16.069315, 0.9636907), (16.188118, 0.94166076), (16.204382, 1.0)],
         [(16.204382, 1.0), (16.933697, 0.4028296), (16.949995, 0.9828322), (17.0, 0.09975028)],
     ));
+    // A closing ramp to time 0, of 2⁻²⁵ of the exposure: its cdf stepped back where its mass was not normalised.
+    let closing = [(-1.22e-7, 1.0), (-1.525e-8, 0.0), (-1.0675e-7, 0.0), (0.0, 1.0)];
+    curves.push(Curve::shutter(instant(-1.338), closing));
     // Subnormal times.
     let closing =
         [(2.6020853e-19, 1.0), (4.3368087e-19, 0.7), (6.938894e-19, 0.3), (8.6736174e-19, 0.0)];

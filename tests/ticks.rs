@@ -23,6 +23,19 @@ fn a_static_curve_is_the_one_built_at_run_time() {
     assert_eq!(Ok(CURVE.clone()), again);
 }
 
+/// A density dark at both ends, whose inner times cross: a search meets a slope of 0 and a NaN, whose sign differs by machine.
+#[test]
+fn a_constant_has_the_ticks_of_run_time() {
+    const DARK: ShutterCurve = valid(ShutterCurve::density(CubicBezier::new([
+        (0.0, 0.0),
+        (1.0, 1.0),
+        (0.0, 0.0),
+        (1.0799999, 0.0),
+    ])));
+    const TICKS: Result<[u32; 16], ScheduleError> = DARK.ticks(1_000_000_000, 0);
+    assert_eq!(std::hint::black_box(&DARK).ticks(1_000_000_000, 0), TICKS);
+}
+
 #[test]
 fn fractions_are_of_the_interval() {
     let a = SOFT;

@@ -97,8 +97,10 @@ impl<const N: usize> Anchor<N> {
             {
                 return (local, evaluations);
             }
-            // In bits, so that the limits stop a NaN, too.
+            // In bits, so that the limits stop a NaN, too. That may have either sign, by machine: as 0 it is the least
+            // step.
             let next = (x + local.step(missing)).to_bits() as i32;
+            let next = if next > f32::INFINITY.to_bits() as i32 { 0 } else { next };
             let bits = x.to_bits() as i32;
             let (least, most) = (bits + LEAST_STEP, bits + GREATEST_STEP);
             let least = least & !(least >> 31); // max(least, 0)
