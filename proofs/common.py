@@ -117,7 +117,7 @@ def proven(claim):
     """Prints a claim that has just been checked, with the time since the last one."""
     global started
     now = time.monotonic()
-    print(f"proven {now - started:7.2f} s  {SCRIPT}: {claim}", flush=True)
+    print(f"proven {now - started:7.2f} s  {SCRIPT}: {claim}\n", end="", flush=True)
     started = now
 
 
