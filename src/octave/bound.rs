@@ -31,7 +31,7 @@ const ONE: f32 = (1 << 30) as f32;
 
 /// `1 / cos(51 π stride / 2N)`, by the stride, 1 or 2.
 // proofs/certificate.py
-const FACTOR: [f32; 4] = [0.0, 1.093_840_8, 1.489_072_5, 0.0];
+const FACTOR: [f32; 4] = [0.0, 1.093_840_8, 1.489_072_6, 0.0];
 
 /// More than what may make a bound too small: roundings of an `f32`, and samples off their points.
 // proofs/certificate.py
