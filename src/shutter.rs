@@ -31,7 +31,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
 /// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
-/// curve need a search, about one in 256, with 0 all on the ramps do. A curve takes 376 bytes, and 96 more for each of
+/// curve need a search, about one in 500, with 0 all on the ramps do. A curve takes 376 bytes, and 96 more for each of
 /// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
 ///
 /// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers,
@@ -365,7 +365,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
-    /// On typical curves each tick is within 0.8 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
+    /// On typical curves each tick is within 0.85 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
     /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
     /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`. That is an ulp of `u`
     /// or of `1 - u`, whichever is less.

@@ -426,15 +426,36 @@ fn one_figure_for_the_worst_direct_tick() {
 /// quarter of a tick, and the polynomial has its own error.
 #[test]
 fn the_worst_tick_of_a_typical_curve() {
-    let opening = [(0.0, 0.0), (0.5498377, 0.38116276), (1.9749786, 0.9056642), (3.1201088, 1.0)];
-    let closing = [(4.160642, 1.0), (6.806004, 0.6767999), (16.227335, 0.49375978), (20.833, 0.0)];
-    let curve = Curve::shutter(opening, closing);
-    let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
-    let (n, i, hz) = (10_912, 8182, 805_319);
-    let tick = shutter::<8>(&curve).trigger_ticks(n, hz).unwrap().nth(i).unwrap();
-    let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
-    let error = ((exact.inverse_cdf_dd(u) - start) * f64::from(hz) - Dd::from(f64::from(tick))).hi;
-    assert!((0.75..=TYPICAL_TICK).contains(&error.abs()), "{error}");
+    let line =
+        |from: f32, to: f32, [a, b]: [(f32, f32); 2], [f, g]: [f32; 2]| [(from, f), a, b, (to, g)];
+    // Each with its frame, the trigger and the rate.
+    let found = [
+        (
+            line(0.0, 3.1201088, [(0.5498377, 0.38116276), (1.9749786, 0.9056642)], [0.0, 1.0]),
+            line(4.160642, 20.833, [(6.806004, 0.6767999), (16.227335, 0.49375978)], [1.0, 0.0]),
+            (10_912, 8182, 805_319),
+        ),
+        (
+            line(0.0, 0.8311455, [(0.18858829, 0.46760687), (0.70465684, 0.5)], [0.0, 1.0]),
+            line(0.87705743, 1.024, [(0.94999385, 1.0), (1.0019082, 0.6998822)], [1.0, 0.0]),
+            (4_169_484, 1_042_381, 16_382_035),
+        ),
+        // Plain decimals.
+        (
+            line(0.0, 0.85, [(0.15, 0.33), (0.72, 0.33)], [0.0, 1.0]),
+            line(0.85, 1.0, [(0.92, 1.0), (0.97, 1.0)], [1.0, 0.0]),
+            (4_176_094, 1_044_066, 16_776_712),
+        ),
+    ];
+    for (opening, closing, (n, i, hz)) in found {
+        let curve = Curve::shutter(opening, closing);
+        let (exact, start) = (Exact::new(&curve), Dd::from(curve.open_start()));
+        let tick = shutter::<8>(&curve).trigger_ticks(n, hz).unwrap().nth(i).unwrap();
+        let u = Dd::from(2.0 * i as f64 + 1.0) / Dd::from(2.0 * f64::from(n));
+        let time = (exact.inverse_cdf_dd(u) - start) * f64::from(hz);
+        let error = (time - Dd::from(f64::from(tick))).hi;
+        assert!((0.75..=TYPICAL_TICK).contains(&error.abs()), "{error}");
+    }
 }
 
 /// What each pulse of a steady lamp lets through the shutter, by the oracle's cdf; a tick at either end is half of one off.

@@ -85,7 +85,8 @@ impl Moment {
         if is_beyond { self.until } else { time }
     }
 
-    /// The time in units of `2^exponent`, at most 2⁶² of them. Base and way are rounded down, each by itself.
+    /// The time in units of `2^exponent`, at most 2⁶² of them. Base and way are rounded down, each by itself; a
+    /// way that lies within 2⁻²⁵ of the next whole number may become that.
     pub(crate) const fn in_units(self, exponent: i32) -> i64 {
         let Pair { hi, lo } = self.way.shifted(self.way_exponent - exponent);
         // By its whole part and the rest, as `hi + lo` would have 24 bits.

@@ -30,7 +30,7 @@ pub const TRIGGER_ULP: f64 = 1.0;
 /// The same of a pulse's end, whose `2i + 1 ± duty` is rounded before it is divided: one and a half for the `f32`.
 pub const EDGE_ULP: f64 = 2.0;
 /// On typical curves, in intervals of up to [`TYPICAL_TICKS`], from the exact time itself.
-pub const TYPICAL_TICK: f64 = 0.8;
+pub const TYPICAL_TICK: f64 = 0.85;
 pub const TYPICAL_TICKS: f64 = (1 << 24) as f64;
 /// The most triggers in a frame.
 pub const MOST_TRIGGERS: u32 = 1 << 22;
