@@ -2,7 +2,8 @@
 //!
 //! A fraction `a`, at most 1/2, is counted from the nearer end of the curve. It lies on the near ramp, on the plateau
 //! or on the far ramp, and the part of it that is sought there is never more than `a`. So an error relative to that
-//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times, but for that of 1/2.
+//! part is no greater relative to `a`, even next to an end. A mirrored curve gives mirrored times, but for that of
+//! 1/2, and where rounding meets a tie.
 
 use crate::domain::{self, LEAST_EXPOSURE};
 use crate::error::{CurveError, tried};

