@@ -109,7 +109,8 @@ fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();
     let fraction = if from_start < HALF {
-        from_start.max(0.0)
+        // Not `max`, which may leave -0.0, by machine.
+        if from_start > 0.0 { from_start } else { 0.0 }
     } else {
         Pair::new(WHOLE).minus(fraction_since(End)).rounded().max(HALF)
     };

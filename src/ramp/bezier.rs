@@ -74,13 +74,12 @@ impl CubicBezier {
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> (Self, Self) {
         let [open_start, open_end, close_start, close_end] = times;
         let [t1, y1, t2, y2, t5, y5, t6, y6] = inner;
-        let interval = [open_start as f64, close_end as f64];
-        let (opening, closing) = ([open_start, open_end], [close_start, close_end]);
+        let (start, end) = (open_start as f64, close_end as f64);
         let at = [
-            snapped(t1, interval, opening),
-            snapped(t2, interval, opening),
-            snapped(t5, interval, closing),
-            snapped(t6, interval, closing),
+            snapped(start, end, t1, open_start, open_end),
+            snapped(start, end, t2, open_start, open_end),
+            snapped(start, end, t5, close_start, close_end),
+            snapped(start, end, t6, close_start, close_end),
         ];
         (
             Self::new([(open_start, 0.0), (at[0], y1), (at[1], y2), (open_end, 1.0)]),
@@ -109,10 +108,14 @@ impl CubicBezier {
 
 /// The time at a `fraction` of the interval from `start` to `end`; or its ramp's end, if that is passed by no more than
 /// rounding explains. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
-const fn snapped(fraction: f32, [start, end]: [f64; 2], [from, to]: [f32; 2]) -> f32 {
-    let fraction = fraction as f64;
-    let time = start * (1.0 - fraction) + end * fraction;
-    let (from, to) = (from as f64, to as f64);
+const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32 {
+    let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
+    // From the nearer end, so that 0 and 1 are exact.
+    let time = if fraction < 0.5 {
+        start + (end - start) * fraction
+    } else {
+        end - (end - start) * (1.0 - fraction)
+    };
     let on_ramp = if time < from { from } else { to };
     let on_ramp = if time >= from && time <= to { time } else { on_ramp };
     let rounding = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;
