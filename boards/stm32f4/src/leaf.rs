@@ -19,8 +19,8 @@ use shutter_curve::{ShutterCurve, valid};
 #[allow(dead_code, clippy::unreadable_literal)]
 #[rustfmt::skip]
 pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
-    [0.0042470167, 0.006873907, 0.010958795, 0.0129576195],
-    [0.1227014, 0.0005208, 0.1941086, 0.9329666, 0.8523011, 0.9329666, 0.9066354, 0.0005208],
+    [0.004247017, 0.0068739066, 0.010958795, 0.0129576195],
+    [0.1227013, 0.0005207, 0.1941086, 0.9329665, 0.852301, 0.9329665, 0.9066355, 0.0005207],
 ));
 
 /// The timer's rate.
@@ -36,7 +36,7 @@ pub const DELAY_TICKS: u32 = 424_702;
 #[rustfmt::skip]
 pub const TICKS: [u32; 16] = [
     129565, 192642, 236786, 276309, 315398, 354486, 393574, 432663, 471751, 510839, 549928, 589016,
-    628104, 667193, 707857, 762604,
+    628104, 667192, 707857, 762604,
 ];
 
 /// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
