@@ -1,9 +1,9 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
 //! A cdf is the part of the exposure until a *place* ([`ramp`](crate::ramp)), that of the time, counted from the nearer
-//! end of the curve, as the inverse counts. A place is off by less than what a quarter of the distance to the next time
-//! takes, and measuring the part there loses far less than lies between two times; on either side of a join it is
-//! counted up to the same share. So it never steps back (proofs/cdf.py).
+//! end of the curve, as the inverse counts. It never steps back (proofs/cdf.py): a place is off by less than a quarter
+//! of the distance to that of the next time, measuring the part there loses far less than lies between two times, and
+//! at a join the sections on both sides use the same stored shares.
 
 use crate::exposure::Exposure;
 use crate::fraction::Side::{self, End, Start};
@@ -103,8 +103,8 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
 }
 
 /// The fraction collected since the start, where `fraction_since(side)` is that since a side's end, in [`WHOLE`]: below
-/// half that since the start, else the rest of that since the end. These are measured apart, and may differ by a trace at
-/// half.
+/// half that since the start, else the rest of that since the end. These are measured apart, and may differ by a trace
+/// at half.
 fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();

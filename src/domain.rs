@@ -1,4 +1,5 @@
-//! What is accepted: each rule of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons; differences in `f64`.
+//! What is accepted: the rules of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons; differences in `f64`.
+//! The last rule is compared in [`exposure`](crate::exposure).
 //!
 //! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
 //! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, as much mirrored at the end, and 1/22
@@ -42,7 +43,7 @@ pub(crate) const fn check(opening: &CubicBezier, closing: &CubicBezier) -> Resul
     tried!(check_section(close, end, least, Part::Closing));
     tried!(check_points(opening, Part::Opening));
     tried!(check_points(closing, Part::Closing));
-    // A ramp that is the whole curve, or has no length, has no join.
+    // A ramp that is the whole curve does not meet another part, and the openness of one without length does not count.
     let ([.., opened], [closing, ..]) = (opening.opennesses(), closing.opennesses());
     if start < open && open < end && opened < 1.0 {
         return Err(CurveError::NotFullyOpen(Part::Opening));

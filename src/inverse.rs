@@ -46,8 +46,8 @@ pub(crate) struct Inverse<const OCTAVES: usize> {
     /// The plateau's line: its time continued to `u = 0`, and its slope, the area.
     line_base_units: i64,
     line_slope_units: i64,
-    /// By side: the stored tops of the ramp at the start and of the one at the end, in the steps of [`octave::top`], so
-    /// that `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
+    /// By side: the stored tops of the ramp at the start and of the one at the end, in eighths as [`octave::top`] takes
+    /// them, so that `(bits(top) - bits(a)) >> 23` indexes `octaves` for either ramp ([`octave`] has a drawing).
     tops: [[u8; 2]; 2],
     /// By side: the octaves of the far ramp, then those of the near one, each from the widest on.
     octaves: [[Octave; OCTAVES]; 2],

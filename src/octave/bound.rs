@@ -89,8 +89,8 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
     value
 }
 
-/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: in steps,
-/// and over its limit. Samples are off by at most `noise` steps.
+/// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: of the
+/// error in time in steps, of that in exposure over its limit. Samples are off by at most `noise` steps.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
@@ -109,6 +109,7 @@ pub(crate) const fn errors(
             let position = ((at(&along.position, s) + half) >> POSITION_BITS) as i32;
             let value = octave.polynomial(octave.offset(position));
             let error = (((value as i64) << TIME_BITS) - at(&along.time, s)).unsigned_abs();
+            // By words: converting a `u64` is a slow call on a small processor.
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;
             let mut kind = 0;

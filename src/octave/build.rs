@@ -123,7 +123,8 @@ const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
 /// more.
 #[inline(never)]
 const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
-    // At or above the range's end: as joins are rounded, an `f32` just beyond it may be looked up here.
+    // At or above the range's end. `inverse_cdf` takes the ramp from the join as counted from the start, even for an
+    // `a` from the end; the two are rounded apart, so an `a` just beyond this end may be looked up here.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };

@@ -98,7 +98,8 @@ struct PerStep {
     forward: f32,
     /// On the ramp.
     backward: [f32; 4],
-    /// Beyond the ramp's join, or on both of its sides: at openness 1; 0 if the curve does not go on there.
+    /// Where the way from the exact time to the polynomial's lies beyond the ramp's join or crosses it: as if all of it
+    /// were at openness 1. 0 if the stretch does not reach the join, or the curve ends there.
     backward_beyond: f32,
     /// What rounding adds to an error in time, in steps.
     rounding_steps: f32,

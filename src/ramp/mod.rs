@@ -161,7 +161,8 @@ impl Ramp {
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        // Next to the end time is `c[0] place`, if `t'` is not 0 there.
+        // Next to the end time is `c[0] place`. `+ 1.0` is for a time below LEAST_PLACE of the ramp's units, which
+        // counts where `c[0]` is 0 or small.
         if target.hi < LEAST_PLACE * (c[0] + 1.0) {
             return Pair::ZERO;
         }
@@ -178,8 +179,9 @@ pub(crate) struct RampPoint<'a> {
 }
 
 impl RampPoint<'_> {
-    /// The place from the end that faces a side. If that is not `self.side`, little cancels: at half of a ramp's time
-    /// at least 1/7 of [`LAST_PLACE`] is left.
+    /// The place from the end that faces a side. If that is not `self.side`, little cancels: on a ramp of length 1 the
+    /// time is at least `p³`, as no control time is before the end, so by half of it at least 1/5 of [`LAST_PLACE`] is
+    /// left.
     #[inline(always)]
     const fn place_from(&self, side: Side) -> Pair {
         if self.side.is(side) {
@@ -201,7 +203,9 @@ impl RampPoint<'_> {
     pub(crate) fn openness(&self) -> (Pair, i32) {
         let [f0, f1, f2, f3] = self.ramp.openness;
         let f = if self.side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
-        // The greatest f becomes about 2⁶⁰: so each `lo`, and products with small places, are normal where they count.
+        // The greatest f becomes 2⁶⁰ to 2⁶¹, so that each `lo` is normal where it counts. By rules 3 and 6 it was 2⁻²¹
+        // or more, so `up` is at most 81. (Next to an end the place may become subnormal: what that loses is far below
+        // 2⁻³⁸.)
         let up = 60 - f.iter().fold(-127, |most, f| exponent(*f).max(most));
         let f = f.map(|f| f * power_of_two(up));
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];

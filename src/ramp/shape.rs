@@ -87,7 +87,7 @@ const fn powers([d0, d1, d2]: [f64; 3]) -> [f64; 3] {
     [3.0 * d0, 3.0 * (d1 - d0), (d0 + d2) - 2.0 * d1]
 }
 
-/// The differences of these are exact, unless their exponents lie 29 apart.
+/// The differences of these are exact, unless their exponents lie 29 or more apart.
 const fn widened([a, b, c, d]: [f32; 4]) -> [f64; 4] {
     [a as f64, b as f64, c as f64, d as f64]
 }
