@@ -358,14 +358,14 @@ fn speeds_are_rows_and_objects() {
 #[test]
 fn the_lines_for_the_pico_are_those_of_the_scene() {
     let plan = |keys: &str| {
-        let text = include_str!("../scenes/measured.toml").replace("delay = 4.2470169", keys);
+        let text = include_str!("../scenes/measured.toml").replace("delay = 4.2470171", keys);
         shutter::emit::emit(Form::Pico, "measured", &Planned::parse(&text).unwrap())
     };
-    let curve = "curve 0.0042470167 0.006873907 0.010958795 0.0129576195 0.1227014 0.0005208 0.1941086 0.9329666 \
-                 0.8523011 0.9329666 0.9066354 0.0005208";
+    let curve = "curve 0.004247017 0.0068739066 0.010958795 0.0129576195 0.1227013 0.0005207 0.1941086 0.9329665 \
+                 0.852301 0.9329665 0.9066355 0.0005207";
     let first = format!("n 1\nframes 1\npulse 16ns\ngap 0ns\ndelay 0ns\n{curve}\n");
     for (keys, last) in [
-        ("delay = 4.2470169", "delay 4247016ns\nn 16\npulse 2us\ngap 100000ns\n"),
+        ("delay = 4.2470171", "delay 4247016ns\nn 16\npulse 2us\ngap 100000ns\n"),
         ("delay = 0", "delay 0ns\nn 16\npulse 2us\ngap 100000ns\n"),
         ("delay = 1\npulse = 0.2", "delay 900000ns\nn 16\npulse 200000ns\ngap 300000ns\n"),
         ("delay = 1\nduty = 0.3", "delay 1000000ns\nn 16\nduty 0.3\ngap 100000ns\n"),

@@ -379,7 +379,7 @@ fn a_number_out_of_range_is_an_error() {
     }
 }
 
-/// The measured shutter, whose frame ends 12.9576196 ms after the edge, on such a timer.
+/// The measured shutter, whose frame ends 12.9576195 ms after the edge, on such a timer.
 fn on_timer(keys: &str) -> Result<shutter::planned::Planned, String> {
     let text = include_str!("../scenes/measured.toml").replace("timer_hz = 25000000", keys);
     shutter::planned::Planned::parse(&text).map_err(|fault| fault.locate("leaf.toml", &text))
