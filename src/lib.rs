@@ -60,9 +60,9 @@
 //! # Cost
 //!
 //! A `static` curve takes 1144 bytes of flash and no time at start-up. On a Cortex-M4F an [`inverse_cdf`] takes some 70
-//! to 110 cycles on average, and some 500 to 1500 where it needs a search. Frames of up to [`direct_triggers`] never
-//! need one. Building a curve at run time takes some 1.9 million instructions there. The README compares other methods,
-//! and says when not to use this crate.
+//! to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark at both
+//! ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 1.9 million
+//! instructions there. The README compares other methods, and says when not to use this crate.
 //!
 //! # Features and minimum Rust
 //!
