@@ -265,7 +265,7 @@ fn main() -> ! {
         wrapped |= across;
         let n = plan.len();
         let [first, last] =
-            [plan.clone().next(), plan.clone().last()].map(Option::unwrap_or_default);
+            [plan.clone().next(), plan.clone().next_back()].map(Option::unwrap_or_default);
         match check(edge, plan, &fired) {
             Ok(late) => info!(
                 "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",
