@@ -16,7 +16,7 @@ use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
 use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::unit::Unit;
-use shutter_fit::{Fit, Kind, Options, Sync, Tolerance, fit};
+use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     fit(trace, options, &mut |_| ())
@@ -312,15 +312,23 @@ fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
     let fit = fitted(&trace, &Options::default()).unwrap();
     assert_eq!((fit.frames.count, fit.frames.fitted), (5, 1));
     assert!((0.002..0.004).contains(&fit.frames.scatter), "{:?}", fit.frames);
-    assert!(matches!(fit.reason, shutter_fit::Reason::Shots { shots: 5, .. }));
-    // Straight ramps are further from a leaf's than its shots from each other.
     assert!(fit.chosen > Kind::Trapezoid);
     let fourth = Options { frame: Some(4), model: Some(Kind::Free), ..Options::default() };
     let fourth = fitted(&trace, &fourth).unwrap();
     assert!(fourth.triggers.iter().all(|trigger| (3.0..4.0).contains(&trigger.value)));
-    // Where the shots are lost in noise, the simplest serves as well as any.
-    let noisy = fitted(&frames(0.08), &Options::default()).unwrap();
-    assert!(noisy.chosen <= Kind::Symmetric, "{:?}", noisy.chosen);
+}
+
+/// Short ramps move few of the triggers, and a box comes as near to other shots: but it is not what the samples show.
+#[test]
+fn shots_that_agree_do_not_make_ramps_edges() {
+    let mut random = Random::new(8);
+    let times: Vec<f64> = (0..3600).map(|i| 1e-5 * f64::from(i)).collect();
+    let openness = |t: f64| (t - 0.002).min(0.0087 - t).clamp(0.0, 3e-4) / 3e-4;
+    let values = times.iter().map(|t| openness(t % 0.012) + 0.002 * random.normal()).collect();
+    let fit = fitted(&Trace { times, values }, &Options::default()).unwrap();
+    assert_eq!((fit.frames.count, fit.chosen, fit.warnings.len()), (3, Kind::Trapezoid, 0));
+    let Curve { opening, closing, .. } = fit.best().signal.curve;
+    assert!((opening / 3e-4 - 1.0).abs() < 0.03 && (closing / 3e-4 - 1.0).abs() < 0.03);
 }
 
 /// The gaps between shots are no part of their sampling, however long they are.

@@ -329,9 +329,9 @@ pub enum Warning {
     )]
     #[strum(serialize = "noise")]
     NoiseHidesRamps { noise: f64 },
-    /// Edges that are no longer than a sample.
+    /// Edges that take two samples at most.
     #[error(
-        "edges as short as a sample: each is known to {} at best (the sampling interval by the root of 12); sample \
+        "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
          faster if that matters",
         time(&(step / 12f64.sqrt()))
     )]
