@@ -68,8 +68,15 @@ pub fn fit(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
-    let pulses = found(trace, options.light)?;
+    let mut pulses = found(trace, options.light)?;
     let asked = shots::asked(&pulses.frames, options.frame)?;
+    // Times are those of the fitted shot's own segment.
+    let later = options.timing.later(pulses.frames[asked].crossings[0]);
+    pulses.shift(-later);
+    let mut sync = options.sync.clone();
+    if let Some(Sync::Channel(channel)) = &mut sync {
+        channel.shift(-later);
+    }
     let gap = gaps::gaps(&pulses, &pulses.frames[asked])?;
     let counted = Frames::new(&pulses.frames, asked);
     let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
@@ -90,7 +97,8 @@ pub fn fit(
         }
         None => model.clone(),
     };
-    let [model, results] = [model, results].map(|results| results.outside(&fits.units, peak));
+    let [model, results] =
+        [model, results].map(|results| results.outside(&fits.units, peak).timed(&options.timing));
 
     let frame = &pulses.frames[asked];
     let mut fit = Fit {
@@ -116,7 +124,7 @@ pub fn fit(
         middle: fits.units.seconds(0.0),
     };
     fit.warnings.extend(gap);
-    if let Some(sync) = &options.sync {
+    if let Some(sync) = &sync {
         let signal = fit.best().signal;
         let (delay, doubts) =
             delay::measure(sync, &signal, results.start, &fit.triggers, &pulses, asked)?;

@@ -60,6 +60,12 @@ pub struct Args {
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
     rate: Option<f64>,
+    /// The first time of the trace that counts: -5ms
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    from: Option<f64>,
+    /// The last time of the trace that counts
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    to: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
     light: Light,
@@ -247,9 +253,10 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
         Some(Asked::Column(column)) => (None, Some(column.clone())),
         None => (None, None),
     };
-    let options = trace::Options { unit: args.unit, columns, rate: args.rate, sync };
+    let (from, to) = (args.from, args.to);
+    let options = trace::Options { unit: args.unit, columns, rate: args.rate, from, to, sync };
     let told = |refusal: Refusal| refusal.to_string();
-    let Recording { trace, sync, reading, mut warnings } =
+    let Recording { trace, timing, sync, reading, mut warnings } =
         trace::open(&input::read(path)?, &options).map_err(told)?;
     if edge.is_some() && reading.is_counted() {
         return Err(format!(
@@ -266,6 +273,7 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
         triggers: triggers.unwrap_or(Options::TRIGGERS),
         mains: args.mains,
         sync: edge.or(sync.map(Sync::Channel)),
+        timing,
     };
     let mut fit =
         fitted(&trace, &options).map_err(|refusal| format!("{refusal}; read: {reading}"))?;
