@@ -10,6 +10,7 @@ mod kept;
 mod output;
 mod plan;
 mod quantity;
+mod sensors;
 mod settings;
 
 use std::ffi::OsString;

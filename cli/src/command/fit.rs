@@ -18,6 +18,7 @@ use super::input::{self, file_name, shown, stem};
 use super::kept::Old;
 use super::output::{Outputs, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
+use super::sensors;
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -31,7 +32,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
 /// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
 /// written.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
@@ -54,8 +55,9 @@ pub struct Args {
     /// The unit of the times, where the header does not tell
     #[arg(long)]
     unit: Option<Unit>,
-    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
-    #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
+    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names; of several sensors' signals, a table of
+    /// exposures and of the curtains' travel
+    #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
     columns: Vec<String>,
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
@@ -148,6 +150,13 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             traces.iter().map(|trace| folder.join(stem(trace) + ".toml")).collect()
         }
     };
+    let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
+    if args.columns.len() > clock + 1 {
+        if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
+            return Err("--columns: several sensors have no scene, no picture and no other trace; name one of them".into());
+        }
+        return sensors(args, clock, out, err);
+    }
     let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
     let mut outputs = Outputs::new(&traces, &to, args.force)?;
 
@@ -208,6 +217,46 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     };
     outputs.finish(out, &report)?;
     // There is no one to tell if standard error cannot be written.
+    let _ = err.write_all(told.as_bytes());
+    Ok(())
+}
+
+/// Several sensors of one record, all of one shot; so many columns before theirs are the time's.
+fn sensors(
+    args: &Args,
+    clock: usize,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), String> {
+    let (time, signals) = args.columns.split_at(clock);
+    let (mut all, mut told) = (Vec::<Speed>::new(), String::new());
+    for signal in signals {
+        let columns = [time, std::slice::from_ref(signal)].concat();
+        let frame = args.frame.or(all.first().map(|first| first.fit.frames.fitted));
+        let one = Args { columns, frame, ..args.clone() };
+        let (fit, warnings) = measure(&one, &args.trace, args.triggers)
+            .map_err(|reason| format!("{}: column {signal}: {reason}", shown(&args.trace)))?;
+        let counts = [
+            all.first().map_or(fit.frames.count, |first| first.fit.frames.count),
+            fit.frames.count,
+        ];
+        if counts[0] != counts[1] && args.frame.is_none() {
+            let [first, here] = counts;
+            return Err(format!(
+                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells which belong \
+                 together; see --from, --to and --frame"
+            ));
+        }
+        let reading = fit.reading.as_ref();
+        let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
+        warnings.iter().for_each(|warning| told += &format!("warning: {name}: {warning}\n"));
+        all.push(Speed { name, fit, warnings });
+    }
+    let report = match args.report {
+        Report::Json => json(&all),
+        Report::Text => sensors::table(&all),
+    };
+    out.write_all(report.as_bytes()).map_err(|e| e.to_string())?;
     let _ = err.write_all(told.as_bytes());
     Ok(())
 }
