@@ -56,11 +56,10 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
         "c" => (Form::C, emit::identifier(name) + ".h"),
         "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
         "json" => (Form::Json, emit::identifier(name) + ".json"),
-        "pico" => (Form::Pico, emit::identifier(name) + ".txt"),
         _ => return Err(format!("there is no form {form}").into()),
     };
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(Emitted { text: emit::emit(form, name, &planned)?, file })
+    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file })
 }
 
 /// The scene, if it can be planned.
