@@ -77,7 +77,7 @@ pub unsafe extern "C" fn shutter_schedule(
     let ticks = unsafe { places(ticks, n) };
     code(curve(speed).and_then(|curve| {
         let ticks = ticks.ok_or(Error::NoRoom)?;
-        Ok(curve.schedule_into(ticks, timer_hz, min_gap)?)
+        Ok(curve.ticks_into(ticks, timer_hz, min_gap)?)
     }))
 }
 

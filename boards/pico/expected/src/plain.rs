@@ -20,7 +20,7 @@ fn set(n: u32, gap: &str, pulse: &str, curve: &str) -> String {
 /// What the crate says of a frame whose pulses are too close.
 fn gap_error(frame: Frame) -> String {
     let mut ticks = vec![0; frame.pulses as usize];
-    let error = frame.curve.schedule_into(&mut ticks, TICK_HZ, frame.gap).unwrap_err();
+    let error = frame.curve.ticks_into(&mut ticks, TICK_HZ, frame.gap).unwrap_err();
     let most = frame.curve.most_triggers(frame.pulses, TICK_HZ, frame.gap).unwrap();
     format!("{error}; up to n {most} it is kept")
 }

@@ -112,5 +112,5 @@ fn full(mut step: Value) -> Value {
 /// What the crate says of pulses with so small a pause.
 fn too_close(frame: Frame, duty: f32) -> ScheduleError {
     let mut pulses = vec![Pulse::default(); frame.pulses as usize];
-    frame.curve.pulses_into(&mut pulses, duty, TICK_HZ, 2, MIN_LOW).unwrap_err()
+    frame.curve.pulses_into(&mut pulses, duty, TICK_HZ, shutter_curve::PulseLimits { min_pulse: 2, min_gap: MIN_LOW }).unwrap_err()
 }

@@ -83,7 +83,7 @@ fn place(pulses: &mut [Pulse], settings: &Settings) -> Result<(), Refused> {
             let mut ticks = [0; LONGEST_FRAME];
             let ticks = &mut ticks[..pulses.len()];
             let gap = settings.gap.max(length.saturating_add(MIN_LOW));
-            curve.schedule_into(ticks, TICK_HZ, gap).map_err(|error| match error {
+            curve.ticks_into(ticks, TICK_HZ, gap).map_err(|error| match error {
                 ScheduleError::GapTooSmall { .. } => {
                     match curve.most_triggers(settings.pulses, TICK_HZ, gap) {
                         Ok(most) => Refused::Gap { error, most },
@@ -100,7 +100,7 @@ fn place(pulses: &mut [Pulse], settings: &Settings) -> Result<(), Refused> {
         }
         Light::Doses(duty) => {
             let gap = settings.gap.max(MIN_LOW);
-            curve.pulses_into(pulses, duty, TICK_HZ, MIN_PULSE, gap).map_err(Refused::Schedule)
+            curve.pulses_into(pulses, duty, TICK_HZ, shutter_curve::PulseLimits { min_pulse: MIN_PULSE, min_gap: gap }).map_err(Refused::Schedule)
         }
     }
 }

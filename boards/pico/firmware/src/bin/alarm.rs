@@ -72,7 +72,7 @@ fn TIMER_IRQ_0() {
 
 fn plan() -> Ticks {
     let mut ticks = [0; 32];
-    CURVES[0].schedule_into(&mut ticks, TICK_HZ, 0).unwrap();
+    CURVES[0].ticks_into(&mut ticks, TICK_HZ, 0).unwrap();
     ticks
 }
 
