@@ -237,13 +237,14 @@ impl Scene {
             *seconds = self::seconds(self.unit(), key, value)?;
         }
         let times = seconds.map(|time| time as f32);
-        let length = (seconds[3] - seconds[0]).abs();
+        let length = seconds[3] - seconds[0];
         for (i, value) in self.times().into_iter().enumerate() {
             let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
                 return Err(Fault::at(value, format!("{key}: it is beyond f32 (3.4e38 s)")));
             }
-            if off > ROUNDING * length {
+            // Times out of order are told as such.
+            if length > 0.0 && off > ROUNDING * length {
                 let percent = short(100.0 * off / length, 2);
                 let reason = format!(
                     "{key}: f32 is off by {percent} % of the interval here; count the times from \
