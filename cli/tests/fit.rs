@@ -751,7 +751,7 @@ fn from_a_trace_to_the_firmwares_module() {
     let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
     assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
     let module =
-        shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept.clone().into(), false)
+        shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept.clone().into(), true)
             .unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
 
