@@ -79,14 +79,14 @@ pub enum Reason {
     Asked,
     /// It is the simplest within the tolerance.
     Tolerance(Tolerance),
-    /// It is the simplest that meets shots left out as well as shots meet each other.
+    /// It is the simplest that predicts a shot as well as another shot does.
     Shots {
         /// So many.
         shots: usize,
         /// By how much shots differ, as a share of the exposure.
         scatter: f64,
     },
-    /// No kind meets shots left out so well; it is the freest.
+    /// No kind does; it is the freest.
     NoKind {
         /// So many shots.
         shots: usize,
@@ -189,7 +189,9 @@ pub struct Fit {
     pub test: Test,
     /// The peak as a share of full light, where that was given; else 1.
     pub peak: f64,
-    /// The pulses.
+    /// The place of the record that holds the fitted pulse, among those that were given.
+    pub record: usize,
+    /// The pulses of all records.
     pub frames: Frames,
     /// What the exposure is called, in seconds, where whoever knows that says so.
     pub nominal: Option<f64>,

@@ -218,14 +218,14 @@ pub fn because(fit: &Fit) -> String {
             fit.unit().show(seconds)
         ),
         Reason::Shots { shots, scatter } => format!(
-            "the simplest that meets shots left out as well as {} meet each other, to {} %",
-            count(shots as u64, "shot"),
-            short(100.0 * without_dust(scatter, 1.0), 2)
+            "the simplest model that predicts a shot as well as another shot does, to {} %: by {}",
+            short(100.0 * without_dust(scatter, 1.0), 2),
+            count(shots as u64, "shot")
         ),
         Reason::NoKind { shots, scatter } => format!(
-            "it is the freest; no model meets shots left out as well as {} meet each other, to {} %",
-            count(shots as u64, "shot"),
-            short(100.0 * scatter, 2)
+            "it is the freest; no model predicts a shot as well as another shot does, to {} %: by {}",
+            short(100.0 * scatter, 2),
+            count(shots as u64, "shot")
         ),
         Reason::Explains => "the simplest that explains the trace".into(),
         Reason::Criterion { effective } => {
