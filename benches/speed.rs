@@ -145,7 +145,7 @@ fn tick(bencher: Bencher, row: &Row<Curve>) {
 
 fn scheduled(curve: &Curve) -> Option<(f64, f64)> {
     let mut ticks = [0; TRIGGERS];
-    shutter::<8>(curve).schedule_into(&mut ticks, TICK_HZ, 1).ok()?;
+    shutter::<8>(curve).ticks_into(&mut ticks, TICK_HZ, 1).ok()?;
     of_ticks(curve, TRIGGERS as u32, ticks.into_iter())
 }
 
@@ -154,7 +154,7 @@ fn schedule(bencher: Bencher, row: &Row<Curve>) {
     let curve = shutter::<8>(&row.what);
     let mut ticks = [0; TRIGGERS];
     bencher.bench_local(|| {
-        let planned = black_box(&curve).schedule_into(&mut ticks, TICK_HZ, 1).is_ok();
+        let planned = black_box(&curve).ticks_into(&mut ticks, TICK_HZ, 1).is_ok();
         (planned, ticks[TRIGGERS - 1])
     });
 }

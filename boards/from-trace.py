@@ -1,10 +1,9 @@
 """The record that from-trace.sh begins with, and what is judged by its truth.
 
 python3 from-trace.py record FOLDER     writes record.csv: five shots, the delay of each off by some 20 µs, and a noisy sync that falls
-python3 from-trace.py judge FOLDER      judges leaf.toml and leaf.rs, and writes expected.json for boards/pico/emulator/leaf.mjs
+python3 from-trace.py judge FOLDER      judges leaf.toml and leaf.rs
 """
 
-import json
 import random
 import re
 import statistics
@@ -52,8 +51,6 @@ def judge():
             times.append(t)
     off = max(abs((delay + tick) / hertz - statistics.mean(delays) - t) for tick, t in zip(ticks, times, strict=True))
     assert off < 2e-6, f"a trigger is off by {1e6 * off:.1f} µs"
-    frame = {"ticks": [delay + tick for tick in ticks], "lengths": [hertz // 500_000] * len(ticks)}
-    (folder / "expected.json").write_text(json.dumps({"steps": [{"frame": frame}]}))
     print(f"from-trace: at {hertz} Hz no trigger is off by more than {1e6 * off:.1f} µs; a spread of {1e6 * spread:.0f} µs, and {1e6 * put_in:.1f} µs were put in")
 
 

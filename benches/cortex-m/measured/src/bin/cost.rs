@@ -139,7 +139,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             let mut ticks = [0; TRIGGERS as usize];
             let plan = |curve: &ShutterCurve<C>,
                         (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
-                curve.schedule_into(ticks, TICK_HZ, gap)
+                curve.ticks_into(ticks, TICK_HZ, gap)
             };
             // On hard curves triggers may share a tick.
             let gap = u32::from(series.inputs == Inputs::Uniform);
