@@ -57,7 +57,7 @@ impl<'a> Read<'a> {
             Some(Asked::Column(column)) => Some(column.clone()),
             _ => None,
         };
-        let Recording { trace, sync: channel, mut reading, mut warnings } =
+        let Recording { trace, timing, sync: channel, mut reading, mut warnings } =
             open(args, path, column).map_err(|reason| format!("{}: {reason}", shown(path)))?;
         let sync = match sync {
             Some(Asked::Time(_)) if reading.is_counted() => {
@@ -88,6 +88,7 @@ impl<'a> Read<'a> {
             light: args.light,
             mains: args.mains,
             sync,
+            timing,
             ..Options::default()
         };
         Ok(Self { path, trace, options, reading, warnings })
@@ -123,7 +124,14 @@ pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning
 
 fn open(args: &Args, path: &Path, sync: Option<Column>) -> Result<Recording, String> {
     let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
-    let options = trace::Options { unit: args.unit, columns, rate: args.rate, sync };
+    let options = trace::Options {
+        unit: args.unit,
+        columns,
+        rate: args.rate,
+        from: args.from,
+        to: args.to,
+        sync,
+    };
     let bytes = input::read(path)?;
     trace::open(&bytes, &options).map_err(|refusal| match Old::parse(&bytes) {
         Some(_) => {
