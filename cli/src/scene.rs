@@ -30,6 +30,7 @@ pub struct Scene {
     pub(crate) min_pulse: Option<Spanned<Number>>,
     pub(crate) delay: Option<Spanned<Number>>,
     pub(crate) delay_spread: Option<Spanned<Number>>,
+    pub(crate) sync_falls: Option<Spanned<bool>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -98,6 +99,7 @@ impl Scene {
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
             delay_spread: optional("delay_spread"),
+            sync_falls: None,
         }
     }
 }
@@ -186,6 +188,7 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
             let key = key.get_ref();
             reason = match key.as_ref() {
                 "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
+                key @ "sync_falls" => format!("{key}: true or false is required"),
                 _ if reason.contains("a sequence") => {
                     format!("{key}: numbers in brackets are required")
                 }
@@ -234,13 +237,14 @@ impl Scene {
             *seconds = self::seconds(self.unit(), key, value)?;
         }
         let times = seconds.map(|time| time as f32);
-        let length = (seconds[3] - seconds[0]).abs();
+        let length = seconds[3] - seconds[0];
         for (i, value) in self.times().into_iter().enumerate() {
             let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
                 return Err(Fault::at(value, format!("{key}: it is beyond f32 (3.4e38 s)")));
             }
-            if off > ROUNDING * length {
+            // Times out of order are told as such.
+            if length > 0.0 && off > ROUNDING * length {
                 let percent = short(100.0 * off / length, 2);
                 let reason = format!(
                     "{key}: f32 is off by {percent} % of the interval here; count the times from \

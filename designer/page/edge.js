@@ -34,7 +34,8 @@ function reach(from, to, step, isGood) {
   if (from === to || isGood(to)) return to;
   const towards = Math.sign(to - from);
   const at = (k) => tidy((Math.round(from / step) + towards * k) * step, 9);
-  let good = 0, bad = Math.ceil(Math.abs(to - from) / step);
+  // Further than an integer counts nobody drags.
+  let good = 0, bad = Math.min(Math.ceil(Math.abs(to - from) / step), 2 ** 30);
   while (bad - good > 1) {
     const middle = (good + bad) >> 1;
     if (isGood(at(middle))) good = middle;

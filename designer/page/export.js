@@ -3,7 +3,7 @@
 import { $, button, element, watch } from './dom.js';
 import { model } from './model.js';
 import { inWords, remedies } from './remedies.js';
-import { copy, plain, save } from './save.js';
+import { copy, plain, save, told } from './save.js';
 import * as studio from './studio.js';
 import { toml } from './toml.js';
 import { give } from './typing.js';
@@ -55,9 +55,10 @@ function choose(name) {
 const isNew = watch();
 
 export function draw({ now: { scene, other }, view, wrong }) {
-  for (const id of ['link', 'svg', 'png', 'frame', 'compare']) $(id).disabled = !view || Boolean(wrong?.id || scene.doubt);
+  for (const id of ['link', 'svg', 'png', 'frame', 'compare']) $(id).disabled = !view || Boolean(wrong?.id || scene.untold);
   $('compare').textContent = other ? 'End the comparison' : 'Compare';
   if (!isNew(scene, form, wrong)) return;
+  told('');
   // A newer one may be under way, which then is what is shown and copied.
   const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: view && !wrong.id ? remedies(scene) : [] }) : written(scene, form));
   $('code').classList.add('waits');
@@ -68,17 +69,24 @@ export function draw({ now: { scene, other }, view, wrong }) {
 const offer = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disabled = !isOffered));
 
 async function written(scene, form) {
-  if (scene.doubt) return { reason: scene.doubt, remedies: [['Use the curve all the same', { doubt: null }]] };
+  if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
   if (form === 'toml') return { text: toml(scene), file: `${plain(scene.name)}.toml` };
   const answer = await studio.emit(scene, form);
   // Overtaken by a newer question: that one's text is it.
   if (!answer) return made;
-  if (answer.Ok) return answer.Ok;
+  if (answer.Ok) return { ...answer.Ok, text: withDoubts(answer.Ok.text, form, scene.doubts) };
   const { reason } = answer.Err;
   const most = Number(/up to (\d+) pulses/.exec(reason)?.[1]);
   const helps = most && !scene.measured ? [[`Use ${most} flashes`, { triggers: most }]]
     : /no\s+delay/.test(reason) ? [['Give the sync’s delay', 'delay'], ['The sync is the opening: delay 0', { delay: 0 }]] : [];
   return { reason: inWords(reason, scene), remedies: helps };
+}
+
+// A plan with what is doubtful about it, in the form's own way.
+function withDoubts(text, form, doubts) {
+  if (!doubts.length) return text;
+  if (form === 'json') return text.replace('{', () => `{\n  "doubts": ${JSON.stringify(doubts)},`);
+  return doubts.map((words) => `${form === 'csv' ? '#' : '//'} Doubtful: ${words.replace(/\s+/g, ' ')}\n`).join('') + text;
 }
 
 function show({ text, reason, remedies = [] }) {

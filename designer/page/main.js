@@ -6,7 +6,7 @@ import { Graph } from './graph.js';
 import { change, go, model, start, tell } from './model.js';
 import * as panels from './panels.js';
 import * as photo from './photo.js';
-import { INNER, NUMBERS, TIMES, fromScene, hash, innerOf, lampOf, tidy } from './scene.js';
+import { INNER, NUMBERS, STOPS, TIMES, fromScene, hash, innerOf, lampOf, tidy } from './scene.js';
 import { load } from './view.js';
 
 const isFrame = new URLSearchParams(location.search).has('embed');
@@ -17,25 +17,38 @@ let late, exporter, typing, bar, hold;
 let player, traces, tester;
 const seen = new Set();
 
-/** Draws all that is on the screen. */
+/** Draws all that is on the screen. A part that fails is told, and keeps neither the others nor the address from what is so. */
 function render(model) {
-  const { now, view, last, wrong } = model;
+  for (const part of [shown, picture, photo.draw, fields, panels.draw, exporter?.draw, bar?.draw, held, writeLate, later]) {
+    try {
+      part?.(model);
+    } catch (error) {
+      reportError(error);
+      missing(`A part of the page could not be drawn: ${error.message}.`);
+    }
+  }
+}
+
+function missing(words) {
+  $('missing').textContent = words;
+  $('missing').classList.add('now');
+}
+
+function shown({ now, view, last, wrong }) {
   document.body.classList.toggle('void', !last);
   document.body.classList.toggle('stale', !view);
   document.body.classList.toggle('unplanned', !view?.plan.Ok);
-  graph.show(model);
-  photo.draw(model);
-  fields(model);
-  panels.draw(model);
-  exporter?.draw(model);
-  bar?.draw(model);
-  hold?.draw(model, graph);
-  writeLate();
-  if (traces || now.trace || model.note?.pending) traces ? traces.draw(model, graph.samples) : loadTraces();
-  if (tester || now.speeds) tester ? tester.draw(model) : loadTester();
   $('undo').disabled = !model.canUndo;
   $('redo').disabled = !model.canRedo;
   if (isFrame) $('home').href = location.pathname + (wrong?.isLink ? '' : hash(now));
+}
+
+const picture = (model) => graph.show(model);
+const held = (model) => hold?.draw(model, graph);
+
+function later({ now, pending }) {
+  if (traces || now.trace || pending) traces ? traces.draw(model, graph.samples) : loadTraces();
+  if (tester || now.speeds) tester ? tester.draw(model) : loadTester();
 }
 
 async function loadTraces() {
@@ -75,7 +88,8 @@ function fields({ now: { scene }, wrong }) {
   const lamp = lampOf(scene);
   $('lamp').value = lamp;
   $('lamp').disabled = Boolean(scene.measured);
-  $('flashes').value = Math.log2(scene.triggers);
+  $('flashes').value = STOPS.findLastIndex((n) => n <= scene.triggers);
+  $('flashes').setAttribute('aria-valuetext', `${scene.triggers} flashes`);
   write($('flash-count'), String(scene.triggers));
   write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
@@ -108,8 +122,6 @@ function offer() {
   for (const preset of presets) {
     const scene = fromScene(preset.name, preset.scene);
     const made = button(undefined, () => {
-      $('told').textContent = '';
-      tell({ note: null });
       change({ scene, trace: null });
     }, { 'data-name': preset.name, 'data-hash': hash({ scene }), 'data-story': preset.about });
     svg('path', { d: thumbnail(scene) }, svg('svg', { viewBox: '0 0 60 24', 'aria-hidden': true }, made));
@@ -181,7 +193,4 @@ async function begin() {
   navigator.serviceWorker?.register('sw.js').catch(() => {});
 }
 
-begin().catch((error) => {
-  $('missing').textContent = `The page is not whole: ${error.message}. Load it again, in a browser with WebAssembly.`;
-  $('missing').classList.add('now');
-});
+begin().catch((error) => missing(`The page is not whole: ${error.message}. Load it again, in a browser with WebAssembly.`));

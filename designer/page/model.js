@@ -3,7 +3,7 @@
 //
 // The browser's entries are counted, no more: so many back is so many steps undone.
 
-import { fromAddress, hash, isSameShape } from './scene.js';
+import { fromAddress, hash } from './scene.js';
 import { view } from './view.js';
 
 /** A browser takes so many changes of its entries in ten seconds: steps that come faster share an entry. */
@@ -19,8 +19,10 @@ export const model = {
   wrong: null,
   /** A time in seconds that is pointed at; is it that of an exposure that plays? */
   cursor: null, isPlaying: false,
-  /** What is being computed: { words, cancel }. What came of the last file: { words, isWrong }. */
+  /** What is being computed: { words, share, cancel }. What came of the last file: { words, isWrong, act }. */
   busy: null, note: null,
+  /** A trace that was refused as it is read: { file, name, asked, measured, words, mend }. */
+  pending: null,
   /** A handle that does not follow: { i, t, o, tried }, of which the last is the scene that was asked for. */
   hold: null,
   get isDraft() { return now() !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
@@ -51,6 +53,8 @@ export function start(first, render, options) {
 // Shows a state, whatever is computed of it.
 function set(next) {
   const { Ok, Err } = next.scene === model.now?.scene && model.view ? { Ok: model.view } : view(next.scene);
+  // What was said of a file is said of what was there.
+  if (next.scene !== model.now?.scene && !model.note?.act) model.note = null;
   model.now = next;
   model.view = Ok ?? null;
   if (Ok) [model.last, model.good] = [Ok, next.scene];
@@ -63,20 +67,20 @@ function set(next) {
  * is told beside it is no change of the scene, as a cursor.
  */
 export function change(changes, { key, isDraft, told } = {}) {
-  if ('trace' in changes || (changes.scene && !isSameShape(changes.scene, model.now.scene))) overtake();
+  const stopped = 'trace' in changes ? overtake() : null;
   set({ ...model.now, ...changes });
-  Object.assign(model, told);
+  Object.assign(model, stopped && { note: stopped }, told);
   // What has no curve is shown, and undone first.
   if (!isDraft && model.view) step(key);
   draw(model);
 }
 
-// A newer choice ends what is computed of an older one.
+// Another shutter ends what is computed of an older one; what is drawn or typed does not.
 function overtake() {
   const { busy } = model;
-  if (!busy) return;
-  busy.cancel();
-  model.note = { words: `${busy.words} was stopped: another curve was chosen meanwhile.` };
+  busy?.cancel();
+  model.pending = null;
+  return busy && { words: `${busy.words} was stopped: another curve was chosen meanwhile.` };
 }
 
 /** Tells of what is no change of the scene: a cursor, a computation, a note. */
@@ -108,7 +112,6 @@ export function seal() {
 }
 
 function show(state) {
-  overtake();
   set(state);
   draw(model);
 }

@@ -8,7 +8,7 @@ const TIMES = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
 
 /**
  * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `rate` in Hz, a `count`, or a
- * `part` of one. An error says what to write instead.
+ * `part` of one. An error says what to write instead, which is the same number with the same unit.
  */
 export function parse(text, kind = 'part', unit = 's') {
   const plain = text.trim().replace(/^[−–]/, '-');
@@ -17,9 +17,18 @@ export function parse(text, kind = 'part', unit = 's') {
     throw new Error(`“${text.trim()}” ${words}`);
   };
   const [, digits, suffix] = /^(.*?\d[.,]?(?:e[+-]?\d+)?)\s*([a-zµμ%]*)$/i.exec(plain) ?? refuse('is no number');
-  const parts = digits.split('/').map((part) => one(part.trim(), kind === 'count' || kind === 'rate', refuse));
+  const instead = (words) => `${words}${suffix && ` ${suffix}`}`;
+  const mixed = /^(-?)(\d+)\s+(\d+)\s*\/\s*([1-9]\d*)$/.exec(digits);
+  if (mixed) refuse(`is written otherwise here: write ${instead(mixed[1] + tidy(Number(mixed[2]) + mixed[3] / mixed[4], 7))}`);
+  const parts = digits.split('/').map((part) => part.trim());
   if (parts.length > 2) refuse('is no number');
-  const number = parts.length === 2 ? parts[0] / parts[1] : parts[0];
+  const told = parts.map((part) => withoutThousands(part, refuse));
+  if (String(told) !== String(parts)) refuse(`has a separator of thousands: write ${instead(told.join('/'))}`);
+  // Whoever names a larger unit than Hz writes parts of it.
+  const isWhole = kind === 'count' || (kind === 'rate' && /^(hz)?$/i.test(suffix));
+  const numbers = parts.map((part, i) => one(part, isWhole, (other) => instead(parts.with(i, other).join('/')), refuse));
+  const number = numbers.length === 2 ? numbers[0] / numbers[1] : numbers[0];
+  if (kind === 'count' && !Number.isInteger(number)) refuse('is no whole number');
   const name = suffix.toLowerCase().replace(/[µμ]/, 'u');
   // A fraction without a unit is a speed, as a dial has it: of a second.
   if (kind === 'time' && (name || parts.length === 2)) return tidy(number * (TIMES[name || 's'] ?? refuse('has an unknown unit: s, ms, µs or ns')) * perSecond(unit));
@@ -29,16 +38,22 @@ export function parse(text, kind = 'part', unit = 's') {
   return parts.length === 2 ? tidy(number, 7) : number;
 }
 
-function one(plain, isWhole, refuse) {
+// The same digits without what parts thousands.
+function withoutThousands(plain, refuse) {
   const marks = plain.replace(/[^.,]/g, '');
-  if (/\d[\s'’_]\d/.test(plain) || marks.length > 1) {
-    // The last mark is that of the decimals if it stands alone; whatever else parts digits parts thousands.
-    const last = marks.at(-1);
-    const mark = marks.split(last).length === 2 ? plain.lastIndexOf(last) : plain.length;
-    refuse(`has a separator of thousands: write ${plain.slice(0, mark).replace(/[.,\s'’_]/g, '')}${plain.slice(mark).replace(',', '.')}`);
-  }
+  if (!/\d[\s'’_]\d/.test(plain) && marks.length < 2) return plain;
+  // Groups of three but for the first: any other is no number that could be told.
+  const groups = /^[+-]?\d{1,3}(?:([\s'’_.,])\d{3})(?:\1\d{3})*(?:[.,]\d*)?$/.exec(plain);
+  if (!groups) refuse('is no number');
+  // The last mark is that of the decimals if it stands alone and parts no thousands.
+  const last = marks.at(-1);
+  const mark = last && last !== groups[1] ? plain.lastIndexOf(last) : plain.length;
+  return plain.slice(0, mark).replace(/[.,\s'’_]/g, '') + plain.slice(mark).replace(',', '.');
+}
+
+function one(plain, isWhole, instead, refuse) {
   if (/^[+-]?[1-9]\d{0,2},\d{3}$/.test(plain) || (isWhole && /^[+-]?[1-9]\d{0,2}\.\d{3}$/.test(plain))) {
-    refuse(`may be ${Number(plain.replace(',', '.'))} or ${plain.replace(/[.,]/, '')}: write one of them`);
+    refuse(`may be ${instead(Number(plain.replace(',', '.')))} or ${instead(plain.replace(/[.,]/, ''))}: write one of them`);
   }
   const number = plain.replace(',', '.');
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(number)) refuse('is no number');

@@ -30,21 +30,23 @@ export function draw({ now: { scene, trace }, view, last }) {
   // A curve that does not explain its trace tells no exposure; the trace does.
   const isFitted = trace?.fit && isSameShape(trace.scene, scene);
   const exposure = !scene.measured ? last.exposure : isFitted ? trace.fit.exposure[0] : null;
-  const nominal = scene.nominal ? scene.nominal / per : isFitted && exposure ? nearest(exposure) : null;
+  const nominal = scene.nominal ? scene.nominal / per : null;
   write($('speed'), exposure === null ? `${scene.measured.length} measured times` : `${dial(exposure)} s${nominal ? ` for ${dial(nominal)}, ${stops(exposure, nominal)}` : ''}`);
 
   const plan = view?.plan.Ok;
   const [a, b, c, d] = last.times;
   const lines = [];
-  if (exposure !== null) lines.push(['Exposure', `${scene.measured ? trace.fit.told : of(exposure)}, as if fully open`]);
+  if (exposure !== null) lines.push(['Exposure', `${isFitted ? trace.fit.told : of(exposure)}, as if fully open`]);
   if (!scene.measured) {
     lines.push(['Opens in', of(b - a)], ['Stays open', of(c - b)], ['Closes in', of(d - c)]);
-    lines.push(['Half open', plan ? `for ${of(plan.half_open)}` : '–'], ['Efficiency', `${short(100 * last.efficiency, 4)} %`]);
+    if (plan) lines.push(['Half open', `for ${of(plan.half_open)}`]);
+    lines.push(['Efficiency', isFitted ? trace.fit.efficiency : `${short(100 * last.efficiency, 4)} %`]);
   }
   const hz = scene.timer_hz;
-  lines.push(['Timer', `${hz >= 1e6 ? `${short(hz / 1e6, 6)} MHz` : hz >= 1e3 ? `${short(hz / 1e3, 6)} kHz` : `${hz} Hz`}${scene.timer_bits ? `, ${scene.timer_bits} bits` : ''}`]);
-  lines.push(['Sync', plan?.delay != null ? `${plan.delay} ticks before it opens` : 'no delay known']);
-  lines.push(['Flashes', !plan ? `${scene.triggers} do not fit` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`]);
+  lines.push(['Timer', `${hz >= 1e6 ? `${short(hz / 1e6, 6)} MHz` : hz >= 1e3 ? `${short(hz / 1e3, 6)} kHz` : `${hz} Hz`}${Number.isInteger(hz) ? '' : `, planned as ${Math.round(hz)} Hz`}${scene.timer_bits ? `, ${scene.timer_bits} bits` : ''}`]);
+  lines.push(['Sync', scene.delay === null ? 'no delay known' : plan ? `${plan.delay} ticks before it opens` : `${short(scene.delay, 7)} ${scene.unit} before it opens`]);
+  lines.push(['Flashes', !plan ? `${scene.triggers}, not planned` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`]);
+  $('doubts').replaceChildren(...scene.doubts.map((words) => element('li', words)));
   const list = rows($('facts'), lines.length, () => {
     const line = element('div');
     line.append(element('dt'), element('dd'));

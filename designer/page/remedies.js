@@ -25,7 +25,7 @@ export function remedies(scene) {
 function tried(scene) {
   const isGood = (changes) => allowed({ ...scene, ...changes }, true) > 1;
   const found = [];
-  let [low, high] = [0, scene.measured ? 0 : Math.min(scene.triggers, 10_001)];
+  let [low, high] = [0, scene.measured ? 0 : Math.floor(Math.min(scene.triggers, 10_001))];
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (isGood({ triggers: middle })) low = middle;

@@ -9,6 +9,8 @@ export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER :
 export const OPTIONAL = ['timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay', 'delay_spread'];
 export const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
 export const LAMP = ['pulse', 'duty', 'min_pulse'];
+/** Those that count something. */
+export const WHOLE = ['triggers', 'timer_bits'];
 /** The numbers that are times, beside those of the curve. */
 export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay', 'delay_spread'];
 /** What a person has given who gives a whole scene. */
@@ -16,6 +18,9 @@ export const GIVEN = ['name', 'unit', 'triggers', 'timer_hz', 'timer_bits', 'min
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
+
+/** So many flashes the slider has: each of its steps is another number. */
+export const STOPS = [...new Set(Array.from({ length: 81 }, (_, i) => Math.round(2 ** (i / 10))))];
 
 /** Can so many flashes be asked for? */
 export const isCount = (n) => Number.isInteger(n) && n > 0 && n <= 10_000;
@@ -35,7 +40,7 @@ export function short(x, digits = 5) {
 /** A scene as `shutter` keeps it, as an object of this page. Nobody has given any of its numbers yet. */
 export function fromScene(name, it) {
   const unit = it.unit ?? 's';
-  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, measured: null, doubt: null, spare: {}, given: [] };
+  const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, measured: null, doubts: [], untold: null, spare: {}, given: [] };
   for (const key of COUNTS) scene[key] = it[key];
   for (const key of OPTIONAL) scene[key] = it[key] ?? null;
   if (it.unit) return scene;
@@ -68,7 +73,7 @@ export function innerOf(scene) {
 }
 
 /** The scene with other inner control points. */
-export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, doubt: null });
+export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, untold: null });
 
 export const lampOf = (scene) => (scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : '');
 
@@ -106,9 +111,10 @@ export function hash({ scene, other, speeds }) {
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
   if (scene.measured) parts.push(`measured=${scene.measured}`);
-  if (scene.doubt) parts.push(part('doubt', scene.doubt));
+  for (const doubt of scene.doubts) parts.push(part('doubt', doubt));
+  if (scene.untold) parts.push(part('untold', scene.untold));
   if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
-  if (speeds) parts.push(part('speeds', speeds.map((row) => row.join(',')).join(';')));
+  if (speeds) parts.push(part('speeds', JSON.stringify(speeds)));
   return '#' + parts.join('&');
 }
 
@@ -116,13 +122,13 @@ export function hash({ scene, other, speeds }) {
 export function fromAddress(text) {
   const parts = new URLSearchParams(text.replace(/^#/, ''));
   const other = parts.get('with');
-  const speeds = parts.get('speeds')?.split(';').map((row) => {
-    const [name, kind, ...numbers] = row.split(',');
-    if (numbers.length !== 4 || !numbers.every((x) => x && Number.isFinite(Number(x)))) throw new Error('speeds: a name, a kind and 4 numbers are required in each row');
-    return [name, kind, ...numbers.map(Number)];
-  });
-  return { scene: fromHash(text), other: other ? fromHash(other) : null, speeds: speeds ?? null };
+  const speeds = parts.has('speeds') ? JSON.parse(parts.get('speeds')) : null;
+  if (speeds && !(Array.isArray(speeds) && speeds.every(isSpeed))) throw new Error('speeds: a name, a kind, doubts and numbers are required in each row');
+  return { scene: fromHash(text), other: other ? fromHash(other) : null, speeds };
 }
+
+const isSpeed = (it) => [it?.name, it?.kind, ...(it?.doubts ?? [null])].every((words) => typeof words === 'string')
+  && [it.exposure, it.error, it.scatter, it.pulses].every(Number.isFinite);
 
 function fromHash(text) {
   if (text.length > LONGEST) throw new Error(`it is ${text.length} characters long`);
@@ -136,9 +142,10 @@ function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubt: parts.get('doubt'), spare: {}, given: GIVEN };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubts: parts.getAll('doubt'), untold: parts.get('untold'), spare: {}, given: GIVEN };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
+  for (const key of WHOLE) if (scene[key] !== null && !Number.isInteger(scene[key])) throw new Error(`${key}: a whole number is required`);
   if (parts.has('measured')) scene.measured = numbers('measured');
   if (scene.measured && scene.measured.length !== scene.triggers) throw new Error(`measured: ${scene.triggers} times are required, one for each trigger`);
   return scene;

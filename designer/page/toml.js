@@ -8,7 +8,7 @@ const list = (numbers) => `[${numbers.map(number).join(', ')}]`;
 /** The scene as the text that `shutter plan` reads: by its curve, or by the times that a trace tells. */
 export function toml(scene) {
   const { measured } = scene;
-  const lines = [`# ${scene.name.replace(/[^\x20-\x7e]/g, '_')}`, `unit = "${scene.unit}"`];
+  const lines = [`# ${scene.name.replace(/[^\x20-\x7e]/g, '_')}`, ...scene.doubts.map((words) => `# Doubtful: ${words.replace(/\s+/g, ' ')}`), `unit = "${scene.unit}"`];
   if (measured) lines.push('open_start = 0', `trigger_times = ${list(measured)}`);
   else TIMES.forEach((key, i) => lines.push(`${key} = ${number(scene.times[i])}`));
   if (scene.inner && !measured) lines.push(`shutteropening = ${list(scene.inner)}`);

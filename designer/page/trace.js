@@ -55,9 +55,8 @@ function begin(words) {
 // The fit to a file that is read as is asked for; nothing if something newer came first.
 async function fitted(busy, file, asked) {
   if (file.size > LONGEST_TRACE) return { Err: { reason: `${file.size >> 20} MB: cut the trace to the pulse` } };
-  const { words } = busy;
   const answer = await studio.fit(file.name, asked, file, (share) => {
-    busy.words = `${words}: ${Math.round(100 * share)} %`;
+    busy.share = share;
     if (model.busy === busy) tell({ busy });
   });
   return model.busy === busy ? answer : undefined;
@@ -68,6 +67,7 @@ export async function read(file, asked, wanted) {
   const there = () => (isCount(model.now.scene.triggers) ? model.now.scene.triggers : 12);
   const triggers = wanted ?? there();
   const isSame = model.now.trace?.file === file;
+  const before = model.now.scene;
   const busy = Object.assign(begin(`Reading ${file.name}`), { file });
   const answer = await fitted(busy, file, { ...asked, triggers });
   if (!answer) return;
@@ -76,10 +76,15 @@ export async function read(file, asked, wanted) {
   if (answer.Err) return refuse(`${file.name}: ${answer.Err.reason}`);
   const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
   // What cannot be fitted as it is read can be read otherwise.
-  if (!fit) return tell({ busy: null, note: { words: `${file.name}: ${Err.text}`, isWrong: true, mend: Err.mend, pending: { file, name: file.name, asked, measured } } });
+  if (!fit) return tell({ busy: null, note: { words: `${file.name}: ${Err.text}`, isWrong: true }, pending: { file, name: file.name, asked, measured, words: Err.text, mend: Err.mend } });
   tell({ busy: null });
-  const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame);
-  change({ scene, trace: { file, name: file.name, asked, measured, fit, scene } });
+  const give = () => {
+    const scene = withFit({ ...model.now.scene, triggers }, file.name.replace(/\.\w+$/, ''), fit, isSame);
+    change({ scene, trace: { file, name: file.name, asked, measured, fit, scene } });
+  };
+  // What a person drew while it was computed is not taken away unasked.
+  if (isSameShape(before, model.now.scene)) give();
+  else tell({ note: { words: `${file.name} is fitted; the curve was changed meanwhile.`, act: ['Show the fit', give] } });
 }
 
 /**
@@ -93,12 +98,15 @@ function withFit(scene, name, fit, isSame) {
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
   const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'delay', 'delay_spread', 'name'] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
-  Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'] });
-  if (!fit.own) return fit.explained ? fresh : { ...fresh, doubt: 'no curve explains this trace, and its own triggers could not be told' };
+  Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'], doubts: doubtsOf(fit) });
+  if (!fit.own) return fit.explained ? fresh : { ...fresh, untold: 'no curve explains this trace, and its own triggers could not be told' };
   const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
   if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
   return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null };
 }
+
+/** What is doubtful about a fit and all that is made of it. */
+const doubtsOf = (fit) => [...(fit.tested ? [] : ['untested: there is too little dark to know the noise by']), ...fit.warnings.map(({ text }) => text)];
 
 // Measures the speeds of several traces, one after the other.
 async function measure(files) {
@@ -108,28 +116,29 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const fit = answer.Ok?.fit.Ok;
-    // A link has commas and semicolons between them; of what is wrong it has the first words.
     const why = answer.Err?.reason ?? answer.Ok.fit.Err?.text;
-    const words = [file.name.replace(/[,;]/g, ' '), fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${why.split(/[;\n]/)[0].replaceAll(',', '')}`];
-    speeds.push([...words.map((it) => (it.length > 120 ? `${it.slice(0, 119)}…` : it)), ...(fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0])]);
+    const told = fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0];
+    const [exposure, error, scatter, pulses] = told;
+    const kind = fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${why.split('\n')[0]}`;
+    speeds.push({ name: file.name, kind, exposure, error, scatter, pulses, doubts: fit ? doubtsOf(fit) : [] });
   }
   tell({ busy: null });
-  remember(files);
+  remember(speeds, files);
   change({ speeds });
 }
 
 const isNew = watch();
 
 /** Draws the panel of the model's trace, of which the graph shows `samples`. */
-export function draw({ now: { scene, trace }, note }, samples) {
+export function draw({ now: { scene, trace }, pending }, samples) {
   const isHand = trace && !isSameShape(trace.scene, scene);
-  if (isNew(trace, note, scene.unit, isHand)) $('trace').replaceChildren(...panel(note?.pending ?? trace, trace, note, isHand, scene));
-  if (isHand && samples) {
+  if (isNew(trace, pending, scene.unit, isHand)) $('trace').replaceChildren(...panel(pending ?? trace, trace, pending, isHand, scene));
+  if (isHand && samples && $('by-hand')) {
     write($('by-hand'), `Changed by hand since the fit: the curve now misses the trace by ${short(100 * rms(samples), 3)} % of the light, the fit by ${short(100 * trace.fit.rms, 3)} %. The flashes are those of the changed curve.`);
   }
 }
 
-function panel(shown, trace, note, isHand, scene) {
+function panel(shown, trace, pending, isHand, scene) {
   if (!shown) return [empty];
   const { file, name, measured, fit } = shown;
   let { asked } = shown;
@@ -138,13 +147,13 @@ function panel(shown, trace, note, isHand, scene) {
   const parts = [element('h3', name)];
   const controls = form(shown, again);
   if (!fit) {
-    parts.push(message({ text: note.words, mend: note.mend }, controls, 'p', { class: 'wrong' }));
+    parts.push(message({ text: pending.words, mend: pending.mend }, controls, 'p', { class: 'wrong' }));
     if (trace) parts.push(element('p', `The trace of ${trace.name} stays on the graph.`, { class: 'note' }));
   } else {
     if (isHand) {
       parts.push(element('p', '', { id: 'by-hand', class: 'wrong' }), button('Back to the fit', () => {
-        const { times, inner, measured, doubt } = inUnit(trace.scene, model.now.scene.unit);
-        change({ scene: { ...model.now.scene, times, inner, measured, doubt, ...(measured && { triggers: measured.length }) } });
+        const { times, inner, measured, untold } = inUnit(trace.scene, model.now.scene.unit);
+        change({ scene: { ...model.now.scene, times, inner, measured, untold, ...(measured && { triggers: measured.length }) } });
       }));
     } else parts.push(results(fit));
     const warnings = element('ul', undefined, { class: 'warnings' });
@@ -158,7 +167,7 @@ function panel(shown, trace, note, isHand, scene) {
   const buttons = element('span', undefined, { class: 'buttons' });
   buttons.append(button('Replace it…', () => $('file').click()));
   if (trace) buttons.append(button('Remove the trace', () => change({ trace: null, scene: { ...model.now.scene } })));
-  if (!fit) buttons.append(button('Close', () => tell({ note: null })));
+  if (!fit) buttons.append(button('Close', () => tell({ note: null, pending: null })));
   parts.push(buttons);
   return parts;
 }

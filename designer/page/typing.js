@@ -3,7 +3,7 @@
 import { $ } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { INNER, LAMP, NUMBERS, SPANS, TIMES, inUnit, innerOf, isCount, perSecond, tidy, withInner, withTimes } from './scene.js';
+import { INNER, LAMP, NUMBERS, SPANS, STOPS, TIMES, inUnit, innerOf, isCount, perSecond, tidy, withInner, withTimes } from './scene.js';
 
 const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
 
@@ -21,7 +21,7 @@ export function start(loads, settle) {
     // Once the focus is elsewhere.
     setTimeout(settle);
   });
-  $('flashes').addEventListener('input', ({ target }) => setTriggers(Math.round(2 ** target.value), 'flashes'));
+  $('flashes').addEventListener('input', ({ target }) => setTriggers(STOPS[target.value], 'flashes'));
   $('flashes').addEventListener('change', seal);
 }
 

@@ -8,7 +8,7 @@ use shutter::scene;
 use shutter::times::Times;
 use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter_fit::unit::{Unit, plus_minus};
-use shutter_fit::{From, Options};
+use shutter_fit::{From, Options, report};
 
 use crate::answer::{Wrong, json};
 use crate::words::{self, Told};
@@ -56,11 +56,10 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
         "c" => (Form::C, emit::identifier(name) + ".h"),
         "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
         "json" => (Form::Json, emit::identifier(name) + ".json"),
-        "pico" => (Form::Pico, emit::identifier(name) + ".txt"),
         _ => return Err(format!("there is no form {form}").into()),
     };
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(Emitted { text: emit::emit(form, name, &planned)?, file })
+    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file })
 }
 
 /// The scene, if it can be planned.
@@ -121,6 +120,8 @@ struct Fitted {
     report: String,
     kind: &'static str,
     rms: f64,
+    /// The efficiency as the report has it.
+    efficiency: String,
     /// Told, and in seconds with its standard error.
     told: String,
     exposure: (f64, f64),
@@ -234,6 +235,7 @@ fn fitted(
         kind: fit.chosen.title(),
         rms: best.rms,
         exposure: (fit.exposure.value, fit.exposure.error),
+        efficiency: report::efficiency(&fit),
         told: plus_minus(
             fit.unit().of(fit.exposure.value),
             fit.unit().of(fit.exposure.error),

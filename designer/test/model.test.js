@@ -451,7 +451,7 @@ test('the photograph follows the drag and the number of flashes, and is still wh
   }, value);
   const differ = async () => Number(/: ([\d.]+) % off/.exec(await page.text('#flash-caption'))?.[1] ?? 0);
   const seen = [];
-  for (const [x, n] of [[0, 1], [2, 4], [4, 16], [6, 64], [8, 256]]) {
+  for (const [x, n] of [[0, 1], [3, 4], [15, 16], [35, 64], [55, 256]]) {
     await slide(x);
     assert.equal(await page.value('#triggers'), String(n));
     assert.equal((await ticks()).length, n);
@@ -468,13 +468,12 @@ test('several traces make a table of speeds, which prints, and a link that holds
   const table = () => page.$$eval('#speeds-table tbody tr', (all) => all.map((row) => [...row.children].map((it) => it.textContent)));
   const rows = await table();
   assert.deepEqual(rows.map((row) => row[0]), ['250.csv', 'bounce.csv', '125.csv', 'diary.csv']);
-  assert.deepEqual(rows[0].slice(1, 2).concat(rows[2].slice(1, 2)), ['1/250', '1/125']);
-  assert.match(rows[0][2], /^(3\.99|4\.00)\d? ± [\d.e-]+ ms$/);
+  assert.deepEqual([rows[0][2], rows[2][2]], ['1/250', '1/125']);
+  assert.match(rows[0][1], /^(3\.99|4\.00)\d? ± [\d.e-]+ ms$/);
   const places = (number) => number.split('.')[1].length;
-  for (const row of rows.slice(0, 3)) assert.equal(places(row[2].split(' ')[0]), places(row[2].split(' ')[2]), row[2]);
-  assert.match(rows[2][3], /^[+−±]0\.0\d EV$/);
-  assert.match(rows[1][6], /the trace itself/);
-  assert.match(rows[3][6], /^not measured: .*no row of numbers in it$/);
+  for (const row of rows.slice(0, 3)) assert.equal(places(row[1].split(' ')[0]), places(row[1].split(' ')[2]), row[1]);
+  assert.match(rows[1][5], /the trace itself/);
+  assert.match(rows[3][5], /^not measured: .*no row of numbers in it/);
   const link = await copiedBy(() => page.click('#speeds-link'));
   // A row is a trace, which is shown.
   await page.push('125.csv');

@@ -72,7 +72,7 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
     ['open_end', 'NaN', /“NaN” is no number/],
     ['close_end', '1e400', /^is closed: a finite number is required/],
     ['close_start', '-4', /times out of order/],
-    ['triggers', '1.5', /^how many: a whole number/],
+    ['triggers', '1.5', /“1.5” is no whole number/],
     ['triggers', '0', /^how many: a whole number from 1 to 10000 is required/],
     ['triggers', '99999999999', /^how many: a whole number/],
     ['timer_hz', '', /^timer, Hz: a number is required/],
@@ -641,7 +641,7 @@ test('a fit leaves what is not of the shutter, and is a step; what is wrong with
   await page.until(() => Math.abs(document.getElementById('open_end').value - 0.8) < 0.01);
   assert.ok(!/does not say/.test(await page.text('#trace')));
   assert.deepEqual([await value('pulse'), await value('min_gap'), await value('triggers'), await value('lamp'), await value('name')], ['0.011', '0.02', '12', 'pulse', 'bench']);
-  assert.match(await page.text('#speed'), /^1\/\d+ s for 1\/\d+, [+−]/);
+  assert.match(await page.text('#speed'), /^1\/\d+ s$/);
   // Each is a step; with the first the trace goes as well.
   await page.click('#undo');
   assert.ok(Number(await value('open_end')) > 700);

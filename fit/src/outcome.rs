@@ -176,7 +176,9 @@ pub struct Fit {
     pub test: Test,
     /// The peak as a share of full light, where that was given; else 1.
     pub peak: f64,
-    /// The pulses.
+    /// The place of the record that holds the fitted pulse, among those that were given.
+    pub record: usize,
+    /// The pulses of all records.
     pub frames: Frames,
     /// What the exposure is called, in seconds, where whoever knows that says so.
     pub nominal: Option<f64>,
