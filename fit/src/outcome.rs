@@ -215,7 +215,7 @@ impl Fit {
         let length = self.best().signal.curve.length();
         let signals = self.candidates.iter().map(|candidate| candidate.signal);
         [self.exposure, self.efficiency].iter().chain(&self.triggers).all(sound)
-            && self.exposure.value > self.exposure.error
+            && self.exposure.value > 0.0
             && self.efficiency.value <= 1.0
             && length > 0.0
             && signals.into_iter().all(|s| s.gain > 0.0 && s.gain.is_finite() && s.dark.is_finite())
