@@ -369,7 +369,6 @@ fn speeds_are_rows_and_objects() {
 
 /// What the boards' projects start from.
 #[test]
-#[ignore = "the modules are of the form to come"]
 fn the_modules_of_the_boards_are_those_of_the_measured_scene() {
     for (board, hz) in [("pico", 125_000_000), ("stm32f4", 100_000_000)] {
         let text = include_str!("../scenes/measured.toml");

@@ -133,7 +133,8 @@ pub(crate) fn measure(
     triggers: &[Measured],
 ) -> Result<Option<(Delay, Vec<Warning>)>, Refusal> {
     let refused = |reason: &str| Err(Refusal::NoDelay { reason: reason.into() });
-    let syncs = records.iter().filter_map(|record| Some((record.sync?, &record.pulses.frames)));
+    let syncs =
+        records.iter().filter_map(|record| Some((record.sync.as_ref()?, &record.pulses.frames)));
     let synced: Result<Vec<_>, _> = syncs.map(|(sync, frames)| Synced::new(sync, frames)).collect();
     let synced = synced.map_err(|reason| Refusal::NoDelay { reason })?;
     if synced.is_empty() {

@@ -45,7 +45,7 @@ pub mod trace;
 pub mod unit;
 mod units;
 
-use crate::trace::{Frame, Light, Pulses, Refusal, Trace, Warning, median, pulses, undone};
+use crate::trace::{Frame, Light, Pulses, Refusal, Timing, Trace, Warning, median, pulses, undone};
 pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
@@ -59,18 +59,29 @@ pub use signal::{Flicker, Hum, Kind, Signal};
 pub const MOST_TRIGGERS: u32 = 10_000;
 
 /// A trace whose pulses are found, and its sync.
-pub struct Record<'a> {
+#[derive(Clone)]
+pub struct Record {
     pulses: Pulses,
-    sync: Option<&'a Sync>,
+    sync: Option<Sync>,
+    timing: Timing,
 }
 
-impl<'a> Record<'a> {
-    /// A trace with the `light` and the `sync` of its options; all others count in [`fit_records`].
+impl Record {
+    /// A trace with the `light`, `sync` and `timing` of its options; all others count in [`fit_records`].
     ///
     /// # Errors
     /// A trace without a whole pulse or with too few samples.
-    pub fn new(trace: &Trace, options: &'a Options) -> Result<Self, Refusal> {
-        Ok(Self { pulses: found(trace, options.light)?, sync: options.sync.as_ref() })
+    pub fn new(trace: &Trace, options: &Options) -> Result<Self, Refusal> {
+        let (sync, timing) = (options.sync.clone(), options.timing.clone());
+        Ok(Self { pulses: found(trace, options.light)?, sync, timing })
+    }
+
+    /// With all its times, and those of its sync's channel, moved.
+    fn shift(&mut self, by: f64) {
+        self.pulses.shift(by);
+        if let Some(Sync::Channel(channel)) = &mut self.sync {
+            channel.shift(by);
+        }
     }
 
     /// What its pulse of median exposure collects, in seconds of full light, before a model is fitted.
@@ -114,9 +125,18 @@ pub fn fit_records(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
-    let shots = Shot::all(records);
-    let frames: Vec<Frame> = shots.iter().map(|shot| shot.frame.clone()).collect();
+    let frames: Vec<Frame> = Shot::all(records).iter().map(|shot| shot.frame.clone()).collect();
     let asked = shots::asked(&frames, options.frame)?;
+    // Times are those of the fitted shot's own segment.
+    let Shot { record, frame, .. } = Shot::all(records)[asked];
+    let later = records[record].timing.later(frame.crossings[0]);
+    let mut moved = Vec::new();
+    if later != 0.0 {
+        moved = records.to_vec();
+        moved[record].shift(-later);
+    }
+    let records = if moved.is_empty() { records } else { &moved };
+    let shots = Shot::all(records);
     let Shot { record, pulses, frame } = shots[asked];
     let gap = gaps::gaps(pulses, frame)?;
     let counted = Frames::new(&frames, asked);
@@ -138,7 +158,8 @@ pub fn fit_records(
         }
         None => model.clone(),
     };
-    let [model, results] = [model, results].map(|results| results.outside(&fits.units, peak));
+    let [model, results] = [model, results]
+        .map(|results| results.outside(&fits.units, peak).timed(&records[record].timing));
 
     let mut fit = Fit {
         candidates,

@@ -17,7 +17,7 @@ use super::input::{file_name, shown, stem};
 use super::kept::Old;
 use super::mark;
 use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
-use super::quantity::{rate, speed, tolerance};
+use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use crate::fitted::{self, Zero};
 use crate::picture;
@@ -62,6 +62,12 @@ pub struct Args {
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
     pub(super) rate: Option<f64>,
+    /// The first time of the trace that counts: -5ms
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    pub(super) from: Option<f64>,
+    /// The last time of the trace that counts
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    pub(super) to: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
     pub(super) light: Light,

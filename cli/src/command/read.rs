@@ -57,9 +57,16 @@ impl<'a> Read<'a> {
             Some(Asked::Column(column)) => Some(column.clone()),
             _ => None,
         };
-        let Recording { trace, sync: channel, mut reading, mut warnings } =
+        let Recording { trace, timing, sync: channel, mut reading, mut warnings } =
             open(args, path, column).map_err(|reason| format!("{}: {reason}", shown(path)))?;
         let sync = match sync {
+            Some(Asked::Time(_)) if reading.is_counted() => {
+                return Err(format!(
+                    "{}: --sync: times are counted from the first row, and nothing tells how long that is before or after the \
+                     edge; name the column of the sync, or take a record with times; read: {reading}",
+                    shown(path)
+                ));
+            }
             Some(Asked::Time(time)) => Some(Sync::Edge(*time)),
             Some(Asked::File(file)) => {
                 let told = |reason: String| format!("{}: {reason}", shown(file));
@@ -81,6 +88,7 @@ impl<'a> Read<'a> {
             light: args.light,
             mains: args.mains,
             sync,
+            timing,
             ..Options::default()
         };
         Ok(Self { path, trace, options, reading, warnings })
@@ -116,7 +124,14 @@ pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning
 
 fn open(args: &Args, path: &Path, sync: Option<Column>) -> Result<Recording, String> {
     let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
-    let options = trace::Options { unit: args.unit, columns, rate: args.rate, sync };
+    let options = trace::Options {
+        unit: args.unit,
+        columns,
+        rate: args.rate,
+        from: args.from,
+        to: args.to,
+        sync,
+    };
     let bytes = input::read(path)?;
     trace::open(&bytes, &options).map_err(|refusal| match bytes.trim_ascii_start().first() {
         _ if Old::parse(&bytes).is_some() => {

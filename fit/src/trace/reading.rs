@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::samples::Trace;
+use super::times::Timing;
 use super::told::Warning;
 use crate::unit::{Unit, short};
 
@@ -22,8 +23,14 @@ pub struct Reading {
     pub sync: Option<Named>,
     /// How a row's time is known.
     pub clock: Clock,
-    /// Who tells that.
+    /// The first time in seconds, where rows are counted and something tells it.
+    pub first: Option<f64>,
+    /// Who tells the unit or the rate.
     pub told: Told,
+    /// The first and the last time that count, where that was asked.
+    pub window: [Option<f64>; 2],
+    /// So many segments begin anew, each a shot.
+    pub segments: usize,
 }
 
 /// How the time of a row is known.
@@ -57,6 +64,8 @@ pub enum Told {
 pub struct Recording {
     /// The samples.
     pub trace: Trace,
+    /// What is known of their times.
+    pub timing: Timing,
     /// Those of the camera's sync, if its column was asked for.
     pub sync: Option<Trace>,
     /// What was read.
@@ -68,6 +77,7 @@ pub struct Recording {
 /// The samples of one column.
 pub struct Samples {
     pub trace: Trace,
+    pub timing: Timing,
     pub warnings: Vec<Warning>,
 }
 
@@ -89,6 +99,11 @@ impl Reading {
         format!("column {number} of {}{name}", self.columns)
     }
 
+    /// Are rows counted, and nothing tells from when?
+    pub fn is_counted(&self) -> bool {
+        matches!(self.clock, Clock::Rate(_)) && self.first.is_none()
+    }
+
     /// How the times are known.
     pub fn times(&self) -> String {
         let by = match &self.told {
@@ -99,13 +114,29 @@ impl Reading {
             Told::Against(unit) => format!("as asked, where its name says {}", unit.name()),
             Told::Assumed => "assumed".into(),
         };
-        match (&self.time, self.clock) {
+        let times = match (&self.time, self.clock) {
             (Some(time), Clock::Unit(unit)) => {
                 format!("{} in {}, {by}", shown(time), unit.name())
             }
             (_, Clock::Unit(unit)) => format!("in {}, {by}", unit.name()),
-            (_, Clock::Rate(rate)) => format!("{} samples a second, {by}", short(rate, 7)),
-        }
+            (_, Clock::Rate(rate)) => {
+                let first = self.first.filter(|first| *first != 0.0);
+                let from = first.map_or(String::new(), |first| {
+                    format!(", the first at {}", Unit::fit(first.abs()).show(first))
+                });
+                format!("{} samples a second, {by}{from}", short(rate, 7))
+            }
+        };
+        let shown = |seconds: f64| Unit::fit(seconds.abs()).show(seconds);
+        let limit = |word: &str, time: Option<f64>| {
+            time.map_or(String::new(), |time| format!(", {word} {}", shown(time)))
+        };
+        let [from, to] = self.window;
+        let segments = match self.segments {
+            0 => String::new(),
+            n => format!(", in {n} segments, each a shot"),
+        };
+        times + &segments + &limit("from", from) + &limit("to", to)
     }
 }
 
