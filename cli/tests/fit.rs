@@ -870,12 +870,15 @@ fn several_traces_are_a_table() {
     for (args, reason) in [
         (
             vec![&*slow, &fast, "--nominal", "10ms"],
-            "--nominal: one speed: the exposures differ by 100 %",
+            "--nominal: give a speed for each trace; the exposures differ by 100 %",
         ),
         (vec![&slow, &fast, "--nominal", "1ms,2ms,3ms"], "--nominal: 3 for 2 traces"),
-        (vec![&slow, &fast, "--out", "no.toml"], "--out: one scene; name a folder"),
+        (vec![&slow, &fast, "--out", "no.toml"], "--out: name a folder for a scene of each trace"),
         (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
-        (vec![&slow, &fast, "--picture", "no.svg"], "--picture: one picture: the exposures differ"),
+        (
+            vec![&slow, &fast, "--picture", "no.svg"],
+            "--picture: it is of one setting; the exposures",
+        ),
         (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {

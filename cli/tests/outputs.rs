@@ -424,7 +424,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     folder.write("slow.csv", &trace(2.0));
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/125");
     assert_eq!(code, Some(0), "{err}");
-    for kept in ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "comments"] {
+    for kept in
+        ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "in_path", "comments"]
+    {
         assert!(err.contains(kept), "{kept}: {err}");
     }
     let text = folder.text("leaf.toml");

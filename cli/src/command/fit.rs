@@ -228,12 +228,12 @@ fn is_one_setting(
     let is_one = is_one && args.nominal.len() < n;
     if !is_one {
         let reason = match (&args.nominal[..], scenes, &args.picture) {
-            ([_], ..) => "--nominal: one speed",
-            (_, 1, _) => "--out: one scene; name a folder for one of each trace",
-            (.., Some(_)) => "--picture: one picture",
+            ([_], ..) => "--nominal: give a speed for each trace",
+            (_, 1, _) => "--out: name a folder for a scene of each trace",
+            (.., Some(_)) => "--picture: it is of one setting",
             _ => return Ok(false),
         };
-        return Err(format!("{reason}: the exposures differ by {differ} %"));
+        return Err(format!("{reason}; the exposures differ by {differ} %"));
     }
     if scenes > 1 {
         return Err(format!(
