@@ -128,7 +128,7 @@ mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
-#[doc(hidden)]
+#[cfg(feature = "measure")]
 pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
