@@ -43,8 +43,8 @@
 //! frame, and the delay from the camera's sync:
 //!
 //! ```text
-//! cargo run -- fit trace.csv --sync 0 --out leaf.toml
-//! cargo run -- plan leaf.toml --emit rust --to leaf.rs
+//! shutter fit trace.csv --sync 0 --out leaf.toml
+//! shutter plan leaf.toml --emit rust --to leaf.rs
 //! ```
 //!
 //! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count
