@@ -700,6 +700,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
     let good = written(&dir, "good.csv", &text);
     let cut = written(&dir, "cut.csv", &text[..text.len() / 2]);
     let values = written(&dir, "values.csv", &rows(&trace, |_, v| format!("{v}")));
+    let scene = written(&dir, "scene.toml", include_str!("../scenes/soft.toml"));
+    let json = written(&dir, "trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
     let missing = dir.join("missing.csv").to_str().unwrap().to_string();
     let [toml, svg] =
         ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
@@ -709,6 +711,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         (vec![&values], "--rate"),
         (vec![&missing], "missing.csv: "),
         (vec![dir.to_str().unwrap()], ": "),
+        (vec![&scene], "this is a scene, and no trace; `shutter plan "),
+        (vec![&json], "this is JSON; a trace is a table"),
         (vec![&good, "--columns", "time_s,w"], "no column 'w'; there are 2: time_s, v"),
         (vec![&good, "--frame", "3"], "no frame 3; the trace has 1 whole frame"),
         (vec![&good, "--full", "-3"], "--full -3"),
