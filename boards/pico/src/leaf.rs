@@ -1,3 +1,4 @@
+// Checksum 853d12b2 of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
 // scene        leaf

@@ -1,3 +1,4 @@
+// Checksum 5d7018d5 of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
 // scene        leaf
