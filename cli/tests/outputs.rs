@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 const SHUTTER: &str = env!("CARGO_BIN_EXE_shutter");
 const SCENE: &str = "open_start = 0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1\n\
-                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\n";
+                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\nset_up = 'emulated'\n";
 
 /// An empty folder with a scene and a trace of straight ramps, in which the program is run.
 struct Folder(PathBuf);
@@ -252,8 +252,9 @@ fn devices_and_pipes_are_written_to() {
         folder.shell("mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait");
     assert!(code == Some(0) && out.contains("\n<svg ") && out.ends_with("</svg>\n"), "{err}");
     assert!(folder.text("text").contains("exposure"));
-    let (code, out, _) =
-        folder.shell("$shutter fit trace.csv --out - | $shutter plan - --emit csv --to -");
+    let (code, out, _) = folder.shell(
+        "$shutter fit trace.csv --out - | $shutter plan - --set-up emulated --timer-hz 1MHz --emit csv --to -",
+    );
     assert!(code == Some(0) && out.starts_with("scene,index,u,"), "{out}");
     let (code, out, _) = folder.shell("$shutter fit - --report json < trace.csv");
     assert!(code == Some(0) && out.contains("\"trace\": \"standard input\""), "{out}");
@@ -376,6 +377,11 @@ fn what_cannot_be_written_leaves_nothing() {
     folder.write("leaf.h", "/* old */\n");
     folder
         .refuses("$shutter plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers");
+    folder.write("bare.toml", &SCENE.replace("set_up", "# set_up"));
+    folder.refuses(
+        "$shutter plan bare.toml --out ok.svg --emit c --to leaf.h --force",
+        "bare.toml: hardware needs",
+    );
     // Whoever made it read-only does not want it replaced, and root is no exception.
     fs::set_permissions(folder.path("leaf.h"), PermissionsExt::from_mode(0o444)).unwrap();
     folder.refuses("$shutter plan --emit c --to leaf.h --force", "it is read-only");
@@ -400,7 +406,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
     assert_eq!((code, err.as_str(), folder.text("leaf.toml")), (Some(0), wrote, first.clone()));
     let edited = first
-        .replace("timer_hz = 1000000 # your timer's", "timer_hz = 84_000_000 # TIM2")
+        .replace("# timer_hz = ... # your timer's rate, in Hz", "timer_hz = 84_000_000 # TIM2")
+        .replace("# sync_falls = ... # true, or", "sync_falls = false # not true, nor")
+        .replace("# set_up = \"in_path\" #", "set_up = \"in_path\" #")
         .replace("min_gap = 0 ", "min_gap = 0.1 ")
         .replace("triggers = 16", "# as many as the LED takes\ntriggers = 5")
         .replace("open_start = ", "duty = 0.3\n# by the scope\nopen_start = ")
@@ -428,6 +436,10 @@ fn a_new_fit_keeps_what_a_user_wrote() {
         "{text}"
     );
     assert!(!text.contains("trace.csv") && !text.contains("# delay = ?"), "{text}");
+    // What the user has answered is asked no more, and kept.
+    assert!(text.contains("\nset_up = \"in_path\"") && !text.contains("# set_up"), "{text}");
+    assert!(text.contains("\nsync_falls = false") && !text.contains("# sync_falls"), "{text}");
+    assert!(!text.contains("# timer_hz"), "{text}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/100 --sync 1ms");
     assert!(code == Some(0) && !err.contains("nominal") && !err.contains("delay"), "{err}");
@@ -443,7 +455,8 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --triggers 6");
     assert_eq!(code, Some(0), "{err}");
     let text = folder.text("leaf.toml");
-    assert!(text.contains("unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 20"), "{text}");
+    assert!(text.contains("unit = 'us'\n# set_up = "), "{text}");
+    assert!(text.contains("min_gap = 200\n# mine\nopen_start = 20"), "{text}");
     assert!(
         text.contains(" # too\n")
             && text.contains(" # gone\n")

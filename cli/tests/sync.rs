@@ -232,9 +232,10 @@ fn the_spread_is_told_and_kept() {
     let written: f64 = written.lines().next().unwrap().parse().unwrap();
     let most = (0.01 * 5.0 / written) as u32;
     assert!(told.contains(&format!("up to {most} trigger")), "{told}");
-    let (_, json, _) = folder.run("plan leaf.toml --emit json");
+    let (_, json, _) = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz");
     let json: Value = serde_json::from_str(&json).unwrap();
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
+    assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
 
     // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml");
