@@ -19,6 +19,7 @@ use super::mark;
 use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
+use super::sensors;
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -32,7 +33,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
 /// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
 /// written.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
@@ -56,8 +57,9 @@ pub struct Args {
     /// The unit of the times, where the header does not tell
     #[arg(long)]
     pub(super) unit: Option<Unit>,
-    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
-    #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
+    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names; of several sensors' signals, a table of
+    /// exposures and of the curtains' travel
+    #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
     pub(super) columns: Vec<String>,
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
@@ -137,6 +139,13 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             "--sync: each trace has a file of its own for its sync; give one for each".into()
         );
     }
+    let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
+    if args.columns.len() > clock + 1 {
+        if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
+            return Err("--columns: several sensors have no scene, no picture and no other trace; name one of them".into());
+        }
+        return sensors(args, clock, sync(0), out, err);
+    }
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
     let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
     let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
@@ -200,6 +209,50 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     // There is no one to tell if standard error cannot be written.
     let _ = err.write_all((warnings + &told).as_bytes());
     ended
+}
+
+/// Several sensors of one record, all of one shot; so many columns before theirs are the time's.
+fn sensors(
+    args: &Args,
+    clock: usize,
+    sync: Option<&Asked>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), String> {
+    let (time, signals) = args.columns.split_at(clock);
+    let (mut all, mut told) = (Vec::<Speed>::new(), String::new());
+    for signal in signals {
+        let columns = [time, std::slice::from_ref(signal)].concat();
+        let frame = args.frame.or(all.first().map(|first| first.fit.frames.fitted));
+        let one = Args { columns, frame, ..args.clone() };
+        let read = Read::new(&one, &args.trace, sync)?;
+        let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
+        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
+        let Speed { fit, warnings, .. } =
+            measure(&[read], &[record], args.triggers).map_err(refused)?;
+        let counts = [
+            all.first().map_or(fit.frames.count, |first| first.fit.frames.count),
+            fit.frames.count,
+        ];
+        if counts[0] != counts[1] && args.frame.is_none() {
+            let [first, here] = counts;
+            return Err(format!(
+                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells which belong \
+                 together; see --from, --to and --frame"
+            ));
+        }
+        let reading = fit.reading.as_ref();
+        let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
+        warnings.iter().for_each(|warning| told += &format!("warning: {name}: {warning}\n"));
+        all.push(Speed { name, fit, warnings });
+    }
+    let report = match args.report {
+        Report::Json => json(&all),
+        Report::Text => sensors::table(&all),
+    };
+    print(out, &report)?;
+    let _ = err.write_all(told.as_bytes());
+    Ok(())
 }
 
 /// Where scenes go: to the file of one, or into a folder, where each is called as its trace is.
