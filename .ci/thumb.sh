@@ -4,8 +4,7 @@
 #
 #   .ci/thumb.sh cargo trigger
 #   TARGETS="thumbv7em-none-eabihf riscv32imc-unknown-none-elf" .ci/thumb.sh COMMAND
-#   TOOLS=gcc .ci/thumb.sh boards/c/run.sh     with a compiler for C instead of the log decoder
-#   TOOLS= .ci/thumb.sh COMMAND                with neither
+#   TOOLS= .ci/thumb.sh COMMAND                without the log decoder
 #
 # What the machine has is used as it is (`rustup target add ...`, the system's qemu-system-arm,
 # llvm-objdump and defmt-print). What is missing is unpacked from Debian's packages, or built, into a
@@ -35,9 +34,6 @@ refresh() {
     refreshed=yes
 }
 
-# What of the packages is not unpacked, as arguments of tar.
-without=()
-
 # unpack NAME HINT COST PACKAGE...: the Debian packages, unpacked into the cache folder NAME; COST is said before.
 # With dependencies where NAME ends in '+': those that are not installed.
 unpack() {
@@ -60,8 +56,7 @@ unpack() {
     for deb in "$work"/debs/*.deb; do
         # Of the compiler's source only the library is needed, a tenth of the files.
         dpkg --fsys-tarfile "$deb" |
-            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' \
-                "${without[@]}" ||
+            tar -x -C "$work/root" --no-wildcards-match-slash --exclude './usr/src/*/src' --exclude './usr/src/*/compiler' ||
             fail "cannot unpack $deb; missing $hint"
     done
     mv "$work/root" "$folder"
@@ -178,19 +173,6 @@ for target in "${targets[@]}"; do
     break
 done
 
-extras=" ${TOOLS-log} "
-if [[ $extras = *" gcc "* ]] && ! command -v arm-none-eabi-gcc >/dev/null && [ ! -x "$bin/arm-none-eabi-gcc" ]; then
-    # Neither other languages nor other processors' libraries, three quarters of it.
-    gcc='./usr/lib/gcc/arm-none-eabi/*'
-    without=(--exclude "$gcc/cc1plus" --exclude "$gcc/lto1" --exclude './usr/bin/*-lto-dump' --exclude "$gcc/arm")
-    for processor in 'v7' 'v7-*' 'v7+*' 'v7ve*' 'v8*'; do without+=(--exclude "$gcc/thumb/$processor"); done
-    unpack gcc+ "arm-none-eabi-gcc: Debian's package gcc-arm-none-eabi" "51 MB to fetch, 140 MB unpacked, half a minute" gcc-arm-none-eabi
-    without=()
-    for tool in gcc size nm; do
-        wrap "$bin/arm-none-eabi-$tool" "$cache/gcc/usr/lib/$(uname -m)-linux-gnu" "$cache/gcc/usr/bin/arm-none-eabi-$tool"
-    done
-fi
-
 if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     tools=$(rustc --print sysroot)/lib/rustlib/$host/bin/llvm-objdump
     if [ -x "$tools" ]; then
@@ -204,7 +186,7 @@ if ! command -v llvm-objdump >/dev/null && [ ! -x "$bin/llvm-objdump" ]; then
     fi
 fi
 
-if [[ $extras = *" log "* ]] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
+if [ "${TOOLS-log}" ] && ! command -v defmt-print >/dev/null && [ ! -x "$bin/defmt-print" ]; then
     say "building defmt-print, which prints the log: a minute ..."
     # Not optimised: it has little to decode, and is sooner built.
     RUSTC=$HOST_RUSTC CARGO_PROFILE_DEV_DEBUG=false cargo install --quiet --debug --locked --root "$cache" defmt-print --version '^1' >&2 ||

@@ -1,37 +1,59 @@
 #!/usr/bin/env bash
-# The whole way, as a user goes it: a record with a noisy sync that falls and five shots whose delay jitters, `fit --sync CH2`,
-# `plan --emit rust`, copies of boards/stm32f4 and boards/pico-embassy with the edits for a falling edge that their READMEs name, linked,
-# and run where their emulators run. Exits with 0 only if the spread is the one that was put in, and each pulse comes on its tick after
-# the edge.
+# The whole way, as a user goes it: a record of five shots whose delay jitters, with a noisy sync that falls (and one that rises), then
+# `shutter fit --sync`, `shutter plan --emit rust`, and copies of boards/stm32f4 and boards/pico with that module, linked, and run where
+# their emulators run. Exits with 0 only if the numbers are those that were put in, each edge of the lamp's line comes on its tick after
+# the sync's, and what would fire wrongly is refused.
 #
 #   .ci/thumb.sh boards/from-trace.sh      node and Python are needed
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")"
 
-crate=$PWD
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
-shutter() { env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo run --quiet --locked -- "$@"; }
-# copy BOARD HERTZ: the project with the scene's ticks.
-copy() {
-    cp -r "boards/$1" "$scratch/$1"
-    rm -rf "$scratch/$1/target"
-    sed -i "s|path = \"../..\"|path = \"$crate\"|" "$scratch/$1/Cargo.toml"
-    shutter plan "$scratch/leaf.toml" --timer-hz "$2" --triggers 8 --min-gap 100us --emit rust --to "$scratch/leaf.rs" --force
-    python3 boards/from-trace.py judge "$scratch"
-    cp "$scratch/leaf.rs" "$scratch/$1/src/leaf.rs"
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/../target}
+shutter=$CARGO_TARGET_DIR/debug/shutter
+fail() { printf 'from-trace: %s\n' "$*" >&2 && exit 1; }
+
+# refused TEXT COMMAND...: the command fails, and says that.
+refused() {
+    local text=$1 said
+    shift
+    ! said=$("$@" 2>&1) || fail "not refused: $*"
+    grep -qF -- "$text" <<<"$said" || fail "$* does not say '$text', but: $said"
+    echo "from-trace: refused: $text"
 }
+# plan WAY BOARD HERTZ OPTION...: the record with that sync as the board's module.
+plan() {
+    "$shutter" plan "$scratch/$1.toml" --timer-hz "$3" "${@:4}" --emit rust --to "$scratch/$2/src/leaf.rs"
+}
+# fire WAY BOARD HERTZ OPTION...: the same, judged, and each edge.
+fire() {
+    plan "$@"
+    python3 from-trace.py judge "$1" "$scratch/$1.toml" "$scratch/$2/src/leaf.rs"
+    "$scratch/$2/run.sh"
+}
+triggers=(--set-up emulated --triggers 8 --min-gap 100us)
+pulses=(--set-up in_path --triggers 8 --min-gap 100us --duty 0.3)
 
-python3 boards/from-trace.py record "$scratch"
-shutter fit "$scratch/record.csv" --sync CH2 --out "$scratch/leaf.toml" | grep -E '^(sync|delay|spread| +falls)'
+env ${HOST_RUSTC:+RUSTC="$HOST_RUSTC"} cargo build --quiet --locked --package shutter
+python3 from-trace.py record "$scratch"
+"$shutter" fit "$scratch/record.csv" --sync CH2 --out "$scratch/falling.toml" | grep -E '^(sync|delay|spread| +falls)'
+"$shutter" fit "$scratch/record.csv" --sync CH3 --out "$scratch/rising.toml" | grep -E '^ +rises'
+cp -r stm32f4 pico "$scratch"
+rm -rf "$scratch"/*/target
 
-copy stm32f4 100MHz
-sed -i 's/w.cc1e().enabled()/w.cc1p().falling_edge().cc1e().enabled()/; s/Pull::Down/Pull::Up/' "$scratch/stm32f4/src/main.rs"
-CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$crate/boards/stm32f4/target} "$scratch/stm32f4/run.sh" falling
-
-copy pico-embassy 125MHz
-sed -i 's/^\( *wait\) 0 /\1 x /; s/^\( *wait\) 1 /\1 0 /; s/^\( *wait\) x /\1 1 /' "$scratch/pico-embassy/src/pulses.pio"
-target=${CARGO_TARGET_DIR:-$crate/boards/pico/target}
-(cd "$scratch/pico-embassy" && CARGO_TARGET_DIR=$target cargo build --quiet --locked --release)
-[ -d boards/pico/emulator/node_modules ] || (cd boards/pico/emulator && npm ci --no-audit --no-fund --loglevel error >&2)
-node boards/pico/emulator/leaf.mjs "$target/thumbv6m-none-eabi/release/leaf-pico" "$scratch/expected.json" falling
+refused "timer_hz" "$shutter" plan "$scratch/falling.toml" "${triggers[@]}" --emit rust
+refused "set_up" plan falling stm32f4 100MHz --triggers 8
+refused "plan it with timer_hz = 100_000_000" fire falling stm32f4 125MHz "${triggers[@]}"
+refused "plan it with timer_hz = 125_000_000" fire falling pico 100MHz "${triggers[@]}"
+for board in "stm32f4 100MHz" "pico 125MHz"; do
+    read -r board hertz <<<"$board"
+    fire rising "$board" "$hertz" "${pulses[@]}"
+    fire falling "$board" "$hertz" "${triggers[@]}"
+    refused "a flash comes too soon" fire falling "$board" "$hertz" --set-up emulated --triggers 4000
+    # Firmware that takes the rising edge of every sync.
+    plan falling "$board" "$hertz" "${pulses[@]}"
+    sed -i 's/bit(leaf::SYNC_FALLS)/bit(false)/; s/if leaf::SYNC_FALLS {$/if false {/' "$scratch/$board/src/main.rs"
+    refused "$([ "$board" = pico ] && echo "frame 0: the line changes at" || echo "captures the other edges")" "$scratch/$board/run.sh"
+done
+echo "from-trace: triggers and pulses on their ticks, by a falling and a rising sync, from both boards"

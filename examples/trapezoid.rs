@@ -12,7 +12,7 @@ const MIN_GAP: u32 = 500;
 
 fn main() -> Result<(), ScheduleError> {
     let mut ticks = [0; 12];
-    SHUTTER.schedule_into(&mut ticks, TICK_HZ, MIN_GAP)?;
+    SHUTTER.ticks_into(&mut ticks, TICK_HZ, MIN_GAP)?;
     println!("flash  tick, µs   gap  openness  collected");
     let mut last = 0;
     for (i, tick) in ticks.into_iter().enumerate() {
@@ -24,7 +24,7 @@ fn main() -> Result<(), ScheduleError> {
     // More would come closer than the lamp allows: this says how many do not, and a schedule refuses them.
     let most = SHUTTER.most_triggers(64, TICK_HZ, MIN_GAP)?;
     println!("\nof 64 flashes at most {most} keep the gap");
-    if let Err(error) = SHUTTER.schedule_into(&mut [0; 64], TICK_HZ, MIN_GAP) {
+    if let Err(error) = SHUTTER.ticks_into(&mut [0; 64], TICK_HZ, MIN_GAP) {
         println!("a schedule of 64 is refused: {error}");
     }
     Ok(())

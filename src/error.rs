@@ -234,14 +234,11 @@ impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TickRateZero => out.write_str("the tick rate is 0"),
-            Self::TickRateTooHigh { most: 0 } => out.write_str(
-                "the interval is longer than 2^31 ticks, whatever the rate: its unit of time is too small",
-            ),
+            Self::TickRateTooHigh { most: 0 } => {
+                out.write_str("the interval is longer than 2^31 ticks, whatever the rate")
+            }
             Self::TickRateTooHigh { most } => {
-                write!(
-                    out,
-                    "the interval is longer than 2^31 ticks; a rate of up to {most} ticks in the curve's unit of time keeps to that"
-                )
+                write!(out, "the interval is longer than 2^31 ticks; up to {most} Hz it is not")
             }
             Self::TooManyTriggers { most } => {
                 write!(out, "more triggers or pulses than the {most} that a frame can have")
@@ -251,19 +248,22 @@ impl fmt::Display for ScheduleError {
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
                 let s = plural(*gap);
-                write!(out, "trigger {trigger} comes {gap} tick{s} after the one before, and {min_gap} are required")
+                write!(
+                    out,
+                    "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}"
+                )
             }
             Self::PulsesTooClose { pulse, gap, min_gap } => {
                 let s = plural(*gap);
                 write!(
                     out,
-                    "pulse {pulse} goes on {gap} tick{s} after the one before has gone off, and {min_gap} are required"
+                    "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}"
                 )
             }
             Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {
                 let s = plural(*length);
-                write!(out, "pulse {pulse} lasts {length} tick{s}, and {min_pulse} are required")
+                write!(out, "pulse {pulse} lasts {length} tick{s}; the minimum is {min_pulse}")
             }
         }
     }

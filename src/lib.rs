@@ -18,8 +18,8 @@
 //!
 //! # Units
 //!
-//! **Use seconds.** Any unit of time works if all times use it: those that go in, those that come out, and the
-//! exposure. But a timer's rate is in ticks per that unit, so it is in Hz only for a curve in seconds.
+//! Times are in seconds and rates in Hz. A curve in another unit has its answers in that unit, and takes ticks per that
+//! unit for a rate.
 //!
 //! # Which call
 //!
@@ -31,10 +31,10 @@
 //! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
-//! | the ticks of a frame: constant, or checked at run time | [`ticks`], [`schedule_into`] |
+//! | the ticks of a frame, every gap checked: a constant, or at run time | [`ticks`], [`ticks_into`] |
 //! | one tick after the other, as in an interrupt handler | [`trigger_ticks`] |
 //! | how many triggers keep a gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
-//! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses_into`] |
+//! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses`], [`pulses_into`] |
 //!
 //! # From a measured shutter
 //!
@@ -80,11 +80,12 @@
 //! [`openness`]: ShutterCurve::openness
 //! [`pdf`]: ShutterCurve::pdf
 //! [`ticks`]: ShutterCurve::ticks
-//! [`schedule_into`]: ShutterCurve::schedule_into
+//! [`ticks_into`]: ShutterCurve::ticks_into
 //! [`trigger_ticks`]: ShutterCurve::trigger_ticks
 //! [`most_triggers`]: ShutterCurve::most_triggers
 //! [`direct_triggers`]: ShutterCurve::direct_triggers
 //! [`pulse_ticks`]: ShutterCurve::pulse_ticks
+//! [`pulses`]: ShutterCurve::pulses
 //! [`pulses_into`]: ShutterCurve::pulses_into
 
 #![cfg_attr(not(test), no_std)]
@@ -131,7 +132,7 @@ pub use ramp::bezier::CubicBezier;
 pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
-pub use trigger::pulse::Pulse;
+pub use trigger::pulse::{Pulse, PulseLimits};
 
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]

@@ -8,11 +8,13 @@ use crate::fraction::Side;
 use crate::inverse::Inverse;
 use crate::ramp::bezier::CubicBezier;
 use crate::trigger::iterator::{PulseTicks, TriggerTicks};
-use crate::trigger::pulse::{Pulse, Pulses};
+use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
-/// A shutter's openness over time, `0 <= f <= 1`: an opening cubic Bezier, a fully open plateau and a closing cubic
-/// Bezier, taken as a probability density.
+/// A shutter: tells when any fraction of its exposure has been collected, and when to fire flashes that share it.
+///
+/// Its openness over time, `0 <= f <= 1`, is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
+/// It is taken as a probability density.
 ///
 /// **What is accepted.** Everything else is a [`CurveError`], which names the rule.
 ///
@@ -27,7 +29,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// Lengths and the exposure are taken as an `f64` rounds them.
 ///
-/// Times are in seconds, or in any other unit that all of them use ([Units](crate#units)).
+/// Times are in seconds. A curve in another unit works, with every time and rate in that unit ([Units](crate#units)).
 ///
 /// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
 /// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
@@ -43,7 +45,7 @@ pub struct ShutterCurve<const OCTAVES: usize = 8> {
 }
 
 impl ShutterCurve {
-    /// The shutter with these ramps, with 8 octaves a side.
+    /// The shutter with these ramps.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -64,7 +66,7 @@ impl ShutterCurve {
     }
 
     /// The shutter that opens linearly from `open_start` to `open_end` and closes linearly from `close_start` to
-    /// `close_end`, times in any unit. It is a trapezoid; a box if the ramps have no length; a triangle if the plateau
+    /// `close_end`. It is a trapezoid; a box if the ramps have no length; a triangle if the plateau
     /// has none.
     ///
     /// ```
@@ -88,7 +90,7 @@ impl ShutterCurve {
         )
     }
 
-    /// The shutter in the form of RenderMan's `shutteropening`. The `times`, in any unit, are when it starts to open,
+    /// The shutter in the form of RenderMan's `shutteropening`. The `times` are when it starts to open,
     /// is fully open, starts to close and is closed. Its inner control points are `[t1, y1, t2, y2, t5, y5, t6, y6]`:
     /// their times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, on the
     /// closing ramp as well.
@@ -155,7 +157,7 @@ impl ShutterCurve {
 }
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
-    /// The shutter with these ramps, with `OCTAVES` octaves a side.
+    /// The shutter with these ramps, in another size: the more `OCTAVES`, the fewer answers need a search.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
@@ -175,7 +177,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(Self { inverse: tried!(Inverse::new(&opening, &closing)) })
     }
 
-    /// When the shutter starts to open, in the unit of the curve's times.
+    /// When the shutter starts to open.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -190,19 +192,19 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.exposure.end_time(Side::Start)
     }
 
-    /// When it is fully open, in the same unit; see [`open_start`](Self::open_start).
+    /// When it is fully open; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn open_end(&self) -> f32 {
         self.inverse.exposure.join_time(Side::Start)
     }
 
-    /// When it starts to close, in the same unit; see [`open_start`](Self::open_start).
+    /// When it starts to close; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_start(&self) -> f32 {
         self.inverse.exposure.join_time(Side::End)
     }
 
-    /// When it is closed, in the same unit; see [`open_start`](Self::open_start).
+    /// When it is closed; see [`open_start`](Self::open_start).
     #[must_use]
     pub const fn close_end(&self) -> f32 {
         self.inverse.exposure.end_time(Side::End)
@@ -253,7 +255,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         cdf::cdf(&self.inverse.exposure, t)
     }
 
-    /// The time by which the fraction `u` of the exposure is collected, in the curve's unit.
+    /// The time by which the fraction `u` of the exposure is collected.
     ///
     /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], and is exactly
     /// these for 0 and 1. It never steps back as `u` grows.
@@ -279,7 +281,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.inverse_cdf(u)
     }
 
-    /// The effective exposure time `A = ∫ f dt`, in the curve's unit. In that time a fully open shutter lets the same
+    /// The effective exposure time `A = ∫ f dt`. In that time a fully open shutter lets the same
     /// light through.
     ///
     /// ```
@@ -320,8 +322,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// Frames of up to this many triggers need no search: the plateau's line or a polynomial places each trigger. The
-    /// README says how many cycles such a tick costs at most.
+    /// How many triggers a frame may have and none needs a search. The README says how many cycles such a tick takes at
+    /// most.
     ///
     /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves, and up to about twice that with one
     /// more. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure
@@ -351,11 +353,10 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// count from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step
     /// back.
     ///
-    /// Their times, in the curve's unit and to within an ulp of the fractions, are
+    /// Their times, to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
     ///
-    /// `ticks_per_unit` is the timer's rate: in Hz for a curve in seconds, a thousandth of that for one in ms. No error
-    /// can tell a rate that was meant for another unit.
+    /// `timer_hz` is the timer's rate, for a curve in seconds. A wrong rate cannot be detected.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -375,46 +376,45 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     pub const fn trigger_ticks(
         &self,
         n: u32,
-        ticks_per_unit: u32,
+        timer_hz: u32,
     ) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
-        let frame = tried!(Ticks::new(&self.inverse, n, ticks_per_unit));
+        let frame = tried!(Ticks::new(&self.inverse, n, timer_hz));
         Ok(TriggerTicks { frame, left: 0..n })
     }
 
-    /// A checked schedule: as many triggers as `ticks` has places, at the ticks of
-    /// [`trigger_ticks`](Self::trigger_ticks), no two closer than `min_gap_ticks`.
+    /// A checked frame: as many triggers as `ticks` has places, at the ticks of
+    /// [`trigger_ticks`](Self::trigger_ticks), no two closer than `min_gap` ticks.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
     /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// let mut ticks = [0; 5];
-    /// SHUTTER.schedule_into(&mut ticks, 1_000_000, 1_000)?;
+    /// SHUTTER.ticks_into(&mut ticks, 1_000_000, 1_000)?;
     /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
     /// // Too many for a gap of 1 ms, and how many are not.
-    /// let error = SHUTTER.schedule_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
+    /// let error = SHUTTER.ticks_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
     /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
     /// assert_eq!(SHUTTER.most_triggers(16, 1_000_000, 1_000), Ok(7));
     /// # Ok::<(), ScheduleError>(())
     /// ```
     ///
     /// # Errors
-    /// A gap that is too small: then the slice holds a part of the schedule. The errors of
+    /// A gap that is too small: then the slice holds a part of the frame. The errors of
     /// [`trigger_ticks`](Self::trigger_ticks): then the slice is unchanged.
-    pub const fn schedule_into(
+    pub const fn ticks_into(
         &self,
         ticks: &mut [u32],
-        ticks_per_unit: u32,
-        min_gap_ticks: u32,
+        timer_hz: u32,
+        min_gap: u32,
     ) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let frame = tried!(Ticks::new(&self.inverse, ticks.len() as u32, ticks_per_unit));
-        frame.schedule_into(ticks, min_gap_ticks)
+        let frame = tried!(Ticks::new(&self.inverse, ticks.len() as u32, timer_hz));
+        frame.ticks_into(ticks, min_gap)
     }
 
-    /// The schedule of [`schedule_into`](Self::schedule_into), as an array. In a constant, for a frame that never
-    /// changes, the compiler checks it.
+    /// The frame of [`ticks_into`](Self::ticks_into) as an array. In a constant, the compiler checks it.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -427,47 +427,47 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`schedule_into`](Self::schedule_into).
+    /// Those of [`ticks_into`](Self::ticks_into).
     pub const fn ticks<const N: usize>(
         &self,
-        ticks_per_unit: u32,
-        min_gap_ticks: u32,
+        timer_hz: u32,
+        min_gap: u32,
     ) -> Result<[u32; N], ScheduleError> {
         let mut ticks = [0; N];
-        tried!(self.schedule_into(&mut ticks, ticks_per_unit, min_gap_ticks));
+        tried!(self.ticks_into(&mut ticks, timer_hz, min_gap));
         Ok(ticks)
     }
 
-    /// The schedule of [`schedule_into`](Self::schedule_into) for `n` triggers, as a `heapless::Vec`. It takes the
-    /// feature `heapless-v0_9`.
+    /// The frame of [`ticks_into`](Self::ticks_into) with `n` triggers, as a `heapless::Vec`. It takes the feature
+    /// `heapless-v0_9`.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
     /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// let ticks: heapless::Vec<u32, 16> = curve.schedule(5, 1_000_000, 1_000)?;
+    /// let ticks: heapless::Vec<u32, 16> = curve.ticks_vec(5, 1_000_000, 1_000)?;
     /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
     ///
     /// # Errors
-    /// More triggers than `N`, and those of [`schedule_into`](Self::schedule_into).
+    /// More triggers than `N`, and those of [`ticks_into`](Self::ticks_into).
     #[cfg(feature = "heapless-v0_9")]
-    pub fn schedule<const N: usize>(
+    pub fn ticks_vec<const N: usize>(
         &self,
         n: u32,
-        ticks_per_unit: u32,
-        min_gap_ticks: u32,
+        timer_hz: u32,
+        min_gap: u32,
     ) -> Result<heapless::Vec<u32, N>, ScheduleError> {
-        let mut schedule = heapless::Vec::new();
-        let fits = usize::try_from(n).is_ok_and(|n| schedule.resize(n, 0).is_ok());
+        let mut ticks = heapless::Vec::new();
+        let fits = usize::try_from(n).is_ok_and(|n| ticks.resize(n, 0).is_ok());
         if !fits {
             return Err(ScheduleError::CapacityExceeded { capacity: N as u32 });
         }
-        self.schedule_into(&mut schedule, ticks_per_unit, min_gap_ticks)?;
-        Ok(schedule)
+        self.ticks_into(&mut ticks, timer_hz, min_gap)?;
+        Ok(ticks)
     }
 
-    /// How many triggers, up to `wanted`, keep a gap of `min_gap_ticks`. If the answer is less than `wanted`, one more
+    /// How many triggers, up to `wanted`, keep a gap of `min_gap` ticks. If the answer is less than `wanted`, one more
     /// breaks the gap. The answer is at least 1, unless none are wanted.
     ///
     /// It places one frame after another, each up to the first gap that is too small: usually a few. For a gap of 0 it
@@ -485,13 +485,13 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     pub const fn most_triggers(
         &self,
         wanted: u32,
-        ticks_per_unit: u32,
-        min_gap_ticks: u32,
+        timer_hz: u32,
+        min_gap: u32,
     ) -> Result<u32, ScheduleError> {
-        let frame = tried!(Ticks::new(&self.inverse, wanted, ticks_per_unit));
+        let frame = tried!(Ticks::new(&self.inverse, wanted, timer_hz));
         // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
-        let guess = ticks_per_unit as f32 / (self.normalization() * min_gap_ticks as f32);
-        Ok(frame.most_triggers(min_gap_ticks, guess as u32))
+        let guess = timer_hz as f32 / (self.normalization() * min_gap as f32);
+        Ok(frame.most_triggers(min_gap, guess as u32))
     }
 
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
@@ -518,42 +518,68 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         &self,
         n: u32,
         duty: f32,
-        ticks_per_unit: u32,
+        timer_hz: u32,
     ) -> Result<PulseTicks<'_, OCTAVES>, ScheduleError> {
-        let pulses = tried!(Pulses::new(&self.inverse, n, duty, ticks_per_unit));
+        let pulses = tried!(Pulses::new(&self.inverse, n, duty, timer_hz));
         Ok(PulseTicks { frame: pulses, left: 0..n })
     }
 
-    /// A checked schedule of pulses: as many as `pulses` has places, at the ticks of
-    /// [`pulse_ticks`](Self::pulse_ticks), none shorter than `min_pulse_ticks` and none sooner than `min_gap_ticks`
-    /// after the one before has gone off.
+    /// A checked frame of pulses: as many as `pulses` has places, at the ticks of [`pulse_ticks`](Self::pulse_ticks),
+    /// each and each gap between two at least as long as `limits` asks.
     ///
     /// ```
-    /// use shutter_curve::{Pulse, ScheduleError, ShutterCurve, valid};
+    /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, valid};
     /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
     /// let mut pulses = [Pulse::default(); 3];
-    /// SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, 1_000, 1_000)?;
-    /// let error = SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, 1_001, 1_000).unwrap_err();
+    /// let limits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
+    /// SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, limits)?;
+    /// let limits = PulseLimits { min_pulse: 1_001, min_gap: 1_000 };
+    /// let error = SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, limits).unwrap_err();
     /// assert_eq!(error, ScheduleError::PulseTooShort { pulse: 1, length: 1_000, min_pulse: 1_001 });
     /// # Ok::<(), ScheduleError>(())
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short: then the slice holds a part of the schedule. The errors of
+    /// A pulse or a gap that is too short: then the slice holds a part of the frame. The errors of
     /// [`pulse_ticks`](Self::pulse_ticks): then the slice is unchanged.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],
         duty: f32,
-        ticks_per_unit: u32,
-        min_pulse_ticks: u32,
-        min_gap_ticks: u32,
+        timer_hz: u32,
+        limits: PulseLimits,
     ) -> Result<(), ScheduleError> {
         if pulses.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
-        let frame = tried!(Pulses::new(&self.inverse, pulses.len() as u32, duty, ticks_per_unit));
-        frame.pulses_into(pulses, min_pulse_ticks, min_gap_ticks)
+        let frame = tried!(Pulses::new(&self.inverse, pulses.len() as u32, duty, timer_hz));
+        frame.pulses_into(pulses, limits)
+    }
+
+    /// The frame of [`pulses_into`](Self::pulses_into) as an array. In a constant, the compiler checks it.
+    ///
+    /// ```
+    /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, valid};
+    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// const LIMITS: PulseLimits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
+    /// const PULSES: [Pulse; 3] = match SHUTTER.pulses(0.5, 1_000_000, LIMITS) {
+    ///     Ok(pulses) => pulses,
+    ///     Err(_) => panic!("a pulse or a gap is too short"),
+    /// };
+    /// assert_eq!(PULSES[1], Pulse { on: 3500, off: 4500 });
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`pulses_into`](Self::pulses_into).
+    pub const fn pulses<const N: usize>(
+        &self,
+        duty: f32,
+        timer_hz: u32,
+        limits: PulseLimits,
+    ) -> Result<[Pulse; N], ScheduleError> {
+        let mut pulses = [Pulse { on: 0, off: 0 }; N];
+        tried!(self.pulses_into(&mut pulses, duty, timer_hz, limits));
+        Ok(pulses)
     }
 
     /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search?

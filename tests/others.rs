@@ -4,8 +4,8 @@
 mod support;
 
 use shutter_curve::{CubicBezier, CurveError, Part, ShutterCurve};
-use support::baseline::InverseTable;
-use support::cases::{ANIMATION, DIM, NO_ROOT, S_RAMP, case, evenly, exact, shutter, worst};
+use support::baseline::{InverseTable, NearerEnd};
+use support::cases::{ANIMATION, DIM, NO_ROOT, S_RAMP, case, evenly, exact, judge, shutter, worst};
 use support::oracle::Exact;
 use support::peers::{
     CellTable, Parts, PowerRamp, animation, bracketed, fixed_point, renderer, tolerant,
@@ -29,6 +29,16 @@ fn newton_runs_away_on_a_plain_ramp() {
     let ours = shutter::<8>(&case.curve());
     let (error, steps_back) = worst(10_000, |u| ours.inverse_cdf(u), exact(case));
     assert!(error < 1e-7 && steps_back == 0, "{error}, {steps_back}");
+}
+
+#[test]
+fn newton_with_care_is_right_and_steps_back() {
+    let curve = case(S_RAMP).curve();
+    let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
+    let newton = NearerEnd::new(curve.opening, curve.closing);
+    let newton = judge(&exact, |u| newton.inverse_cdf(u, f32::sqrt));
+    assert!(newton.of_interval < 1e-7 && newton.steps_back > 0, "{newton:?}");
+    assert_eq!(judge(&exact, |u| ours.inverse_cdf(u)).steps_back, 0);
 }
 
 #[test]

@@ -639,11 +639,11 @@ fn messages() {
         (S::TickRateZero, "the tick rate is 0"),
         (
             S::TickRateTooHigh { most: 9 },
-            "the interval is longer than 2^31 ticks; a rate of up to 9 ticks in the curve's unit of time keeps to that",
+            "the interval is longer than 2^31 ticks; up to 9 Hz it is not",
         ),
         (
             S::TickRateTooHigh { most: 0 },
-            "the interval is longer than 2^31 ticks, whatever the rate: its unit of time is too small",
+            "the interval is longer than 2^31 ticks, whatever the rate",
         ),
         (
             S::TooManyTriggers { most: 1 << 22 },
@@ -655,20 +655,20 @@ fn messages() {
         ),
         (
             S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
-            "trigger 3 comes 562 ticks after the one before, and 1000 are required",
+            "the gap before trigger 3 is 562 ticks; the minimum is 1000",
         ),
         (
             S::GapTooSmall { trigger: 1, gap: 1, min_gap: 2 },
-            "trigger 1 comes 1 tick after the one before, and 2 are required",
+            "the gap before trigger 1 is 1 tick; the minimum is 2",
         ),
         (
             S::PulsesTooClose { pulse: 17, gap: 815, min_gap: 4711 },
-            "pulse 17 goes on 815 ticks after the one before has gone off, and 4711 are required",
+            "the gap before pulse 17 is 815 ticks; the minimum is 4711",
         ),
         (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
         (
             S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 },
-            "pulse 17 lasts 815 ticks, and 4711 are required",
+            "pulse 17 lasts 815 ticks; the minimum is 4711",
         ),
     ] {
         assert_eq!(error.to_string(), text);

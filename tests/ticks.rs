@@ -2,7 +2,9 @@
 
 mod support;
 
-use shutter_curve::{CubicBezier, Pulse, ScheduleError, ShutterCurve, TriggerTicks, valid};
+use shutter_curve::{
+    CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, valid,
+};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
 use support::oracle::{Curve, Dd, Exact};
@@ -112,20 +114,20 @@ fn tick_rates() {
 fn slices_for_a_schedule() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
     // n = 0: nothing to keep, but the rate is still one.
-    assert_eq!(curve.schedule_into(&mut [], 1000, u32::MAX), Ok(()));
-    assert_eq!(curve.schedule_into(&mut [], 0, 0), Err(ScheduleError::TickRateZero));
+    assert_eq!(curve.ticks_into(&mut [], 1000, u32::MAX), Ok(()));
+    assert_eq!(curve.ticks_into(&mut [], 0, 0), Err(ScheduleError::TickRateZero));
     let too_high = ScheduleError::TickRateTooHigh { most: 1 << 31 };
-    assert_eq!(curve.schedule_into(&mut [0; 4], u32::MAX, 0), Err(too_high));
+    assert_eq!(curve.ticks_into(&mut [0; 4], u32::MAX, 0), Err(too_high));
     // One trigger keeps any gap; two do not.
-    assert_eq!(curve.schedule_into(&mut [0], 1000, u32::MAX), Ok(()));
+    assert_eq!(curve.ticks_into(&mut [0], 1000, u32::MAX), Ok(()));
     let gap = ScheduleError::GapTooSmall { trigger: 1, gap: 375, min_gap: u32::MAX };
-    assert_eq!(curve.schedule_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
+    assert_eq!(curve.ticks_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
     // More triggers than ticks.
-    let Err(error) = curve.schedule_into(&mut [0; 5000], 1000, 1) else {
+    let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else {
         panic!("5000 ticks of 1000")
     };
     assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
-    assert_eq!(curve.schedule_into(&mut [0; 5000], 1000, 0), Ok(()));
+    assert_eq!(curve.ticks_into(&mut [0; 5000], 1000, 0), Ok(()));
 }
 
 #[test]
@@ -282,9 +284,9 @@ fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
     let mut filled = vec![0; n as usize];
     let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
         Ok(ticks) => ticks.collect(),
-        Err(error) => return assert_eq!(shutter.schedule_into(&mut filled, hz, 0), Err(error)),
+        Err(error) => return assert_eq!(shutter.ticks_into(&mut filled, hz, 0), Err(error)),
     };
-    shutter.schedule_into(&mut filled, hz, 0).unwrap();
+    shutter.ticks_into(&mut filled, hz, 0).unwrap();
     assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, OCTAVES = {OCTAVES}: {curve:?}");
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
@@ -295,7 +297,7 @@ fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
         let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
         let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
         let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
-        assert_eq!(shutter.schedule_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
+        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
     }
 }
 
@@ -324,15 +326,15 @@ mod checked {
 
     #[test]
     fn a_schedule_is_the_ticks() {
-        let schedule = SOFT.schedule::<64>(64, 1_000_000, 100).unwrap();
+        let schedule = SOFT.ticks_vec::<64>(64, 1_000_000, 100).unwrap();
         assert!(schedule.iter().copied().eq(SOFT.trigger_ticks(64, 1_000_000).unwrap()));
         assert!(schedule.windows(2).all(|pair| pair[1] - pair[0] >= 100));
-        assert!(SOFT.schedule::<4>(0, 1000, 10).unwrap().is_empty());
+        assert!(SOFT.ticks_vec::<4>(0, 1000, 10).unwrap().is_empty());
     }
 
     #[test]
     fn each_reason_its_own_error() {
-        let error = |n, hz, gap| SOFT.schedule::<16>(n, hz, gap).err();
+        let error = |n, hz, gap| SOFT.ticks_vec::<16>(n, hz, gap).err();
         let capacity = Some(ScheduleError::CapacityExceeded { capacity: 16 });
         assert_eq!(error(17, 1000, 0), capacity);
         assert_eq!(error(u32::MAX, 1000, 0), capacity);
@@ -353,7 +355,7 @@ fn half_open() -> ShutterCurve {
 #[test]
 fn the_most_that_keep_the_gap() {
     let keeps = |curve: &ShutterCurve, n: u32, hz, gap| {
-        curve.schedule_into(&mut vec![0; n as usize], hz, gap).is_ok()
+        curve.ticks_into(&mut vec![0; n as usize], hz, gap).is_ok()
     };
     for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
         for (hz, gap) in [
@@ -503,8 +505,14 @@ fn ends_at_one_half_are_in_order() {
     assert_eq!(touching[0].off, touching[1].on);
     let Pulse { on, off } = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
     assert_eq!(on, off);
-    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, 0, 0), Ok(()));
-    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, 0, 0), Ok(()));
+    assert_eq!(
+        curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, PulseLimits::default()),
+        Ok(())
+    );
+    assert_eq!(
+        curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, PulseLimits::default()),
+        Ok(())
+    );
 }
 
 #[test]
@@ -518,7 +526,9 @@ fn what_cannot_be_is_refused() {
         Some(ScheduleError::TickRateTooHigh { most: 1 << 31 })
     );
     let mut pulses = [Pulse::default(); 12];
-    let mut checked = |duty, pulse, gap| SOFT.pulses_into(&mut pulses, duty, 1_000_000, pulse, gap);
+    let mut checked = |duty, min_pulse, min_gap| {
+        SOFT.pulses_into(&mut pulses, duty, 1_000_000, PulseLimits { min_pulse, min_gap })
+    };
     assert_eq!(checked(0.5, 30_000, 30_000), Ok(()));
     assert_eq!(
         checked(0.5, 32_000, 0),

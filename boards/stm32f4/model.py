@@ -1,4 +1,4 @@
-"""python3 model.py FIRMWARE [falling]: runs the firmware on an emulated processor (unicorn), with a model of the registers that it uses.
+"""python3 model.py FIRMWARE: runs the firmware on an emulated processor (unicorn), with a model of the registers that it uses.
 
 No emulator that we know of has this chip's capture, compare and DMA. The model is ours, by the chip's reference manual (RM0383), and
 refuses what it does not know. It judges each edge of the lamp's line, to the tick, by leaf.rs. Exits with 1 if one is wrong.
@@ -73,7 +73,7 @@ class Chip:
 
     def capture(self):
         count = self.syncs.pop(0) % WRAP
-        assert self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == CAPTURE, "channel 1 captures the other edges"
+        assert self.get(CCMR1) & 3 == 1 and self.get(CCER) & 0xB == (3 if FALLS else 1), "channel 1 captures the other edges"
         self.reg[SR] = self.get(SR) | CC1 | (CC1OF if self.get(SR) & CC1 else 0)
         self.reg[CCR1] = count
 
@@ -102,6 +102,7 @@ class Chip:
         if level != self.level:
             moder, afrl = self.get(GPIOA), self.get(GPIOA + 0x20)
             assert moder & 0x33 == 0x22 and afrl & 0xF0F == 0x101, "PA0 and PA2 are the timer's"
+            assert self.get(GPIOA + 0x0C) & 3 == (1 if FALLS else 2), "PA0 is pulled to the sync's level at rest"
             assert self.get(CCER) >> 8 & 3 == 1, "channel 3 drives its pin"
             self.edges.append(self.time)
         self.level = level
@@ -171,20 +172,23 @@ class Chip:
 
 source = Path(__file__).parent / "src"
 leaf = (source / "leaf.rs").read_text()
-number = lambda pattern, text: int(re.search(pattern, text)[1].replace("_", ""))
-TIMER_HZ, delay = (number(rf"{name}: u32 = (\w+);", leaf) for name in ("TIMER_HZ", "DELAY_TICKS"))
-ticks = [int(tick) for tick in re.search(r"TICKS: \[u32; \d+\] = \[(.*?)\];", leaf, re.S)[1].replace("\n", "").split(",")[:-1]]
-pulse = number(r"PULSE: u32 = (\w+);", (source / "main.rs").read_text())
-CAPTURE = 3 if sys.argv[2:] == ["falling"] else 1
+number = lambda name, text: int(re.search(rf"{name}: u32 = (\w+);", text)[1].replace("_", ""))
+array = lambda name: re.search(rf"{name}: \[.*?\] = \[([^\]]*)\];", leaf)
+numbers = lambda found: [int(number) for number in re.findall(r"\d+", found[1])]
+TIMER_HZ, delay, pulse = number("TIMER_HZ", leaf), number("DELAY_TICKS", leaf), number("PULSE", (source / "main.rs").read_text())
+FALLS = "SYNC_FALLS: bool = true;" in leaf
+pulses = array("PULSES")
+changes = numbers(pulses) if pulses else [tick + end for tick in numbers(array("TICKS")) for end in (0, pulse)]
 chip = Chip(sys.argv[1])
 second = TIMER_HZ
-# Frames: one; one whose edge comes before the counter wraps and its pulses after; one after an edge that bounced, and during which
+# Frames: one; one whose edge comes before the counter wraps and its flashes after; one after an edge that bounced, and during which
 # another comes.
 frames = [second, WRAP - delay // 2, WRAP + 3 * second]
-chip.syncs = [*frames[:2], WRAP + 2 * second, WRAP + 2 * second + 3, frames[2], frames[2] + delay + ticks[3]]
+chip.syncs = [*frames[:2], WRAP + 2 * second, WRAP + 2 * second + 3, frames[2], frames[2] + delay + changes[3]]
 chip.run()
-expected = [frame + delay + tick + end for frame in frames for tick in ticks for end in (0, pulse)]
+expected = [frame + delay + change for frame in frames for change in changes]
 if chip.edges != expected:
     wrong = next((i for i, (a, b) in enumerate(zip(chip.edges, expected)) if a != b), min(len(chip.edges), len(expected)))
     sys.exit(f"{len(chip.edges)} edges of {len(expected)}; number {wrong} at {chip.edges[wrong:wrong + 1]}, not {expected[wrong:wrong + 1]}")
-print(f"boards/stm32f4: {len(frames)} frames of {len(ticks)} pulses, each edge on its tick after the sync's, one across the counter's wrap")
+way = "falling" if FALLS else "rising"
+print(f"boards/stm32f4: {len(frames)} frames of {len(changes) // 2} flashes, each edge on its tick after a {way} sync, one across the counter's wrap")

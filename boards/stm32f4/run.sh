@@ -2,7 +2,7 @@
 # Builds the firmware as it is flashed, and runs it on a model of the chip: exits with 0 only if each edge of the lamp's line comes on
 # its tick. The first time it fetches the emulated processor, Python's unicorn, 16 MB.
 #
-#   .ci/thumb.sh boards/stm32f4/run.sh     (with `falling` if the sync falls) or without .ci/thumb.sh, after: rustup target add thumbv7em-none-eabihf
+#   .ci/thumb.sh boards/stm32f4/run.sh     or without .ci/thumb.sh, after: rustup target add thumbv7em-none-eabihf
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -14,4 +14,4 @@ if ! "$python" -c 'import unicorn' 2>/dev/null; then
     python3 -m venv "$folder/unicorn" && "$python" -m pip install --quiet --disable-pip-version-check unicorn==2.1.4 ||
         { echo "stm32f4: cannot fetch unicorn: python3 with venv (your system's package python3-venv) and pip are needed" >&2 && exit 1; }
 fi
-"$python" model.py "$folder/thumbv7em-none-eabihf/release/leaf-stm32f4" "$@"
+"$python" model.py "$folder/thumbv7em-none-eabihf/release/leaf-stm32f4"

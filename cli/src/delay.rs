@@ -15,6 +15,15 @@ pub struct Delay {
     pub ticks: u32,
     /// Its standard deviation from shot to shot, in seconds, if the scene tells.
     pub spread: Option<f64>,
+    /// Is it the falling edge of the sync, or the rising one, if the scene tells?
+    pub falls: Option<bool>,
+}
+
+/// What a scene has of a sync.
+pub(crate) struct Sync<'a> {
+    pub delay: Option<&'a Spanned<Number>>,
+    pub spread: Option<&'a Spanned<Number>>,
+    pub falls: Option<&'a Spanned<bool>>,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
@@ -24,9 +33,9 @@ impl Delay {
     /// The delay that a scene has in this unit, if it has one, where the frame ends so many ticks after the shutter opens.
     ///
     /// # Errors
-    /// A delay below 0, and one after which the frame ends too late; a spread below 0, or without a delay.
+    /// A delay below 0, and one after which the frame ends too late; a spread below 0, or what goes with a delay without one.
     pub(crate) fn new(
-        [delay, spread]: [Option<&Spanned<Number>>; 2],
+        &Sync { delay, spread, falls }: &Sync,
         unit: Unit,
         timer_hz: u32,
         end: f64,
@@ -35,6 +44,9 @@ impl Delay {
         let spread = spread.map(of_spread).transpose()?;
         if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
             return Err(Fault::at(place, "delay_spread: 0 or more is required, and a delay"));
+        }
+        if let (None, Some(place)) = (delay, falls) {
+            return Err(Fault::at(place, "sync_falls: it goes with a delay"));
         }
         let Some(place) = delay else { return Ok(None) };
         let seconds = seconds(unit, "delay", place)?;
@@ -53,6 +65,7 @@ impl Delay {
         }
         // Neither is -0.
         let spread = spread.map(|(_, spread)| spread);
-        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32, spread }))
+        let falls = falls.map(|falls| *falls.get_ref());
+        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32, spread, falls }))
     }
 }

@@ -6,7 +6,6 @@ mod c;
 mod csv;
 mod json;
 mod name;
-mod pico;
 mod rust;
 
 pub use name::{identifier, module};
@@ -19,7 +18,7 @@ use crate::planned::Planned;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
 pub enum Form {
-    /// A module with the curve, if there is one, and the ticks
+    /// A module with the ticks, which needs no crate
     Rust,
     /// A header with the ticks, in C99 and C++11
     C,
@@ -27,29 +26,27 @@ pub enum Form {
     Csv,
     /// The curve's facts, if there is a curve, and an object for each trigger
     Json,
-    /// The lines that boards/pico takes
-    Pico,
 }
 
-/// The plan of the scene `name` in this form.
+/// The plan of the scene `name` in this form; a module has the `curve` only where that is asked for.
 ///
 /// ```
 /// use shutter::{emit, planned::Planned};
 /// let plan = Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
-/// let csv = emit::emit(emit::Form::Csv, "box", &plan).expect("a form for any plan");
+/// let csv = emit::emit(emit::Form::Csv, "box", &plan, false).expect("a scene for hardware");
 /// assert!(csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,"));
 /// ```
 ///
 /// # Errors
-/// A plan that the Pico cannot fire.
-pub fn emit(form: Form, name: &str, plan: &Planned) -> Result<String, String> {
-    match form {
-        Form::Rust => Ok(rust::module(name, plan)),
-        Form::C => Ok(c::header(name, plan)),
-        Form::Csv => Ok(csv::rows([(name, plan)])),
-        Form::Json => Ok(json::object(name, plan)),
-        Form::Pico => pico::lines(plan),
-    }
+/// A plan that lacks what hardware needs, and a curve that is not there or for which the form has no place.
+pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<String, String> {
+    is_ready(form, plan, curve)?;
+    Ok(match form {
+        Form::Rust => rust::module(name, plan, curve),
+        Form::C => c::header(name, plan),
+        Form::Csv => csv::rows([(name, plan)]),
+        Form::Json => json::object(name, plan),
+    })
 }
 
 /// Several plans as one text called `name`, in this order: modules or headers with an array of them, rows or objects one
@@ -59,20 +56,44 @@ pub fn emit(form: Form, name: &str, plan: &Planned) -> Result<String, String> {
 /// use shutter::{emit, planned::Planned};
 /// let plan = || Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
 /// let speeds = [("fast".to_string(), plan()), ("slow".to_string(), plan())];
-/// let header = emit::several(emit::Form::C, "camera", &speeds).expect("they share a timer");
+/// let header = emit::several(emit::Form::C, "camera", &speeds, false).expect("they share a timer");
 /// assert!(header.contains("static const camera_speed camera_speeds[CAMERA_SPEEDS] = {"));
 /// ```
 ///
 /// # Errors
-/// Plans that do not go together, and a form that takes only one.
-pub fn several(form: Form, name: &str, plans: &[(String, Planned)]) -> Result<String, String> {
-    match form {
-        Form::Rust => alike(plans).map(|()| rust::modules(name, plans)),
-        Form::C => alike(plans).map(|()| c::headers(name, plans)),
-        Form::Csv => Ok(csv::rows(plans.iter().map(|(name, plan)| (name.as_str(), plan)))),
-        Form::Json => Ok(json::array(plans)),
-        Form::Pico => Err("--emit pico takes one scene: the board holds one at a time".into()),
+/// What [`emit`] refuses of any of them, and plans that do not go together.
+pub fn several(
+    form: Form,
+    name: &str,
+    plans: &[(String, Planned)],
+    curve: bool,
+) -> Result<String, String> {
+    for (name, plan) in plans {
+        is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
+    if matches!(form, Form::Rust | Form::C) {
+        alike(plans)?;
+    }
+    Ok(match form {
+        Form::Rust => rust::modules(name, plans, curve),
+        Form::C => c::headers(name, plans),
+        Form::Csv => csv::rows(plans.iter().map(|(name, plan)| (name.as_str(), plan))),
+        Form::Json => json::array(plans),
+    })
+}
+
+/// Has the plan all that the form needs?
+fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
+    if curve && form != Form::Rust {
+        return Err("--curve: it is the crate's, and goes with --emit rust".into());
+    }
+    if curve && plan.plan().is_none() {
+        return Err("--curve: the scene has trigger times and no curve".into());
+    }
+    if plan.delay().is_some_and(|delay| delay.falls.is_none()) {
+        return Err("it has a delay, and does not say from which edge of the sync: `sync_falls = true`, or `false` if it rises".into());
+    }
+    Ok(())
 }
 
 /// What an array's elements must have in common: the timer, what they tell, and names of their own.
@@ -96,6 +117,10 @@ fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
             return Err(format!(
                 "delay: {has} has one and {lacks} has none; an array needs all or none"
             ));
+        }
+        let falls = |plan: &Planned| plan.delay().and_then(|delay| delay.falls);
+        if falls(one) != falls(plan) {
+            return Err(format!("sync_falls: {first} and {name} differ; an array is for one edge"));
         }
         if has_pulses(one) != has_pulses(plan) {
             return Err(format!(

@@ -240,7 +240,12 @@ fn delay(delay: Option<Delay>, unit: Unit) -> String {
     let Some(delay) = delay else {
         return "none known: ticks count from the start of opening, not from a sync".into();
     };
-    format!("{} from the sync's edge to the start of opening", unit.show(delay.seconds))
+    let edge = match delay.falls {
+        Some(true) => "falling edge",
+        Some(false) => "rising edge",
+        None => "edge (sync_falls: which?)",
+    };
+    format!("{} from the sync's {edge} to the start of opening", unit.show(delay.seconds))
 }
 
 /// The set-up of flashes without a length.

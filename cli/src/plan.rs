@@ -4,7 +4,7 @@ use shutter_curve::{ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
-use crate::delay::Delay;
+use crate::delay::{Delay, Sync};
 use crate::lamp::{Flash, Lamp};
 use crate::scene::{Fault, Scene, min_gap, positive, whole};
 use crate::shape::Shape;
@@ -81,12 +81,12 @@ impl Plan {
         let asked = Asked::new(scene, timer_hz)?;
         let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
         let end = (end * f64::from(timer_hz)).round();
-        let delay = Delay::new(
-            [scene.delay.as_ref(), scene.delay_spread.as_ref()],
-            scene.unit(),
-            timer_hz,
-            end,
-        )?;
+        let sync = Sync {
+            delay: scene.delay.as_ref(),
+            spread: scene.delay_spread.as_ref(),
+            falls: scene.sync_falls.as_ref(),
+        };
+        let delay = Delay::new(&sync, scene.unit(), timer_hz, end)?;
         timer.holds(
             delay.map_or(0.0, |delay| delay.ticks.into()) + end,
             scene.timer_bits.as_ref(),

@@ -30,6 +30,7 @@ pub struct Scene {
     pub(crate) min_pulse: Option<Spanned<Number>>,
     pub(crate) delay: Option<Spanned<Number>>,
     pub(crate) delay_spread: Option<Spanned<Number>>,
+    pub(crate) sync_falls: Option<Spanned<bool>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -98,6 +99,7 @@ impl Scene {
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
             delay_spread: optional("delay_spread"),
+            sync_falls: None,
         }
     }
 }
@@ -186,6 +188,7 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
             let key = key.get_ref();
             reason = match key.as_ref() {
                 "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
+                key @ "sync_falls" => format!("{key}: true or false is required"),
                 _ if reason.contains("a sequence") => {
                     format!("{key}: numbers in brackets are required")
                 }

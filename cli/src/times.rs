@@ -5,7 +5,7 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::delay::{Delay, LAST};
+use crate::delay::{Delay, LAST, Sync};
 use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
 use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
@@ -24,6 +24,7 @@ struct Scene {
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
     delay_spread: Option<Spanned<Number>>,
+    sync_falls: Option<Spanned<bool>>,
 }
 
 /// A trigger that was measured.
@@ -106,6 +107,7 @@ impl Times {
             nominal: scene.nominal,
             delay: scene.delay,
             delay_spread: scene.delay_spread,
+            sync_falls: scene.sync_falls,
         })
     }
 
@@ -119,8 +121,12 @@ impl Times {
         let triggers =
             triggers(scene, unit, open_start, timer.hz, whole_ticks(min_gap, timer.hz).max(1))?;
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
-        let delay =
-            Delay::new([scene.delay.as_ref(), scene.delay_spread.as_ref()], unit, timer.hz, end)?;
+        let sync = Sync {
+            delay: scene.delay.as_ref(),
+            spread: scene.delay_spread.as_ref(),
+            falls: scene.sync_falls.as_ref(),
+        };
+        let delay = Delay::new(&sync, unit, timer.hz, end)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
         Ok(Self { open_start, timer, delay, min_gap, nominal, triggers, unit: scene.unit })
     }

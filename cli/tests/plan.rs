@@ -106,12 +106,12 @@ fn a_form_is_all_that_is_printed() {
         {
             let run = run([&scene, Path::new("--emit"), Path::new(name)]);
             assert_eq!((run.code, run.err.as_str()), (0, ""), "{scene_name}");
-            assert_eq!(run.out, emit(form, scene_name, &plan.clone().into()).unwrap());
+            assert_eq!(run.out, emit(form, scene_name, &plan.clone().into(), false).unwrap());
         }
     }
     let run = run([Path::new("--emit"), Path::new("pascal")]);
     assert_eq!((run.code, run.out.as_str()), (2, ""));
-    assert!(run.err.contains("[possible values: rust, c, csv, json, pico]"), "{}", run.err);
+    assert!(run.err.contains("[possible values: rust, c, csv, json]"), "{}", run.err);
 }
 
 /// And so they show the crate as it is. They are drawn by
@@ -303,7 +303,7 @@ fn an_unknown_key_is_named() {
     let err = error_of(&empty_dir("unknown"), &with("colour", "3"));
     assert!(
         err.contains("bad.toml:9: unknown field `colour`, expected one of `unit`, `open_start`")
-            && err.contains("`delay_spread`, or `trigger_times` in place of a curve\n"),
+            && err.contains("`sync_falls`, or `trigger_times` in place of a curve\n"),
         "{err}"
     );
 }
@@ -645,7 +645,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
         let times = [0.25, 0.75, 1.0].map(|time| time * factor);
         let text = format!(
             "unit = \"{unit}\"\nopen_start = 0\nopen_end = {}\nclose_start = {}\nclose_end = {}\n\
-             triggers = 3\ntimer_hz = 1000\nmin_gap = 0\ndelay = {}\n",
+             triggers = 3\ntimer_hz = 1000\nmin_gap = 0\ndelay = {}\nsync_falls = true\n",
             times[0],
             times[1],
             times[2],
@@ -655,7 +655,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
         let run = run([&file, Path::new("--force"), Path::new("--out"), &picture]);
         assert_eq!(run.err, "");
         let fact = format!(
-            "delay        {} {unit} from the sync's edge to the start of opening\n",
+            "delay        {} {unit} from the sync's falling edge to the start of opening\n",
             0.125 * factor
         );
         assert!(run.out.contains(&fact), "{}", run.out);
@@ -710,8 +710,8 @@ fn a_delay_that_cannot_be_is_an_error() {
 fn several_scenes_are_a_table_or_one_text() {
     let dir = empty_dir("speeds");
     let [slow, fast] = ["slow", "fast"].map(|name| dir.join(name).with_extension("toml"));
-    fs::write(&slow, format!("{GOOD}nominal = 0.75\ndelay = 0.5\n")).unwrap();
-    fs::write(&fast, format!("{GOOD}nominal = 0.375\ndelay = 0.5\n")).unwrap();
+    fs::write(&slow, format!("{GOOD}nominal = 0.75\ndelay = 0.5\nsync_falls = true\n")).unwrap();
+    fs::write(&fast, format!("{GOOD}nominal = 0.375\ndelay = 0.5\nsync_falls = true\n")).unwrap();
     let both = run([&slow, &fast]);
     assert_eq!((both.code, both.err.as_str()), (0, ""));
     let expected = "\
@@ -747,7 +747,7 @@ fast    375 ms       750 ms  +1.00        75 %  500 ms    7 of 7
     );
     let named =
         run([&slow, Path::new("--emit"), Path::new("c"), Path::new("--name"), Path::new("leaf")]);
-    assert!(named.out.contains("leaf_ticks[LEAF_TRIGGERS]"));
+    assert!(named.out.contains("leaf_ticks[LEAF_COUNT]"));
     let picture = dir.join("no.svg");
     let drawn = run([&slow, &fast, Path::new("--out"), &picture]);
     assert_eq!((drawn.code, drawn.err.as_str()), (2, "error: a picture is of one scene\n"));

@@ -60,7 +60,7 @@ fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
         _ => return Err(format!("there is no form {form}").into()),
     };
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
-    Ok(Emitted { text: emit::emit(form, name, &planned)?, file })
+    Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file })
 }
 
 /// The scene, if it can be planned.

@@ -28,7 +28,7 @@ pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
         R::UnclearUnit { .. } => Some("unit"),
         R::SameColumn { .. } | R::NoColumn { .. } | R::BrokenRows { .. } => Some("signal"),
         R::NoPulse { .. } | R::Undetermined => Some("signal"),
-        R::BeginsInPulse { has_way: false } | R::EndsInPulse { has_way: false } => Some("rises"),
+        R::WhichWay => Some("rises"),
         R::NoFrame { .. } => Some("frame"),
         R::FullTooLow { .. } => Some("full"),
         _ => None,
@@ -92,8 +92,7 @@ mod tests {
         let refusals = [
             Refusal::NoTimes { columns: "2".into(), text: some("a"), quoted: some("b") },
             Refusal::Thousands { number: "1,500".into(), other: "1.5".into() },
-            Refusal::BeginsInPulse { has_way: true },
-            Refusal::EndsInPulse { has_way: true },
+            Refusal::CutPulse { begins: true, ends: true },
             Refusal::NoDelay { reason: "a reason of some words".into() },
         ];
         let no_reason = |told: &Refusal| !matches!(told, Refusal::NoDelay { .. });

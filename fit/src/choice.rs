@@ -2,17 +2,11 @@
 
 use crate::frame::FrameFits;
 use crate::outcome::{Candidate, Options, Reason, Tolerance};
-use crate::shots::Shots;
 use crate::signal::Kind;
 use crate::structure::structure;
 
-/// A kind is good enough where its error on shots left out is at most so many times the shots' own scatter, or a share
-/// of the exposure that matters to nobody.
-const WITHIN: f64 = 1.1;
-const LITTLE: f64 = 4e-4;
-
 /// Every kind's curve, judged by `n` triggers.
-pub fn candidates(fits: &FrameFits, shots: Option<&Shots>, n: u32) -> Vec<Candidate> {
+pub fn candidates(fits: &FrameFits, n: u32) -> Vec<Candidate> {
     let least = Kind::ALL.into_iter().map(|kind| fits.bic(kind)).fold(f64::INFINITY, f64::min);
     let free = fits.triggers(Kind::Free, n);
     let candidate = |kind: Kind| {
@@ -24,20 +18,14 @@ pub fn candidates(fits: &FrameFits, shots: Option<&Shots>, n: u32) -> Vec<Candid
             rms: fitted.variance().sqrt() / signal.gain,
             delta_bic: fits.bic(kind) - least,
             shift: shifts.fold(0.0, f64::max) * fits.units.pulse(),
-            left_out: shots.map(|shots| shots.errors[kind as usize]),
         }
     };
     Kind::ALL.into_iter().map(candidate).collect()
 }
 
-/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the simplest that meets
-/// shots left out, or else, of a single shot, the one of least criterion.
-pub fn choose(
-    options: &Options,
-    candidates: &[Candidate],
-    fits: &FrameFits,
-    shots: Option<&Shots>,
-) -> (Kind, Reason) {
+/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the one of least criterion, and
+/// where that does not explain the trace, the simplest freer one that does.
+pub fn choose(options: &Options, candidates: &[Candidate], fits: &FrameFits) -> (Kind, Reason) {
     let simplest = |good: &dyn Fn(&Candidate) -> bool| {
         let found = candidates.iter().find(|candidate| good(candidate));
         found.map_or(Kind::Free, |candidate| candidate.signal.kind)
@@ -53,15 +41,6 @@ pub fn choose(
             Tolerance::Seconds(seconds) => seconds,
         };
         return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
-    }
-    if let Some(Shots { count, scatter, .. }) = shots {
-        let meets = |error: f64| error <= (WITHIN * scatter).max(LITTLE);
-        let (shots, scatter) = (*count, *scatter);
-        let found = candidates.iter().find(|candidate| candidate.left_out.is_some_and(meets));
-        return match found {
-            Some(candidate) => (candidate.signal.kind, Reason::Shots { shots, scatter }),
-            None => (Kind::Free, Reason::NoKind { shots, scatter }),
-        };
     }
     let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
     if structure(fits, kind).explained {

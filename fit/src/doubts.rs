@@ -152,7 +152,7 @@ fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     Some(Warning::Drift { amount })
 }
 
-/// Ramps that are as short as a sample, or else lost in the noise.
+/// Ramps that are lost in the noise, or of which one takes two samples at most.
 fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<Warning> {
     let best = fit.best();
     let curve = best.signal.curve;
@@ -165,7 +165,9 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
     if fit.test.explained && noise / on_ramp.sqrt() > 0.03 {
         return Some(Warning::NoiseHidesRamps { noise: best.rms });
     }
-    let is_sharp = curve.opening.min(curve.closing) < 2.0 * step;
+    // The samples' own quarters lie half a ramp apart, whichever curve was taken.
+    let shorter = (up75 - up25).min(down25 - down75);
+    let is_sharp = curve.opening.min(curve.closing) < 2.0 * step && shorter < 1.5 * step;
     is_sharp.then_some(Warning::SharpEdges { step })
 }
 

@@ -5,7 +5,7 @@
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
 //! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from `starts` with `solve`, with the
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
-//! - `shots`, `choice`: the kinds compared, and one chosen;
+//! - `choice`: the kinds compared, and one chosen;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
 //! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
@@ -45,8 +45,6 @@ pub mod trace;
 pub mod unit;
 mod units;
 
-use std::iter::once;
-
 use crate::trace::{Light, Pulses, Refusal, Trace, Warning, pulses, undone};
 pub use curve::Curve;
 pub use delay::{Delay, Sync};
@@ -55,7 +53,6 @@ use frame::FrameFits;
 pub use json::json;
 pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
 pub use report::{because, text};
-use shots::Shots;
 pub use signal::{Flicker, Hum, Kind, Signal};
 
 /// The most triggers of a frame that are judged and planned.
@@ -76,11 +73,11 @@ pub fn fit(
     let gap = gaps::gaps(&pulses, &pulses.frames[asked])?;
     let counted = Frames::new(&pulses.frames, asked);
     let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
-    let frames = fit_frames(&pulses, asked, differ, options, progress);
-    let (fits, shots) = (&frames[0], Shots::new(&frames, n));
+    let fits = &explain::fits(&pulses, &pulses.frames[asked], options.mains, progress);
+    progress(1.0);
 
-    let candidates = choice::candidates(fits, shots.as_ref(), n);
-    let (chosen, reason) = choice::choose(options, &candidates, fits, shots.as_ref());
+    let candidates = choice::candidates(fits, n);
+    let (chosen, reason) = choice::choose(options, &candidates, fits);
     let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
     let (test, hidden) = judged(fits, chosen, reason);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
@@ -149,18 +146,17 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     Ok(pulses)
 }
 
-/// Does the chosen kind explain the trace, and by what shares of the exposure may triggers and exposure be off nevertheless? A kind that was taken
-/// for a tolerance, or for shots that differ, need not follow every sample: there the freest is asked.
+/// Does the chosen kind explain the trace, and by what shares of the exposure may triggers and exposure be off nevertheless? A kind that
+/// was taken for a tolerance need not follow every sample: there the freest is asked.
 fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, [f64; 2]) {
     let kind = match reason {
-        Reason::Tolerance(_) | Reason::Shots { .. } => Kind::Free,
+        Reason::Tolerance(_) => Kind::Free,
         _ => chosen,
     };
     let found = structure::structure(fits, kind);
-    let explained = found.explained && !matches!(reason, Reason::NoKind { .. });
     let at = fits.units.seconds(found.at);
     let test = Test {
-        explained,
+        explained: found.explained,
         tested: found.tested,
         sigma: found.sigma,
         unseen: found.unseen,
@@ -168,24 +164,4 @@ fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, [f64; 2]) {
         at,
     };
     (test, found.hidden)
-}
-
-/// The frame that is asked for, fitted by every kind, and others like it where these help to choose a kind.
-fn fit_frames(
-    pulses: &Pulses,
-    asked: usize,
-    differ: bool,
-    options: &Options,
-    progress: &mut dyn FnMut(f64),
-) -> Vec<FrameFits> {
-    let shots_decide = !differ && options.model.is_none() && options.tolerance.is_none();
-    let others = if shots_decide { shots::others(&pulses.frames, asked) } else { Vec::new() };
-    let steps = 1.0 + others.len() as f64;
-    let mut frames = Vec::new();
-    for (i, k) in once(asked).chain(others).enumerate() {
-        let mut progress = |done: f64| progress((i as f64 + done) / steps);
-        frames.push(explain::fits(pulses, &pulses.frames[k], options.mains, &mut progress));
-    }
-    progress(1.0);
-    frames
 }

@@ -68,8 +68,6 @@ pub struct Candidate {
     pub delta_bic: f64,
     /// The most that a trigger lies from that of the freest kind, in seconds.
     pub shift: f64,
-    /// The error of its triggers on shots that it was not fitted to, as a share of the exposure.
-    pub left_out: Option<f64>,
 }
 
 /// Why a kind was chosen.
@@ -79,20 +77,6 @@ pub enum Reason {
     Asked,
     /// It is the simplest within the tolerance.
     Tolerance(Tolerance),
-    /// It is the simplest that meets shots left out as well as shots meet each other.
-    Shots {
-        /// So many.
-        shots: usize,
-        /// By how much shots differ, as a share of the exposure.
-        scatter: f64,
-    },
-    /// No kind meets shots left out so well; it is the freest.
-    NoKind {
-        /// So many shots.
-        shots: usize,
-        /// By how much they differ, as a share of the exposure.
-        scatter: f64,
-    },
     /// Schwarz's criterion took a simpler one, which does not explain the trace; this is the simplest that does.
     Explains,
     /// Schwarz's criterion is least.

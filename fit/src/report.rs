@@ -10,9 +10,7 @@ use crate::rows::hidden_rows;
 use crate::signal::Kind;
 use crate::speed;
 use crate::trace::{from_opening, sampling_interval};
-use crate::unit::{
-    MOST_PLACES, Unit, count, decimals, fixed, plus_minus, short, trimmed, without_dust,
-};
+use crate::unit::{MOST_PLACES, Unit, decimals, fixed, plus_minus, short, trimmed, without_dust};
 
 /// The fit of the trace `name`, for a terminal.
 pub fn text(name: &str, fit: &Fit) -> String {
@@ -83,13 +81,6 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
             out,
             "{mark} {title:22}  {opens:>8}  {open:>8}  {closes:>8}  {rms:>6}  {bic:>6}  {shift:>7}"
         )?;
-        if let Some(error) = candidate.left_out {
-            writeln!(
-                out,
-                "    on shots left out: {} % of the exposure",
-                short(100.0 * without_dust(error, 1.0), 2)
-            )?;
-        }
     }
     let name = unit.name();
     writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
@@ -216,16 +207,6 @@ pub fn because(fit: &Fit) -> String {
         Reason::Tolerance(Tolerance::Seconds(seconds)) => format!(
             "the simplest whose triggers are within {} of the free model's",
             fit.unit().show(seconds)
-        ),
-        Reason::Shots { shots, scatter } => format!(
-            "the simplest that meets shots left out as well as {} meet each other, to {} %",
-            count(shots as u64, "shot"),
-            short(100.0 * without_dust(scatter, 1.0), 2)
-        ),
-        Reason::NoKind { shots, scatter } => format!(
-            "it is the freest; no model meets shots left out as well as {} meet each other, to {} %",
-            count(shots as u64, "shot"),
-            short(100.0 * scatter, 2)
         ),
         Reason::Explains => "the simplest that explains the trace".into(),
         Reason::Criterion { effective } => {

@@ -14,6 +14,16 @@ pub struct Pulse {
     pub off: u32,
 }
 
+/// What a lamp asks of its pulses, in ticks; 0 asks nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PulseLimits {
+    /// How long a pulse lasts at least.
+    pub min_pulse: u32,
+    /// From the end of a pulse to the start of the next, at least.
+    pub min_gap: u32,
+}
+
 /// What places the pulses of one frame.
 #[derive(Clone)]
 pub(crate) struct Pulses<'a, const OCTAVES: usize> {
@@ -26,12 +36,12 @@ impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
         inverse: &'a Inverse<OCTAVES>,
         n: u32,
         duty: f32,
-        ticks_per_unit: u32,
+        timer_hz: u32,
     ) -> Result<Self, ScheduleError> {
         if !(duty > 0.0 && duty <= 1.0) {
             return Err(ScheduleError::DutyOutOfRange);
         }
-        Ok(Self { ticks: tried!(Ticks::new(inverse, n, ticks_per_unit)), duty })
+        Ok(Self { ticks: tried!(Ticks::new(inverse, n, timer_hz)), duty })
     }
 
     /// Pulse `i`. Its ends are in order, and so are neighbouring pulses, since rounding keeps the order of
@@ -44,8 +54,7 @@ impl<'a, const OCTAVES: usize> Pulses<'a, OCTAVES> {
     pub(crate) const fn pulses_into(
         &self,
         pulses: &mut [Pulse],
-        min_pulse: u32,
-        min_gap: u32,
+        PulseLimits { min_pulse, min_gap }: PulseLimits,
     ) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
         while i < pulses.len() {

@@ -23,9 +23,9 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     pub(crate) const fn new(
         inverse: &'a Inverse<OCTAVES>,
         n: u32,
-        ticks_per_unit: u32,
+        timer_hz: u32,
     ) -> Result<Self, ScheduleError> {
-        if ticks_per_unit == 0 {
+        if timer_hz == 0 {
             return Err(ScheduleError::TickRateZero);
         }
         if n > MOST_TRIGGERS {
@@ -33,10 +33,10 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
         }
         let (start, exponent) = (inverse.end_units(Side::Start), inverse.unit_exponent());
         let length = (inverse.end_units(Side::End) - start) as u64;
-        if exponent_of_ticks(length, ticks_per_unit, exponent) > TICK_BITS {
-            return Err(too_high(length, ticks_per_unit, exponent));
+        if exponent_of_ticks(length, timer_hz, exponent) > TICK_BITS {
+            return Err(too_high(length, timer_hz, exponent));
         }
-        Ok(Self { inverse, n, to_ticks: TickScale::new(start, length, ticks_per_unit, exponent) })
+        Ok(Self { inverse, n, to_ticks: TickScale::new(start, length, timer_hz, exponent) })
     }
 
     /// The tick of trigger `i`.
@@ -78,7 +78,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     }
 
     /// The ticks of all triggers, as many as the slice has places; an error at the first gap that is too small.
-    pub(crate) const fn schedule_into(
+    pub(crate) const fn ticks_into(
         &self,
         ticks: &mut [u32],
         min_gap: u32,
@@ -132,9 +132,9 @@ pub(crate) const fn direct_triggers<const OCTAVES: usize>(inverse: &Inverse<OCTA
 }
 
 /// The least `e` for which the time `length · 2^exponent` is at most 2^e ticks.
-const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, exponent: i32) -> i32 {
+const fn exponent_of_ticks(length: u64, timer_hz: u32, exponent: i32) -> i32 {
     // Of the 96 bits of length · rate the upper 64, rounded up.
-    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, ticks_per_unit as u64);
+    let (high, low, rate) = (length >> 32, length & 0xFFFF_FFFF, timer_hz as u64);
     let ticks = high * rate + (low * rate).div_ceil(1 << 32);
     96 - ticks.wrapping_sub(1).leading_zeros() as i32 + exponent
 }
@@ -142,8 +142,8 @@ const fn exponent_of_ticks(length: u64, ticks_per_unit: u32, exponent: i32) -> i
 /// The error of a rate at which the interval has too many ticks, with the greatest at which it has not.
 #[cold]
 #[inline(never)]
-const fn too_high(length: u64, ticks_per_unit: u32, exponent: i32) -> ScheduleError {
-    let (mut most, mut fail) = (0, ticks_per_unit);
+const fn too_high(length: u64, timer_hz: u32, exponent: i32) -> ScheduleError {
+    let (mut most, mut fail) = (0, timer_hz);
     while fail - most > 1 {
         let middle = most + (fail - most) / 2;
         let fits = exponent_of_ticks(length, middle, exponent) <= TICK_BITS;
@@ -166,23 +166,18 @@ pub(crate) struct TickScale {
 
 impl TickScale {
     /// For an interval that starts at `start_units` and lasts `length` units of `2^exponent`, at most 2³¹ ticks.
-    pub(crate) const fn new(
-        start_units: i64,
-        length: u64,
-        ticks_per_unit: u32,
-        exponent: i32,
-    ) -> Self {
+    pub(crate) const fn new(start_units: i64, length: u64, timer_hz: u32, exponent: i32) -> Self {
         // An interval has 2⁴⁵ units at least (`domain::LEAST_INTERVAL`), and 2⁶² at most.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
         // One bit is not worth a shift of 64, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
-        let zeros = ticks_per_unit.leading_zeros() & 31;
+        let zeros = timer_hz.leading_zeros() & 31;
         // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
         // the interval makes a product of at least 2⁶⁰ and at most 2³² half ticks: so it moves down by 28 or more.
         let down = (up + zeros) as i32 - exponent - 33;
         // More than 63 would mean that all of the interval is tick 0, and a shift by 63 gives that, too.
         let down = if down < 63 { down as u32 } else { 63 };
-        Self { start_units, up, rate: ticks_per_unit << zeros, down }
+        Self { start_units, up, rate: timer_hz << zeros, down }
     }
 
     /// The nearest tick to a time.

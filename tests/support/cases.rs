@@ -5,7 +5,7 @@
 use shutter_curve::{CubicBezier, ShutterCurve};
 
 use crate::support::curves::{hard_us, instant, line};
-use crate::support::oracle::{Curve, Exact, Points};
+use crate::support::oracle::{Curve, Exact, Points, rounding_cell};
 
 #[derive(Clone, Copy)]
 pub struct Case {
@@ -40,48 +40,43 @@ pub fn shutter<const OCTAVES: usize>(curve: &Curve) -> ShutterCurve<OCTAVES> {
 /// What an inverse does on a curve.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verdict {
-    /// The greatest error as a fraction of the interval, in ulp(t), and in ulp(u) beyond half an ulp(t).
+    /// The greatest error beyond the rounding of the exact time to an `f32`: as a fraction of the interval, and in ulp(u).
     pub of_interval: f64,
-    pub forward: f64,
     pub backward: f64,
     /// The `u` with the greatest backward error.
     pub at: f32,
     pub steps_back: u32,
-    /// Answers that are NaN, outside the interval or off by more than 1 % of it.
-    pub failures: u32,
     pub count: u32,
+}
+
+/// The `u` that are likely to break an inverse, in order.
+pub fn breaking_us(exact: &Exact) -> Vec<f32> {
+    let mut us = hard_us(exact, 4, 400);
+    us.sort_by(f32::total_cmp);
+    us
 }
 
 /// Judges an inverse on the `u` that are likely to break it.
 pub fn judge(exact: &Exact, inverse: impl Fn(f32) -> f32) -> Verdict {
-    let mut us = hard_us(exact, 4, 400);
-    us.sort_by(f32::total_cmp);
-    judge_on(exact, inverse, &us)
+    judge_on(exact, inverse, &breaking_us(exact))
 }
 
 /// Judges an inverse on these `u`, in order.
 pub fn judge_on(exact: &Exact, inverse: impl Fn(f32) -> f32, us: &[f32]) -> Verdict {
     let (start, end) = (exact.curve().open_start(), exact.curve().close_end());
+    let length = f64::from(end) - f64::from(start);
     let mut verdict = Verdict { count: us.len() as u32, ..Verdict::default() };
     let mut last = start;
     for &u in us {
         let t = inverse(u);
         verdict.steps_back += u32::from(t < last);
         last = t;
-        if !t.is_finite() {
-            verdict.failures += 1;
-            continue;
-        }
         let errors = exact.judge(u, t);
-        let length = f64::from(end) - f64::from(start);
-        let of_interval = (f64::from(t) - errors.exact.hi).abs() / length;
-        let failed = of_interval > 0.01 || !(t >= start && t <= end);
-        verdict.failures += u32::from(failed);
-        verdict.of_interval = verdict.of_interval.max(of_interval);
-        // Relative to a time of 0 every error is infinite.
-        if errors.exact.hi != 0.0 {
-            verdict.forward = verdict.forward.max(errors.forward);
-        }
+        let [low, high] = rounding_cell(t);
+        let beyond = (low - errors.exact.hi).max(errors.exact.hi - high).max(0.0);
+        // No number is as bad as can be.
+        let beyond = if t.is_finite() { beyond } else { f64::INFINITY };
+        verdict.of_interval = verdict.of_interval.max(beyond / length);
         if errors.backward > verdict.backward {
             (verdict.backward, verdict.at) = (errors.backward, u);
         }

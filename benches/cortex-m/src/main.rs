@@ -6,7 +6,6 @@
 //! cargo run --release -- --budgets # exits with 1 where one is broken
 //! cargo run --release -- --answers # do answers differ on the host and on other processors?
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
-//! cargo run --release -- --silicon # the model against cycles that others have measured on boards
 //! ```
 //!
 //! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
@@ -20,7 +19,6 @@ mod links;
 mod measure;
 mod model;
 mod report;
-mod silicon;
 mod trace;
 
 use std::process::ExitCode;
@@ -36,7 +34,6 @@ fn main() -> ExitCode {
         ["--budgets"] => budget::run(),
         ["--answers"] => answers::run(),
         ["--links"] => links::run(),
-        ["--silicon"] => silicon::run(),
         _ => Err("usage: see src/main.rs".into()),
     };
     match result {

@@ -1,19 +1,15 @@
 //! The whole report, as Markdown, in `docs/internals/cost.md`; and what most readers want, which it begins with.
 
-use measured::baseline::{InverseTable, StraightRamps, TextbookNewton};
-use measured::{
-    CURVE_BYTES, CURVES, DEFAULT, Function, OCTAVES, ROWS, TRAPEZOID, TRIGGERS, TYPICAL, uniform,
-};
-use micromath::F32Ext;
-use shutter_curve::ShutterCurve;
+use measured::baseline::{self, InverseTable, StraightRamps, TextbookNewton};
+use measured::{CURVE_BYTES, DEFAULT, Function, OCTAVES, ROWS, TRAPEZOID, TRIGGERS, TYPICAL};
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
 use crate::measure::{Measured, On, Ran, series};
 
 use Function::{
-    Cdf, Construct, InverseCdf, Newton, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath,
-    Static, Table, TickStep,
+    Cdf, Construct, InverseCdf, NearerEnd, Newton, Openness, Schedule, SqrtFpu, SqrtLibm,
+    SqrtMicromath, Static, Table, TickStep,
 };
 
 const METHOD: &str = "## How it is measured
@@ -29,7 +25,7 @@ up to 1.4 times as much. [tried.md](tried.md) says how the model was chosen and 
 triggers near a hard input, on intervals of one to two million ticks. A refused frame costs no more.";
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
-const CALLS: [(&str, Function, usize); 14] = [
+const CALLS: [(&str, Function, usize); 15] = [
     ("`inverse_cdf`", InverseCdf, DEFAULT),
     ("`inverse_cdf` of a `static`", Static, DEFAULT),
     ("`inverse_cdf`, `OCTAVES = 0`", InverseCdf, 0),
@@ -39,6 +35,7 @@ const CALLS: [(&str, Function, usize); 14] = [
     ("`openness`", Openness, DEFAULT),
     ("a tick", TickStep, DEFAULT),
     ("a schedule", Schedule, DEFAULT),
+    ("Newton, nearer end", NearerEnd, DEFAULT),
     ("textbook Newton in `f32`", Newton, DEFAULT),
     ("linear table of 256", Table, DEFAULT),
     ("`libm::sqrtf`", SqrtLibm, DEFAULT),
@@ -49,8 +46,8 @@ const CALLS: [(&str, Function, usize); 14] = [
 /// The octaves of which all cores are told.
 const TOLD: [usize; 2] = [0, DEFAULT];
 
-/// Those for straight ramps.
-const SQUARE_ROOTS: [Function; 3] = [SqrtLibm, SqrtMicromath, SqrtFpu];
+/// The baselines, the last for straight ramps.
+const BASELINES: [Function; 6] = [NearerEnd, Newton, Table, SqrtLibm, SqrtMicromath, SqrtFpu];
 
 /// Prints what most readers want, of the processor with an FPU and the one without, in a minute.
 pub fn short() -> Result {
@@ -59,20 +56,25 @@ pub fn short() -> Result {
         Measured::new(core, OPT_LEVEL, &plan.concat())
     });
     let measured = measured.collect::<Result<Vec<_>>>()?;
-    let [calls, everywhere, curves] =
+    let [calls, everywhere] =
         overview(&measured.iter().collect::<Vec<_>>()).map(|table| aligned(&table));
     println!(
         "Mean instructions:\n\n{everywhere}\n\n\
-         A curve takes {} bytes with 0, 4, 8 and 16 octaves. Other methods, with errors as shares of the interval:\n\n\
-         {curves}\n\n\
-         Mean cycles of a Cortex-M4F by a model, without wait states, and bytes of code:\n\n{calls}",
-        bytes_of_curves()
+         Mean cycles of a Cortex-M4F by a model, without wait states, and bytes of code and of a curve's data:\n\n{calls}"
     );
     Ok(())
 }
 
-fn bytes_of_curves() -> String {
-    CURVE_BYTES.map(|bytes| bytes.to_string()).join(", ")
+/// The data of a call's curve.
+fn data_bytes(function: Function, octaves: usize) -> Option<u32> {
+    let bytes = match function {
+        NearerEnd => size_of::<baseline::NearerEnd>(),
+        Newton => size_of::<TextbookNewton>(),
+        Table => size_of::<InverseTable<256>>(),
+        SqrtLibm | SqrtMicromath | SqrtFpu => size_of::<StraightRamps>(),
+        _ => CURVE_BYTES[OCTAVES.iter().position(|count| *count == octaves)?],
+    };
+    Some(bytes as u32)
 }
 
 /// A table as a terminal shows it, without the columns that hold nothing.
@@ -102,15 +104,15 @@ fn aligned(table: &str) -> String {
 pub fn write() -> Result {
     let plan = [
         series(&[InverseCdf], &OCTAVES, On::All),
-        series(&[Static, Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::All),
-        series(&SQUARE_ROOTS, &[DEFAULT], On::All),
+        series(&[Static, Cdf, Openness, TickStep, Schedule], &[DEFAULT], On::All),
+        series(&BASELINES, &[DEFAULT], On::All),
         series(&[Construct], &TOLD, On::All),
     ];
     let m4f = Measured::new(M4F, OPT_LEVEL, &plan.concat())?;
     let plan = [
         series(&[InverseCdf], &TOLD, On::Rows),
-        series(&[Static, Cdf, Openness, TickStep, Schedule, Newton, Table], &[DEFAULT], On::Rows),
-        series(&SQUARE_ROOTS, &[DEFAULT], On::Rows),
+        series(&[Static, Cdf, Openness, TickStep, Schedule], &[DEFAULT], On::Rows),
+        series(&BASELINES, &[DEFAULT], On::Rows),
         series(&[Construct], &TOLD, On::Rows),
     ];
     let others = [M33, M0, IMAFC, IMC].map(|core| Measured::new(core, OPT_LEVEL, &plan.concat()));
@@ -156,8 +158,8 @@ fn names(cores: &[&Measured]) -> String {
     figures(cores.iter().map(|core| Some(core.name.replace("Cortex-", ""))))
 }
 
-/// What a call costs, beside the baselines; its instructions everywhere; what the baselines take and how wrong they are.
-fn overview(cores: &[&Measured]) -> [String; 3] {
+/// What a call costs, beside the baselines, and its instructions everywhere.
+fn overview(cores: &[&Measured]) -> [String; 2] {
     let m4f = cores[0];
     let rows = CALLS.map(|(name, function, octaves)| {
         let on_rows =
@@ -167,11 +169,15 @@ fn overview(cores: &[&Measured]) -> [String; 3] {
             m4f.worst(function, octaves).map(|(cycles, _)| cycles),
             m4f.worst_direct(function, octaves).map(|(cycles, _)| cycles),
             m4f.code_bytes(function, octaves),
+            data_bytes(function, octaves),
         ];
         let means = means.map(|mean| Some(format!("{:.0}", mean?)));
         format!("{name} | {} | {}", figures(means), figures(counts))
     });
-    let header = format!("call | {} | typical | worst | direct | code, bytes", ROWS.join(" | "));
+    let header = format!(
+        "call | {} | typical | worst | direct | code, bytes | data, bytes",
+        ROWS.join(" | ")
+    );
     let calls = table(&header, 1, rows);
 
     let mut rows = Vec::new();
@@ -192,30 +198,14 @@ fn overview(cores: &[&Measured]) -> [String; 3] {
     }
     let everywhere = table(&format!("mean instructions | {}", names(cores)), 1, rows);
 
-    let ramps = size_of::<StraightRamps>();
-    let baselines = [
-        ("textbook Newton in `f32`", Newton, size_of::<TextbookNewton>()),
-        ("linear table of 256", Table, size_of::<InverseTable<256>>()),
-        ("square root: `libm`, FPU", SqrtLibm, ramps),
-        ("square root: `micromath`", SqrtMicromath, ramps),
-    ];
-    let rows = baselines.map(|(name, function, bytes)| {
-        let errors = [0, 1, TRAPEZOID].into_iter().flat_map(|row| {
-            let errors = errors(row, function);
-            [0, 1].map(|i| Some(format!("{:.1e}", errors?[i])))
-        });
-        format!("{name} | {bytes} | {}", figures(errors))
-    });
-    let header = ROWS[..=TRAPEZOID].iter().map(|curve| format!("{curve}: largest error | mean"));
-    let header = format!("| bytes | {}", header.collect::<Vec<_>>().join(" | "));
-    [calls, everywhere, table(&header, 1, rows)]
+    [calls, everywhere]
 }
 
 /// The first screen.
 fn introduction(cores: &[&Measured]) -> String {
     let [calls, ..] = overview(cores);
     // Of the first core there are cycles.
-    let [_, everywhere, curves] = overview(&cores[1..]);
+    let [_, everywhere] = overview(&cores[1..]);
     format!(
         "Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times, with `OCTAVES = 8` if no other number is named. *Soft* collects a third
 of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps; *typical* is the mean over {TYPICAL} curves. *Worst* is the
@@ -229,52 +219,8 @@ The same on other cores, in instructions:
 
 {everywhere}
 
-A curve takes {bytes} bytes with 0, 4, 8 and 16 octaves. What other methods take, and their errors over a million uniform `u`, as
-shares of the interval:
-
-{curves}",
-        bytes = bytes_of_curves(),
+[speed-vs-error.md](speed-vs-error.md) says what the other methods are, and has the errors of all."
     )
-}
-
-/// The largest and the mean error of a baseline on a curve that it serves, as shares of the interval.
-fn errors(row: usize, function: Function) -> Option<[f64; 2]> {
-    const COUNT: u32 = 1 << 20;
-    let curve = &CURVES[row];
-    let (opening, closing) = curve.ramps(false);
-    let ours = ShutterCurve::<8>::with_octaves(opening, closing).expect("a good curve");
-    let newton = TextbookNewton::new(curve.opening, curve.closing);
-    let table = InverseTable::<256>::new(|u| ours.inverse_cdf(u));
-    let ramps = curve.straight();
-    let [start, end] = [ours.open_start(), ours.close_end()].map(f64::from);
-    let errors = (0..COUNT).map(uniform).map(|u| {
-        let t = match function {
-            Newton => newton.inverse_cdf(u),
-            Table => table.inverse_cdf(u),
-            SqrtMicromath => ramps.inverse_cdf(u, F32Ext::sqrt),
-            _ => ramps.inverse_cdf(u, libm::sqrtf),
-        };
-        // The error of a square root is too near to this crate's to be held against that.
-        let exact = if row == TRAPEZOID { of_trapezoid(u) } else { ours.inverse_cdf(u).into() };
-        (f64::from(t) - exact).abs() / (end - start)
-    });
-    let (most, sum) = errors.fold((0.0f64, 0.0), |(most, sum), e| (most.max(e), sum + e));
-    let is_served = !function.is_for_straight_ramps() || row == TRAPEZOID;
-    is_served.then_some([most, sum / f64::from(COUNT)])
-}
-
-/// The exact inverse of *trapezoid*, which opens from 0 to 1/4 and closes from 3/4 to 1.
-fn of_trapezoid(u: f32) -> f64 {
-    let u = f64::from(u);
-    let ramp = |u: f64| (0.375 * u).sqrt();
-    let share = 0.125 / 0.75;
-    if u < share {
-        ramp(u)
-    } else if u > 1.0 - share {
-        1.0 - ramp(1.0 - u)
-    } else {
-        0.125 + 0.75 * u
-    }
 }
 
 /// What every call takes beside time, on each core, and what building a curve does.

@@ -1,6 +1,7 @@
 //! The error of every method, on the typical curves.
 
-use crate::methods::METHODS;
+use crate::methods::{METHODS, Method, leaf};
+use crate::support::cases::judge;
 use crate::support::curves::{Kind, Rng, named, random_typical};
 use crate::support::oracle::{Curve, Exact};
 
@@ -21,6 +22,9 @@ pub struct Figures {
     pub steps_back: f64,
     /// NaN, outside the interval, or off by more than 1 % of it.
     pub failures: f64,
+    /// At the `u` that are likely to break a solver: the greatest error beyond the rounding of the time, as a fraction of the
+    /// interval, and steps back.
+    pub hard: (f64, f64),
 }
 
 /// The named typical curves, and random ones.
@@ -28,6 +32,11 @@ pub fn curves(random: u64) -> Vec<Curve> {
     let named = named().into_iter().filter(|named| named.kind == Kind::Typical);
     let random = (0..random).map(|i| random_typical(SEED, i));
     named.map(|named| named.curve).chain(random).collect()
+}
+
+/// The time as a caller has it who mends what can be seen: NaN, and times outside the interval.
+pub fn mended(curve: &Curve, t: f32) -> f32 {
+    if t >= curve.open_start() { t.min(curve.close_end()) } else { curve.open_start() }
 }
 
 /// Half of the samples are.
@@ -64,8 +73,7 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
                 let t = inverse.inverse_cdf(u);
                 let error = |t: f32| (f64::from(t) - truth.hi).abs() / length;
                 figures.failures += f64::from(!(t >= start && t <= end && error(t) <= 0.01));
-                // The errors are those of a caller who mends what can be seen: NaN, and times outside.
-                let t = if t >= start { t.min(end) } else { start };
+                let t = mended(curve, t);
                 figures.of_interval.0 = figures.of_interval.0.max(error(t));
                 figures.of_interval.1 += if is_uniform(i) { error(t) } else { 0.0 };
                 // No error is relative to a time of 0.
@@ -81,6 +89,9 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
             let times: Vec<f32> = neighbours.map(|u| inverse.inverse_cdf(u)).collect();
             let back = times.windows(2).filter(|pair| pair[1] < pair[0]);
             figures.steps_back += back.count() as f64;
+            let verdict = judge(&exact, |u| mended(curve, inverse.inverse_cdf(u)));
+            figures.hard.0 = figures.hard.0.max(verdict.of_interval);
+            figures.hard.1 += f64::from(verdict.steps_back) * 1e6 / f64::from(verdict.count);
         }
     }
     for (figures, measured) in all.iter_mut().zip(measured) {
@@ -89,6 +100,17 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
         figures.of_interval.1 /= 0.5 * count;
         figures.failures *= 1e6 / count;
         figures.steps_back *= 1e6 / count;
+        figures.hard.1 /= figures.curves as f64;
     }
     all
+}
+
+/// The greatest error of what firmware asks, frames of up to 64 triggers of a leaf shutter, as a fraction of the interval.
+pub fn of_triggers(method: Method) -> Option<f64> {
+    let curve = leaf();
+    let (inverse, exact) = (method.build(&curve)?, Exact::new(&curve));
+    let frames = (1..=64).flat_map(|n| (0..n).map(move |i| (i as f32 + 0.5) / n as f32));
+    let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+    let error = |u| (f64::from(inverse.inverse_cdf(u)) - exact.inverse_cdf(u).hi).abs() / length;
+    Some(frames.map(error).fold(0.0, f64::max))
 }

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use micromath::F32Ext;
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::support::baseline::{InverseTable, StraightRamps, TextbookNewton};
+use crate::support::baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
 use crate::support::cases::shutter;
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Points};
@@ -40,6 +40,15 @@ pub const CURVES: [(&str, Curve); 4] = [
 /// The places of two of them.
 pub const SOFT: usize = 0;
 pub const TRAPEZOID: usize = 2;
+
+/// The leaf shutter of `cli/traces/leaf.csv`, as it is fitted.
+pub fn leaf() -> Curve {
+    let (opening, closing) = CubicBezier::shutteropening(
+        [0.004247017, 0.0068739066, 0.010958795, 0.0129576195],
+        [0.1227013, 0.0005207, 0.1941086, 0.9329665, 0.852301, 0.9329665, 0.9066355, 0.0005207],
+    );
+    Curve::shutter(opening.points(), closing.points())
+}
 
 /// Fractions in no order: more than a branch predictor learns by heart, so that every branch on u is taken by surprise.
 pub fn fractions() -> Vec<f32> {
@@ -92,6 +101,7 @@ pub enum Method {
     Octaves4,
     Octaves8,
     Octaves16,
+    Nearer,
     Textbook,
     Bracketed,
     Doubles,
@@ -106,11 +116,12 @@ pub enum Method {
 use Method::*;
 
 /// This crate's, those for every curve, and those for straight ramps alone.
-pub const METHODS: [Method; 13] = [
+pub const METHODS: [Method; 14] = [
     Octaves0,
     Octaves4,
     Octaves8,
     Octaves16,
+    Nearer,
     Textbook,
     Bracketed,
     Doubles,
@@ -138,6 +149,7 @@ impl Method {
             Octaves4 => "`OCTAVES = 4`",
             Octaves8 => "`OCTAVES = 8`",
             Octaves16 => "`OCTAVES = 16`",
+            Nearer => "Newton, nearer end",
             Textbook => "textbook Newton",
             Bracketed => "bracketed Newton",
             Doubles => "Newton in f64",
@@ -169,6 +181,7 @@ impl Method {
             Octaves4 => size_of::<ShutterCurve<4>>(),
             Octaves8 => size_of::<ShutterCurve<8>>(),
             Octaves16 => size_of::<ShutterCurve<16>>(),
+            Nearer => size_of::<NearerEnd>(),
             Textbook => size_of::<TextbookNewton>(),
             Bracketed => size_of::<Parts<f32>>(),
             Doubles => size_of::<Parts<f64>>(),
@@ -191,6 +204,10 @@ impl Method {
             Octaves4 => task.on(shutter::<4>(c)),
             Octaves8 => task.on(shutter::<8>(c)),
             Octaves16 => task.on(shutter::<16>(c)),
+            Nearer => {
+                let newton = NearerEnd::new(c.opening, c.closing);
+                task.on(move |u| newton.inverse_cdf(u, f32::sqrt))
+            }
             Textbook => {
                 let newton = TextbookNewton::new(c.opening, c.closing);
                 task.on(move |u| newton.inverse_cdf(u))

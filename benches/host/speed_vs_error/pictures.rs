@@ -7,7 +7,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
-use crate::methods::Method::{Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024};
+use crate::methods::Method::{
+    Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024,
+};
 use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
 use crate::report::{Measured, cycles, name, time};
 use crate::support::cases::{judge, shutter};
@@ -151,12 +153,14 @@ pub fn frontier(path: &str, measured: &Measured) {
                 draw(&mut graph, [Circle::new(at(mean), 8, color.stroke_width(4))]);
                 // Where two points come close, their names keep apart.
                 let (dx, dy, h) = match method {
-                    Octaves16 => (0, -26, HPos::Right),
-                    Octaves8 => (8, -26, HPos::Left),
+                    Octaves16 => (-24, -26, HPos::Right),
+                    Octaves8 => (0, -54, HPos::Center),
+                    Octaves4 => (0, -26, HPos::Center),
                     Table256 => (-18, -10, HPos::Right),
                     Table1024 => (-18, 14, HPos::Right),
                     RootFpu => (-18, 0, HPos::Right),
-                    // Below its ring.
+                    // Below the ring.
+                    Nearer => (0, 118, HPos::Center),
                     RootLibm => (0, 104, HPos::Center),
                     _ => (18, 0, HPos::Left),
                 };

@@ -1,13 +1,20 @@
 //! The report's text.
 
-use crate::accuracy::Figures;
-use crate::methods::Method::{Table256, Textbook};
+use rayon::prelude::*;
+
+use crate::accuracy::{Figures, mended, of_triggers};
+use crate::methods::Method::{Nearer, Table256, Textbook};
 use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
-use crate::support::cases::{CASES, judge, shutter};
-use crate::support::oracle::Exact;
+use crate::support::aimed::{FAMILIES, aimed, aimed_us};
+use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
+use crate::support::curves::Rng;
+use crate::support::oracle::{Curve, Exact};
 use crate::support::rendering::{PULSES, Pulses};
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
+
+/// The curves of each family of `aimed`.
+const AIMED: u64 = 1000;
 
 /// Everything measured.
 pub struct Measured {
@@ -54,7 +61,7 @@ fractions each: half of them uniform, a quarter towards either end by octaves, w
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
   other columns a time outside the interval counts as its nearer end, and NaN as its start.
 
-The time of `inverse_cdf` as a share of the textbook Newton's:
+The time of `inverse_cdf` as a share of that of *{}*, the fastest of the others whose errors are of the same order:
 
 {}
 
@@ -64,15 +71,16 @@ Full dots are the greatest error, rings the mean.",
         std::env::consts::ARCH,
         measured.curves,
         measured.samples,
+        Nearer.name(),
         ratios(measured),
     )
 }
 
-/// The times of this crate's methods on *soft* and *all ramp*, as shares of the textbook Newton's.
+/// The times of this crate's methods on *soft* and *all ramp*, as shares of the careful Newton's.
 pub fn ratios(measured: &Measured) -> String {
     let rows = METHODS.iter().filter(|method| method.is_ours()).map(|method| {
         let shares = measured.times[..2].iter().map(|(times, _)| {
-            let share = time(times, *method).zip(time(times, Textbook)).map(|(own, one)| own / one);
+            let share = time(times, *method).zip(time(times, Nearer)).map(|(own, one)| own / one);
             share.map_or_else(|| "-".into(), |share| format!("{share:.2}"))
         });
         [method.name().into()].into_iter().chain(shares).collect()
@@ -120,14 +128,22 @@ fn methods(measured: &Measured) -> String {
     let header = "method | forward: max | mean | of the interval: max | mean | backward, ulp(u) \
                   | steps back | failures";
     let errors = table(header, 1, errors);
+    let aimed = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
+        let (most, back) = figures.hard;
+        let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
+        vec![method.name().into(), number(most), number(back), triggers]
+    });
+    let aimed = table("method | aimed and tiny `u` | steps back | a leaf's triggers", 1, aimed);
     format!(
         "## The methods
 
-The first four are this crate. The others are written from public descriptions: Newton in `f32` on sextics in powers
-of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer); Newton inside a bracket until an
-absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally spaced `u`, joined by lines
-or by monotone cubics. The last three are for straight ramps alone, which take one square root, from the nearer end: by
-`libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
+The first four are this crate. *{nearer}* is what one writes without it, with care: sextics in powers of p from both ends
+of each ramp, in `f32` but built in `f64`; `u` counted from the nearer end; and Newton's steps inside a bracket, from where a
+straight ramp has its answer, until the residual is 3e-7 of the target, and one more. The others are written from public
+descriptions: Newton in `f32` on sextics in powers of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer);
+Newton inside a bracket until an absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally
+spaced `u`, joined by lines or by monotone cubics. The last three are for straight ramps alone, which take one square root, from
+the nearer end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
 
 ### Cost
 
@@ -141,9 +157,16 @@ The curves are those of [cost.md](cost.md), which has cycles.
 
 The square roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
 
+The largest errors, as shares of the interval, where it is harder and where it is easier. *Aimed and tiny* `u` are some 1000 on each of
+the same curves, next to joins and kinks and as small as an `f32` can be; the rounding of the time to an `f32` is forgiven there.
+*A leaf's triggers* are frames of up to 64 on the leaf shutter of `cli/traces/leaf.csv`: what firmware asks.
+
+{aimed}
+
 ![Worst cases](worst-cases.svg)
 
 Each random curve's worst `u`, over about 1000 that are likely to be bad. Where several lie at one place, it has one dot.",
+        nearer = Nearer.name(),
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
@@ -170,34 +193,48 @@ Both need `p` for a `t`, which no table gives: this crate solves by its own sear
     )
 }
 
-/// A row for each case that is hard for another method, and one for the others.
+/// A row for each case that is hard for another method, one for the others, and one for curves that meet difficulties exactly.
 fn hard_cases() -> String {
-    let judged = CASES.iter().map(|case| {
-        let curve = case.curve();
-        let (exact, ours) = (Exact::new(&curve), shutter::<8>(&curve));
-        let [textbook, by_table] = [Textbook, Table256].map(|method| {
-            let inverse = method.build(&curve).expect("it serves every curve");
-            judge(&exact, |u| inverse.inverse_cdf(u)).of_interval
+    let judged = |curve: &Curve, us: &[f32]| {
+        let exact = Exact::new(curve);
+        let others = [Nearer, Textbook, Table256].map(|method| {
+            let inverse = method.build(curve).expect("it serves every curve");
+            judge_on(&exact, |u| mended(curve, inverse.inverse_cdf(u)), us).of_interval
         });
-        let own = judge(&exact, |u| ours.inverse_cdf(u));
-        (case.name, [textbook, by_table, own.of_interval, own.backward])
+        let ours = shutter::<8>(curve);
+        let own = judge_on(&exact, |u| ours.inverse_cdf(u), us);
+        [others[0], others[1], others[2], own.of_interval, own.backward]
+    };
+    let cases = CASES.iter().map(|case| {
+        let curve = case.curve();
+        (case.name, judged(&curve, &breaking_us(&Exact::new(&curve))))
     });
     let (told, others): (Vec<_>, Vec<_>) =
-        judged.partition(|(_, [textbook, by_table, ..])| textbook.max(*by_table) > 0.01);
-    let most = |i: usize| others.iter().map(|(_, figures)| figures[i]).fold(0.0, f64::max);
+        cases.partition(|(_, figures)| figures[..3].iter().any(|error| *error > 0.01));
+    let row = |name: String, figures: [f64; 5]| {
+        [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>()
+    };
+    let most = |all: Vec<[f64; 5]>| {
+        std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max))
+    };
     let name = format!("{} others, the worst of each column", others.len());
-    let worst = [name].into_iter().chain([0, 1, 2, 3].map(|i| number(most(i)))).collect();
-    let told = told
-        .into_iter()
-        .map(|(name, figures)| [name.into()].into_iter().chain(figures.map(number)).collect());
-    let header = "case | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
-    let table = table(header, 1, told.chain([worst]));
+    let others = row(name, most(others.into_iter().map(|(_, figures)| figures).collect()));
+    let aimed = (0..FAMILIES.len() as u64 * AIMED).into_par_iter().map(|i| {
+        let curve = aimed((i / AIMED) as usize, 1, i);
+        judged(&curve, &aimed_us(&Exact::new(&curve), &mut Rng::new(1, i)))
+    });
+    let aimed: Vec<_> = aimed.collect();
+    let name = format!("{} aimed curves, the worst of each column", aimed.len());
+    let aimed = row(name, most(aimed));
+    let told = told.into_iter().map(|(name, figures)| row(name.into(), figures));
+    let header = "case | Newton, nearer end | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
+    let table = table(header, 1, told.chain([others, aimed]));
     format!(
         "## Hard cases
 
-The greatest error over about 1000 `u` a curve, as a share of the interval, and the backward error of this crate with 8
-octaves, where another method errs by more than 1 %. Far from time 0 an ulp of time is a large share of the interval. Each
-case is judged in `tests/promises.rs`.
+The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, and the
+backward error of this crate with 8 octaves, where another method errs by more than 1 %. Each case is judged in
+`tests/promises.rs`; `tests/support/aimed.rs` draws curves that meet difficulties exactly, and the `u` next to them.
 
 {table}"
     )

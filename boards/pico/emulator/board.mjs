@@ -1,46 +1,24 @@
 // An emulated Pico: rp2040js, with its peripherals stepped in time with the processor, 8 ns a cycle.
 //
 // What of it differs from the chip: the DMA takes no time, neither does the entry into an interrupt; an input is seen at
-// once, without the two flip-flops that synchronise it; there is one core. Added to it are the boot ROM's functions for the flash
-// (rom.mjs), and the UART's mark on a byte before which others were lost.
+// once, without the two flip-flops that synchronise it; there is one core.
 
 import { readFileSync } from "node:fs";
 import { ConsoleLogger, GPIOPinState, LogLevel, RP2040 } from "rp2040js";
-import { Rom } from "./rom.mjs";
 
 const FLASH = 0x10000000;
 /** Where the vectors are, behind the second boot stage. */
 const VECTORS = FLASH + 0x100;
-/** The first of the watchdog's scratch registers. */
-const SCRATCH = 0x4005800c;
-/** The last two sectors of the Pico's flash, where settings are saved. */
-const SAVED = 2 * 1024 * 1024 - 8192;
 const NANOSECONDS = 8;
-/** The UART's mark on a byte before which others were lost. */
-const OVERRUN = 1 << 11;
-/** One byte of 10 bits at 115 200 baud. */
-const BYTE_CYCLES = Math.round(125e6 / 11520);
 /** The emulator's name for it. */
 const WAIT_FOR_PIN = 1;
 
 export class Board {
-  /** With what `saved` holds of an earlier board's flash. */
-  constructor(elf, saved) {
+  constructor(elf) {
     this.cycle = 0;
-    this.asleep = 0;
-    this.lines = [];
-    this.heard = [];
-    this.toSend = [];
-    this.nextByte = 0;
-    this.isOverrun = false;
-
     const mcu = (this.mcu = new RP2040());
     mcu.logger = new ConsoleLogger(LogLevel.Error);
     load(mcu, readFileSync(elf));
-    if (saved) mcu.flash.set(saved, SAVED);
-    this.rom = new Rom(mcu, (cycles) => {
-      for (; cycles > 0; cycles--) this.#tick();
-    });
     // Without a boot ROM, which nobody may copy: its job is done here.
     if (!isBootStage(mcu.flash.subarray(0, 256))) throw new Error("the chip would not start: no second boot stage");
     mcu.core.VTOR = VECTORS;
@@ -48,16 +26,8 @@ export class Board {
     mcu.onBreak = () => {
       throw new Error(`the firmware panicked at cycle ${this.cycle}`);
     };
-    mcu.uart[0].onByte = (byte) => this.#hear(byte);
     // By itself the emulator runs these in bursts, in no relation to the processor.
     for (const pio of mcu.pio) pio.run = () => {};
-  }
-
-  /** Writes a name of up to 8 bytes where a firmware with the feature `faults` looks for one. */
-  plant(fault) {
-    const name = Buffer.alloc(8);
-    name.write(fault);
-    for (const i of [0, 4]) this.mcu.writeUint32(SCRATCH + i, name.readUInt32LE(i));
   }
 
   /** Calls `listener(isHigh, cycle)` at each edge of a pin that the firmware drives. */
@@ -73,59 +43,28 @@ export class Board {
     this.mcu.gpio[pin].setInputValue(isHigh);
   }
 
-  /** What the flash holds of settings. */
-  saved() {
-    return this.mcu.flash.slice(SAVED, SAVED + 8192);
-  }
-
-  /** Sends bytes to the serial line, at its pace. */
-  send(bytes) {
-    this.toSend.push(...bytes);
-  }
-
   /** Runs for so many cycles. */
   run(cycles) {
     for (const end = this.cycle + cycles; this.cycle < end; ) this.#instruction();
   }
 
-  /** Runs until the condition holds, at most so many cycles: did it? */
-  runUntil(condition, cycles) {
-    for (const end = this.cycle + cycles; this.cycle < end; ) {
-      if (condition()) return true;
-      this.#instruction();
-    }
-    return condition();
-  }
-
-  /** Does the first state machine wait for the pin that starts a frame? */
-  isWaitingForPin() {
-    const { waiting, waitType } = this.mcu.pio[0].machines[0];
-    return waiting && waitType === WAIT_FOR_PIN;
+  /** Runs until the first state machine waits for the pin that starts a frame. */
+  arm() {
+    const machine = this.mcu.pio[0].machines[0];
+    for (const end = this.cycle + 1e7; !(machine.waiting && machine.waitType === WAIT_FOR_PIN); this.#instruction())
+      if (this.cycle > end) throw new Error("no frame is armed");
   }
 
   #instruction() {
     const { core } = this.mcu;
-    if (core.waiting) {
-      this.asleep += 1;
-      this.#tick();
-      return;
-    }
-    if (core.PC < 0x4000) {
-      this.rom.call(core);
-      return;
-    }
-    this.rom.check(core);
     const begun = core.cycles;
-    core.executeInstruction();
+    if (core.waiting) core.cycles += 1;
+    else core.executeInstruction();
     for (let spent = core.cycles - begun; spent > 0; spent--) this.#tick();
   }
 
   #tick() {
     const { mcu } = this;
-    if (this.toSend.length > 0 && this.cycle >= this.nextByte) {
-      this.#receive(this.toSend.shift());
-      this.nextByte = this.cycle + BYTE_CYCLES;
-    }
     mcu.clock.tick(NANOSECONDS);
     for (const pio of mcu.pio) {
       if (pio.stopped) continue;
@@ -133,21 +72,6 @@ export class Board {
       pio.checkChangedPins();
     }
     this.cycle += 1;
-  }
-
-  /** The emulator's UART drops what it has no room for, and does not say so; the chip's marks the next byte. */
-  #receive(byte) {
-    const [uart] = this.mcu.uart;
-    if (uart.rxFIFO.full) this.isOverrun = true;
-    else {
-      uart.feedByte(byte | (this.isOverrun ? OVERRUN : 0));
-      this.isOverrun = false;
-    }
-  }
-
-  #hear(byte) {
-    if (byte !== 0x0a) this.heard.push(byte);
-    else this.lines.push(Buffer.from(this.heard.splice(0)).toString().trimEnd());
   }
 }
 

@@ -7,25 +7,23 @@
 // exposure     TV 6.2541 ms, fully open for as much light
 // efficiency   71.8 %
 // timer        100000000 Hz
-// delay        4.247 ms from the sync's edge to the start of opening
+// delay        4.247 ms from the sync's rising edge to the start of opening
 // gap          at least 0.1 ms; the closest two come 0.39088 ms apart
 // set-up       emulated: equal flashes while the camera's own shutter stays open
 // triggers     16; up to 62 keep the gap
 // direct       frames of up to 630 triggers never need a search
 
-use shutter_curve::{ShutterCurve, valid};
-
-/// The shutter, its times in seconds.
-#[allow(dead_code, clippy::unreadable_literal)]
-#[rustfmt::skip]
-pub static SHUTTER: ShutterCurve = valid(ShutterCurve::shutteropening(
-    [0.004247017, 0.0068739066, 0.010958795, 0.0129576195],
-    [0.1227013, 0.0005207, 0.1941086, 0.9329665, 0.852301, 0.9329665, 0.9066355, 0.0005207],
-));
-
 /// The timer's rate.
 #[allow(dead_code)]
 pub const TIMER_HZ: u32 = 100_000_000;
+
+/// Which edge of the camera's sync counts: the falling one, or the rising one.
+#[allow(dead_code)]
+pub const SYNC_FALLS: bool = false;
+
+/// So many flashes.
+#[allow(dead_code)]
+pub const COUNT: usize = 16;
 
 /// From the edge of the camera's sync to the start of opening.
 #[allow(dead_code)]
@@ -34,13 +32,20 @@ pub const DELAY_TICKS: u32 = 424_702;
 /// When to trigger, counted from the start of opening.
 #[allow(dead_code, clippy::unreadable_literal)]
 #[rustfmt::skip]
-pub const TICKS: [u32; 16] = [
+pub const TICKS: [u32; COUNT] = [
     129565, 192642, 236786, 276309, 315398, 354486, 393574, 432663, 471751, 510839, 549928, 589016,
     628104, 667192, 707857, 762604,
 ];
 
-/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync:
-/// `edge + DELAY_TICKS + TICKS[i]`, wrapping.
+/// When to switch flash `i` on, and when off, in ticks after the edge: it is `width` ticks long.
+#[allow(dead_code)]
+#[must_use]
+pub const fn on_off(i: usize, width: u32) -> (u32, u32) {
+    let on = DELAY_TICKS + TICKS[i];
+    (on, on + width)
+}
+
+/// The timer's counts at which to trigger, where it counted `edge` at the edge of the camera's sync; they wrap.
 #[allow(dead_code)]
 #[must_use]
 pub fn due(edge: u32) -> impl ExactSizeIterator<Item = u32> {

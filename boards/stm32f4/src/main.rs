@@ -1,4 +1,4 @@
-//! Fires the pulses of `leaf.rs` after each rising edge of a camera's sync. The timer captures the edge; its compare register
+//! Fires the flashes of `leaf.rs` after each edge of a camera's sync. The timer captures the edge; its compare register
 //! switches the lamp's line, and DMA writes the next edge into that: the processor has no part in when a pulse comes.
 #![no_std]
 #![no_main]
@@ -13,23 +13,32 @@ use stm32f4xx_hal::pac::{self, DMA1, TIM2};
 use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::rcc::{Config, Enable, Reset};
 
-/// How long the lamp's line is high: 2 µs.
+/// The timer's rate, which `leaf.rs` has to be planned for.
+const TICK_HZ: u32 = 100_000_000;
+/// How long a flash is where `leaf.rs` has triggers, not pulses: 2 µs.
 const PULSE: u32 = 200;
-/// What the DMA has, at least, to write the next edge before it is due: 0.5 µs.
+/// What the DMA has, at least, from one edge of the lamp's line to the next: 0.5 µs.
 const DMA_TIME: u32 = 50;
-/// What the processor has, at least, to arm a frame before its first pulse: 20 µs.
-const ARMING: u32 = 2_000;
+/// What the processor has, at least, to arm a frame before its first flash: 20 µs, and 0.4 µs a flash.
+const ARMING: u32 = 2_000 + 40 * N as u32;
 
-const N: usize = leaf::TICKS.len();
+const N: usize = leaf::COUNT;
 const _: () = {
-    assert!(2 * N <= u16::MAX as usize, "the DMA counts with 16 bits");
-    assert!(PULSE >= DMA_TIME && leaf::DELAY_TICKS + leaf::TICKS[0] > ARMING);
-    let mut i = 1;
+    assert!(
+        leaf::TIMER_HZ == TICK_HZ,
+        "leaf.rs is of another timer: plan it with timer_hz = 100_000_000"
+    );
+    assert!(0 < N && N <= 8_192, "the memory has room for 1 to 8192 flashes");
+    let (mut i, mut ready) = (0, ARMING);
     while i < N {
+        let (on, off) = leaf::on_off(i, PULSE);
         assert!(
-            leaf::TICKS[i] - leaf::TICKS[i - 1] >= PULSE + DMA_TIME,
-            "the pulses are too close"
+            i > 0 || on >= ready,
+            "the first flash comes too soon after the sync's edge: see ARMING"
         );
+        assert!(on >= ready, "a flash comes too soon after the one before it: see DMA_TIME");
+        assert!(off >= on + DMA_TIME, "a flash is too short: see DMA_TIME");
+        ready = off + DMA_TIME;
         i += 1;
     }
 };
@@ -41,18 +50,21 @@ fn main() -> ! {
 
     let chip = pac::Peripherals::take().unwrap();
     // The crystal of 25 MHz that a Black Pill has: the chip's own oscillator is off by 1 %.
-    let mut rcc = chip.RCC.freeze(Config::hse(25.MHz()).sysclk(100.MHz()).pclk1(50.MHz()));
-    assert!(rcc.clocks.timclk1().raw() == leaf::TIMER_HZ);
+    let mut rcc =
+        chip.RCC.freeze(Config::hse(25.MHz()).sysclk(TICK_HZ.Hz()).pclk1((TICK_HZ / 2).Hz()));
+    assert!(rcc.clocks.timclk1().raw() == TICK_HZ);
     let pins = chip.GPIOA.split(&mut rcc);
-    let _sync = pins.pa0.into_alternate::<1>().internal_resistor(Pull::Down);
+    let pull = if leaf::SYNC_FALLS { Pull::Up } else { Pull::Down };
+    let _sync = pins.pa0.into_alternate::<1>().internal_resistor(pull);
     let _lamp = pins.pa2.into_alternate::<1>();
 
     let (timer, dma) = (chip.TIM2, chip.DMA1);
     set_up(&timer, &dma, &mut rcc);
     loop {
         let Some(edge) = captured(&timer) else { continue };
-        for (pair, on) in EDGES.chunks_exact_mut(2).zip(leaf::due(edge)) {
-            pair.copy_from_slice(&[on, on.wrapping_add(PULSE)]);
+        for (i, pair) in EDGES.chunks_exact_mut(2).enumerate() {
+            let (on, off) = leaf::on_off(i, PULSE);
+            pair.copy_from_slice(&[edge.wrapping_add(on), edge.wrapping_add(off)]);
         }
         EDGES[2 * N] = edge;
         // Too late to arm: no pulse is better than a wrong one.
@@ -72,8 +84,7 @@ fn set_up(timer: &TIM2, dma: &DMA1, rcc: &mut pac::RCC) {
     timer.arr().write(|w| w.arr().set(u32::MAX));
     timer.ccmr1_input().write(|w| w.cc1s().ti1());
     timer.ccmr2_output().write(|w| w.oc3m().force_inactive());
-    // For a falling edge: `w.cc1p().falling_edge().cc1e().enabled()...`
-    timer.ccer().write(|w| w.cc1e().enabled().cc3e().enabled());
+    timer.ccer().write(|w| w.cc1p().bit(leaf::SYNC_FALLS).cc1e().enabled().cc3e().enabled());
     timer.cr1().write(|w| w.cen().enabled());
     let stream = dma.st(1);
     stream.cr().write(|w| {

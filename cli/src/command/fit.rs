@@ -251,6 +251,12 @@ fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<
     let told = |refusal: Refusal| refusal.to_string();
     let Recording { trace, sync, reading, mut warnings } =
         trace::open(&input::read(path)?, &options).map_err(told)?;
+    if edge.is_some() && reading.is_counted() {
+        return Err(format!(
+            "--sync: times are counted from the first row, and nothing tells how long that is before or after the edge; name the \
+             column of the sync, or take a record with times; read: {reading}"
+        ));
+    }
     let options = Options {
         model: args.model,
         tolerance: args.tolerance,

@@ -32,6 +32,9 @@ pub struct Args {
     /// Print this form alone
     #[arg(long, value_name = "FORM")]
     emit: Option<Form>,
+    /// Let the module of Rust have the curve as well, for firmware with the crate
+    #[arg(long, requires = "emit")]
+    curve: bool,
     /// Write the form to this file, and not to standard output
     #[arg(long, value_name = "FILE", requires = "emit")]
     to: Option<PathBuf>,
@@ -69,14 +72,14 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
                 }
             }
             match form {
-                Some(form) => emit::emit(*form, name, plan).map_err(|reason| {
+                Some(form) => emit::emit(*form, name, plan, args.curve).map_err(|reason| {
                     format!("{}: {reason}", scenes.first().map_or(name.clone(), |it| shown(it)))
                 })?,
                 None => report::text(name, plan, report::width()),
             }
         }
         (plans, Some(form)) => {
-            emit::several(*form, args.name.as_deref().unwrap_or("shutter"), plans)?
+            emit::several(*form, args.name.as_deref().unwrap_or("shutter"), plans, args.curve)?
         }
         (plans, None) => speeds::text(plans),
     };

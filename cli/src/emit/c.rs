@@ -13,11 +13,12 @@ pub fn header(scene: &str, plan: &Planned) -> String {
 
 /* The timer's rate. */
 #define {upper}_TIMER_HZ UINT32_C({})
-#define {upper}_TRIGGERS {n}
+#define {upper}_COUNT {n}
 ",
         plan.timer().hz
     );
     if let Some(delay) = plan.delay() {
+        body += &edge(&upper, plan);
         body += &format!(
             "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
             delay.ticks
@@ -25,20 +26,42 @@ pub fn header(scene: &str, plan: &Planned) -> String {
     }
     let array = |about: &str, what: &str, ticks: String| {
         format!(
-            "\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_TRIGGERS] = {{\n{ticks}}};\n"
+            "\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n"
         )
     };
-    body += &array("When to trigger, counted from the start of opening.", "ticks", rows(ticks));
     if has_pulses(plan) {
         for (edge, which) in ["on", "off"].into_iter().zip(0..) {
             let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
-            let about = format!("When to switch the lamp {edge}, counted as {lower}_ticks are.");
+            let about =
+                format!("When to switch the lamp {edge}, counted from the start of opening.");
             body += &array(&about, edge, ticks);
         }
+    } else {
+        body += &array("When to trigger, counted from the start of opening.", "ticks", rows(ticks));
     }
     if plan.delay().is_some() {
+        let int = format!("uint{bits}_t");
+        let (doc, on, off) = match has_pulses(plan) {
+            true => (
+                "its pulse is its own, whatever `width`",
+                format!("{lower}_on[i]"),
+                format!("({int})({upper}_DELAY_TICKS + {lower}_off[i]);\n    (void)width;"),
+            ),
+            false => (
+                "it is `width` ticks long",
+                format!("{lower}_ticks[i]"),
+                format!("({int})(*on + width);"),
+            ),
+        };
         body += &format!(
             "
+/* When to switch flash `i` on, and when off, in ticks after the edge: {doc}. */
+static inline void {lower}_on_off(uint32_t i, {int} width, {int} *on, {int} *off)
+{{
+    *on = ({int})({upper}_DELAY_TICKS + {on});
+    *off = {off}
+}}
+
 /* The timer's count at such ticks, where it counted `edge` at the edge of the camera's sync. */
 static inline uint{bits}_t {lower}_due(uint{bits}_t edge, uint{bits}_t ticks)
 {{
@@ -56,21 +79,21 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let (lower, upper) = names(called);
     let bits = one.timer().bits;
     let mut body = format!(
-        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n\n",
+        "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n{}\n",
         one.timer().hz,
-        plans.len()
+        plans.len(),
+        edge(&upper, one)
     );
-    body += "typedef struct {\n    const char *name;\n    uint32_t triggers;\n";
+    body += "typedef struct {\n    const char *name;\n    uint32_t count;\n";
     if one.delay().is_some() {
         body += &format!(
             "    /* From the edge of the camera's sync to the start of opening. */\n    uint{bits}_t delay_ticks;\n"
         );
     }
-    body += &format!(
-        "    /* So many as there are triggers, counted from the start of opening. */\n    const uint{bits}_t *ticks;\n"
-    );
-    if has_pulses(one) {
-        body += &format!("    const uint{bits}_t *on;\n    const uint{bits}_t *off;\n");
+    body += "    /* So many as `count`, counted from the start of opening. */\n";
+    let arrays: &[_] = if has_pulses(one) { &["on", "off"] } else { &["ticks"] };
+    for array in arrays {
+        body += &format!("    const uint{bits}_t *{array};\n");
     }
     body += &format!(
         "}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n"
@@ -78,11 +101,8 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     for (scene, plan) in plans {
         let (lower, upper) = names(scene);
         let delay = plan.delay().map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
-        let pulses = match has_pulses(plan) {
-            true => format!(", {lower}_on, {lower}_off"),
-            false => String::new(),
-        };
-        body += &format!("    {{\"{lower}\", {upper}_TRIGGERS, {delay}{lower}_ticks{pulses}}},\n");
+        let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>();
+        body += &format!("    {{\"{lower}\", {upper}_COUNT, {delay}{}}},\n", arrays.join(", "));
     }
     body += "};\n";
     let made = format!(
@@ -93,6 +113,17 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let speeds: String = plans.iter().map(|(scene, plan)| header(scene, plan) + "\n").collect();
     // A name of its own, so that a scene may be called as the whole is.
     made + "\n" + &speeds + &guarded(&format!("{upper}_SPEEDS"), &lower, &body)
+}
+
+/// Which edge of the sync counts, if there is a delay from it.
+fn edge(upper: &str, plan: &Planned) -> String {
+    let falls = plan.delay().and_then(|delay| delay.falls);
+    falls.map_or(String::new(), |falls| {
+        let falls = u8::from(falls);
+        format!(
+            "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n"
+        )
+    })
 }
 
 fn names(scene: &str) -> (String, String) {

@@ -1,6 +1,7 @@
-//! A plan as a module of Rust.
+//! A plan as a module of Rust, which needs no crate unless its curve is asked for.
 
 use super::{MADE_BY, comment, has_pulses, name, pulses, rows, ticks};
+use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::shape::Shape;
 
@@ -10,71 +11,46 @@ const ALLOW: &str = "#[allow(dead_code)]";
 const TABLE: &str = "#[allow(dead_code, clippy::unreadable_literal)]\n#[rustfmt::skip]";
 
 /// The file of a module that is called as the scene is.
-pub fn module(scene: &str, plan: &Planned) -> String {
-    comment("// ", scene, plan) + "\n" + &items(plan)
+pub fn module(scene: &str, plan: &Planned, curve: bool) -> String {
+    comment("// ", scene, plan) + "\n" + &items(plan, curve)
 }
 
 /// The file of a module with one module for each plan, and an array of them all.
-pub fn modules(called: &str, plans: &[(String, Planned)]) -> String {
+pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let int = int(one);
-    // A speed that was measured, and is no curve, leaves the others without theirs.
-    let has_curves = plans.iter().all(|(_, plan)| plan.plan().is_some());
-    let (import, shutter) = match has_curves {
-        true => (
-            "use shutter_curve::ShutterCurve;\n\n",
-            "    /// The shutter, its times in seconds.\n    pub shutter: &'static ShutterCurve,\n",
-        ),
-        false => ("", ""),
-    };
-    let mut text = format!(
-        "// {MADE_BY}: {}, a shutter of {} speeds.
-
-{import}/// The timer's rate.
-{ALLOW}
-pub const TIMER_HZ: u32 = {};
-
-/// A speed of the shutter.
-{ALLOW}
-pub struct Speed {{
-    /// The scene's name.
-    pub name: &'static str,
-{shutter}",
-        name::shown(called),
-        plans.len(),
-        grouped(one.timer().hz)
-    );
-    if one.delay().is_some() {
-        text += &format!(
-            "    /// From the edge of the camera's sync to the start of opening.\n    pub delay_ticks: {int},\n"
-        );
-    }
+    let mut text =
+        format!("// {MADE_BY}: {}, a shutter of {} speeds.\n\n", name::shown(called), plans.len());
+    text += &common(one);
     text += &format!(
-        "    /// When to trigger, counted from the start of opening.\n    pub ticks: &'static [{int}],\n"
+        "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    pub name: &'static str,\n"
     );
-    if has_pulses(one) {
-        text += &format!(
-            "    /// When to switch the lamp on, and when off, counted as `ticks` are.\n    pub pulses: &'static [({int}, {int})],\n"
-        );
-    }
+    let delay = one.delay().map(|_| {
+        text += &format!("    /// See `DELAY_TICKS`.\n    pub delay_ticks: {int},\n");
+        "        delay_ticks: {}::DELAY_TICKS,\n"
+    });
+    let (array, field) = match has_pulses(one) {
+        true => (format!("pulses: &'static [({int}, {int})]"), "        pulses: &{}::PULSES,\n"),
+        false => (format!("ticks: &'static [{int}]"), "        ticks: &{}::TICKS,\n"),
+    };
+    text += &format!("    /// {}\n    pub {array},\n", about(one));
+    let shutter = curve.then(|| {
+        text += "    /// The shutter, its times in seconds.\n    pub shutter: &'static shutter_curve::ShutterCurve,\n";
+        "        shutter: &{}::SHUTTER,\n"
+    });
     text += &format!(
         "}}\n\n/// The speeds.\n{ALLOW}\n#[rustfmt::skip]\npub static SPEEDS: [Speed; {}] = [\n",
         plans.len()
     );
-    for (scene, plan) in plans {
-        let module = name::module(scene);
-        let delay = plan.delay().map_or("", |_| "        delay_ticks: {}::DELAY_TICKS,\n");
-        let shutter = if has_curves { "        shutter: &{}::SHUTTER,\n" } else { "" };
-        let pulses = if has_pulses(plan) { "        pulses: &{}::PULSES,\n" } else { "" };
-        let fields = format!(
-            "    Speed {{\n        name: {:?},\n{shutter}{delay}        ticks: &{{}}::TICKS,\n{pulses}    }},\n",
-            name::shown(scene)
-        );
-        text += &fields.replace("{}", &module);
+    let fields = delay.into_iter().chain([field]).chain(shutter).collect::<String>();
+    for (scene, _) in plans {
+        let fields = fields.replace("{}", &name::module(scene));
+        text +=
+            &format!("    Speed {{\n        name: {:?},\n{fields}    }},\n", name::shown(scene));
     }
     text += "];\n";
     for (scene, plan) in plans {
-        let body = comment("// ", scene, plan) + "\n" + &items(plan);
+        let body = module(scene, plan, curve);
         let indented = body.lines().map(|line| match line {
             "" => "\n".into(),
             line => format!("    {line}\n"),
@@ -86,26 +62,33 @@ pub struct Speed {{
     text
 }
 
-/// The items of a plan's module.
-fn items(plan: &Planned) -> String {
-    let (ticks, int) = (ticks(plan), int(plan));
-    let n = ticks.len();
-    let mut text = String::new();
-    if let Some(plan) = plan.plan() {
+/// What the speeds of a shutter have in common: the timer, and the edge.
+fn common(plan: &Planned) -> String {
+    let hz = grouped(plan.timer().hz);
+    let mut text = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
+    if let Some(falls) = plan.delay().and_then(|delay| delay.falls) {
         text += &format!(
-            "use shutter_curve::{{ShutterCurve, valid}};
-
-/// The shutter, its times in seconds.
-{TABLE}
-pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
-
-",
-            constructor(&plan.shape)
+            "\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\npub const SYNC_FALLS: bool = {falls};\n"
         );
     }
+    text
+}
+
+/// What the array holds.
+fn about(plan: &Planned) -> &'static str {
+    match has_pulses(plan) {
+        true => "When to switch the lamp on, and when off, counted from the start of opening.",
+        false => "When to trigger, counted from the start of opening.",
+    }
+}
+
+/// The items of a plan's module.
+fn items(plan: &Planned, curve: bool) -> String {
+    let int = int(plan);
+    let mut text = common(plan);
     text += &format!(
-        "/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {};\n",
-        grouped(plan.timer().hz)
+        "\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {};\n",
+        ticks(plan).len()
     );
     if let Some(delay) = plan.delay() {
         text += &format!(
@@ -113,49 +96,74 @@ pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
             grouped(delay.ticks)
         );
     }
-    text += &format!(
-        "\n/// When to trigger, counted from the start of opening.\n{TABLE}\npub const TICKS: [{int}; {n}] = [\n{}];\n",
-        rows(ticks),
-    );
-    if has_pulses(plan) {
-        text += &format!(
-            "
-/// When to switch the lamp on, and when off, counted as [`TICKS`] are.
-{TABLE}
-pub const PULSES: [({int}, {int}); {n}] = [
-{}];
-",
+    let (array, rows) = match has_pulses(plan) {
+        true => (
+            format!("PULSES: [({int}, {int}); COUNT]"),
             rows(pulses(plan).map(|(on, off)| format!("({on}, {off})"))),
-        );
-    }
+        ),
+        false => (format!("TICKS: [{int}; COUNT]"), rows(ticks(plan))),
+    };
+    text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(plan));
     if plan.delay().is_some() {
-        text += &due(plan, int);
+        text += &from_edge(plan, int);
     }
-    text
+    match plan.plan() {
+        Some(plan) if curve => text + &shutter(plan),
+        _ => text,
+    }
 }
 
-/// What its user adds: the edge, the delay and the ticks.
-fn due(plan: &Planned, int: &str) -> String {
-    let (what, array, item, each) = match has_pulses(plan) {
-        true => (
-            "switch the lamp on, and off",
-            "PULSES",
-            format!("({int}, {int})"),
-            "|&(on, off)| (at(on), at(off))",
-        ),
-        false => ("trigger", "TICKS", int.into(), "|&ticks| at(ticks)"),
+/// The functions that count from the edge.
+fn from_edge(plan: &Planned, int: &str) -> String {
+    let [width, on_off, item, each] = match has_pulses(plan) {
+        true => [
+            "_width",
+            "    let (on, off) = PULSES[i];\n    (DELAY_TICKS + on, DELAY_TICKS + off)",
+            &format!("({int}, {int})"),
+            "PULSES.iter().map(move |&(on, off)| (at(on), at(off)))",
+        ],
+        false => [
+            "width",
+            "    let on = DELAY_TICKS + TICKS[i];\n    (on, on + width)",
+            int,
+            "TICKS.iter().map(move |&ticks| at(ticks))",
+        ],
+    };
+    let (doc, due) = match has_pulses(plan) {
+        true => ("its pulse is its own, whatever `_width`", "switch the lamp on, and off"),
+        false => ("it is `width` ticks long", "trigger"),
     };
     format!(
         "
-/// The timer's counts at which to {what}, where it counted `edge` at the edge of the camera's sync:
-/// `edge + DELAY_TICKS + {array}[i]`, wrapping.
+/// When to switch flash `i` on, and when off, in ticks after the edge: {doc}.
+{ALLOW}
+#[must_use]
+pub const fn on_off(i: usize, {width}: {int}) -> ({int}, {int}) {{
+{on_off}
+}}
+
+/// The timer's counts at which to {due}, where it counted `edge` at the edge of the camera's sync; they wrap.
 {ALLOW}
 #[must_use]
 pub fn due(edge: {int}) -> impl ExactSizeIterator<Item = {item}> {{
     let at = move |ticks: {int}| edge.wrapping_add(DELAY_TICKS).wrapping_add(ticks);
-    {array}.iter().map(move {each})
+    {each}
 }}
 "
+    )
+}
+
+/// The curve, for the crate.
+fn shutter(plan: &Plan) -> String {
+    format!(
+        "
+use shutter_curve::{{ShutterCurve, valid}};
+
+/// The shutter, its times in seconds.
+{TABLE}
+pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
+",
+        constructor(&plan.shape)
     )
 }
 

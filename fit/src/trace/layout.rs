@@ -27,8 +27,9 @@ pub struct Layout {
 pub enum Time {
     /// A column of times, in this unit.
     Column(usize, Unit),
-    /// A column of numbers that count steps of so many seconds from a start; without a column, the rows count.
-    Steps { column: Option<usize>, start: f64, step: f64 },
+    /// A column of numbers that count steps of so many seconds, and what its first one is, or the rows counted; and the first time, if
+    /// something tells it.
+    Steps { column: Option<(usize, f64)>, start: Option<f64>, step: f64 },
 }
 
 /// Do the numbers count the rows?
@@ -66,7 +67,8 @@ impl Layout {
         if let Some(rate) = options.rate {
             // The times of the file do not count then, so those that are asked for are signals.
             let signals = columns.signals(&asked, None, sync)?;
-            let time = Time::Steps { column: None, start: 0.0, step: 1.0 / rate };
+            let step = 1.0 / rate;
+            let time = Time::Steps { column: None, start: settings.start(step), step };
             return Ok(Self { time, times: Vec::new(), signals, sync, told: Told::Asked });
         }
         let (time, asked) = match asked.as_slice() {
@@ -99,9 +101,11 @@ impl Layout {
     /// As a reader is told, where the signal is in this column.
     pub fn reading(&self, table: &Table, signal: usize) -> Reading {
         let named = |column: usize| (column + 1, table.name(column));
-        let (time, clock) = match self.time_of(signal) {
-            Time::Column(column, unit) => (Some(named(column)), Clock::Unit(unit)),
-            Time::Steps { column, step, .. } => (column.map(named), Clock::Rate(1.0 / step)),
+        let (time, clock, first) = match self.time_of(signal) {
+            Time::Column(column, unit) => (Some(named(column)), Clock::Unit(unit), None),
+            Time::Steps { column, step, start } => {
+                (column.map(|(column, _)| named(column)), Clock::Rate(1.0 / step), start)
+            }
         };
         Reading {
             columns: table.width,
@@ -109,6 +113,7 @@ impl Layout {
             signal: named(signal),
             sync: self.sync.map(named),
             clock,
+            first,
             told: self.told.clone(),
         }
     }
@@ -136,8 +141,11 @@ impl Layout {
         let value = get("value", signal)?;
         let time = match self.time_of(signal) {
             Time::Column(k, unit) => unit.seconds(get("time", k)?),
-            Time::Steps { column: Some(k), start, step } => start + step * get("time", k)?,
-            Time::Steps { column: None, start, step } => start + step * row as f64,
+            Time::Steps { column: Some((k, first)), start, step } => match start {
+                Some(start) => start + step * (get("time", k)? - first),
+                None => step * get("time", k)?,
+            },
+            Time::Steps { column: None, start, step } => start.unwrap_or(0.0) + step * row as f64,
         };
         Ok((time, value))
     }
@@ -251,8 +259,12 @@ impl Columns<'_> {
         settings: &Settings,
         asked: Option<Unit>,
     ) -> Result<(Time, Told), Refusal> {
-        let steps = |column, words, step| {
-            Ok((Time::Steps { column, start: settings.start, step }, Told::Header(words)))
+        let steps = |column: Option<usize>, words, step| {
+            let column = column.map(|k| (k, self.table.first[k][0]));
+            // What counts from below 0 tells its zero.
+            let counted = column.map(|(_, first)| first * step).filter(|first| *first < 0.0);
+            let start = settings.start(step).or(counted);
+            Ok((Time::Steps { column, start, step }, Told::Header(words)))
         };
         let Some(k) = time else {
             let (words, step) = settings.step()?.ok_or_else(|| self.no_times(settings))?;
@@ -287,8 +299,14 @@ impl Columns<'_> {
                 return steps(counter, words, step);
             }
             if let Some(unit) = unit_of_steps(&self.table.first[k], step) {
-                return Ok((Time::Column(k, unit), Told::Header(words)));
+                return match settings.unit.clone().filter(|(_, other)| *other != unit) {
+                    Some((first, _)) => Err(Refusal::TwoRates { first, second: words }),
+                    None => Ok((Time::Column(k, unit), Told::Header(words))),
+                };
             }
+        }
+        if let (Some((words, unit)), false) = (settings.unit.clone(), self.counts(k)) {
+            return Ok((Time::Column(k, unit), Told::Header(words)));
         }
         if self.counts(k) {
             let quoted = settings.unread.clone();

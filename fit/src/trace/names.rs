@@ -48,12 +48,21 @@ pub fn words(text: &str) -> Vec<String> {
 
 /// A name's words outside of its brackets, and what stands in these.
 fn parts(name: &str) -> (Vec<String>, Vec<String>) {
-    let name = name.to_lowercase();
+    let name =
+        name.split(' ').filter(|word| !is_path(word)).collect::<Vec<_>>().join(" ").to_lowercase();
     let parts = name
         .split([')', ']', '}'])
         .map(|part| part.split_once(['(', '[', '{']).unwrap_or((part, "")));
     let (outside, inside): (Vec<&str>, Vec<&str>) = parts.unzip();
     (words(&outside.join(" ")), inside.iter().map(|text| text.trim().into()).collect())
+}
+
+/// Is it a file's name behind folders, whose letters are no units?
+fn is_path(word: &str) -> bool {
+    let mut parts = word.split(['/', '\\']);
+    parts.next_back().is_some_and(|last| {
+        parts.next().is_some() && (last.contains('.') || parts.next().is_some())
+    })
 }
 
 fn is_number(word: &str) -> bool {
@@ -140,7 +149,10 @@ mod tests {
             (Said::Unit(Unit::Millisecond), "TimeMs;tms;millis;Time in ms;Elapsed msecs"),
             (Said::Unit(Unit::Microsecond), "micros();time_µs;esp_timer_us;(us)"),
             (Said::Unit(Unit::Nanosecond), "Time[ns]"),
-            (Nothing, "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms"),
+            (
+                Nothing,
+                "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms;/records/s.wav;C:\\us\\ms.csv",
+            ),
             (
                 Unclear,
                 "Time (tenths of ms);timer (half us);Time (s/div);Time (h:m:s);Time (10us);Time (1e-6 s)",

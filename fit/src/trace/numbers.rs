@@ -50,7 +50,10 @@ fn overload(field: &str) -> Option<f64> {
 
 /// Is it a number with a decimal comma?
 pub fn is_decimal(field: &str) -> bool {
-    field.contains(',') && !field.contains('.') && number(field, true).is_some()
+    let is_part = |(_, part): (&str, &str)| part.starts_with(|c: char| c.is_ascii_digit());
+    field.split_once(',').is_some_and(is_part)
+        && !field.contains('.')
+        && number(field, true).is_some()
 }
 
 /// Is it a number whose commas may part its thousands: `1,234` or `12,345,678.9`?

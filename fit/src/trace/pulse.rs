@@ -117,19 +117,18 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     let inverted = match light {
         Light::Up => false,
         Light::Down => true,
-        Light::Auto => smooth.seems_inverted(),
+        Light::Auto => smooth.seems_inverted()?,
     };
     if inverted {
         trace.values.iter_mut().for_each(|v| *v = -*v);
         smooth.turn();
     }
+    smooth.dark = smooth.dark();
     let contrast = smooth.contrast();
     if contrast < CONTRAST {
         return Err(Refusal::NoPulse { contrast });
     }
     let levels = (smooth.dark, smooth.light());
-    let has_way = light != Light::Auto;
-    smooth.check_ends(levels.1, has_way)?;
     warnings.extend(smooth.undershoot(levels.1));
 
     let share: Vec<f64> = smooth.values.iter().map(|v| (v - levels.0) / levels.1).collect();
@@ -146,7 +145,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     if longest < FEWEST_LIT {
         return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT });
     }
-    let frames = frames(&trace, &share, &runs, levels, has_way, &mut warnings)?;
+    let frames = frames(&trace, &share, &runs, levels, &mut warnings)?;
     if inverted && light == Light::Auto {
         warnings.push(Warning::Inverted);
     }
@@ -227,7 +226,7 @@ struct Smooth {
     values: Vec<f64>,
     /// What is left of the noise.
     noise: f64,
-    /// The level at the beginning and the end, which are dark.
+    /// The level of the dark.
     dark: f64,
 }
 
@@ -241,23 +240,56 @@ impl Smooth {
         let window = (noise / (0.05 * (high - low))).powi(2).ceil() as usize;
         let window = window.clamp(1, values.len() / FEW_OF + 1);
         let values = means(values, window);
-        let (first, last) = ends(&values);
-        let dark = 0.5 * (first + last);
-        Ok(Self { values, noise: noise / (window as f64).sqrt(), dark })
+        Ok(Self { values, noise: noise / (window as f64).sqrt(), dark: 0.0 })
     }
 
-    /// Does the signal leave the dark downwards? If one end is in the light, nothing tells which one but that light mostly
-    /// raises a signal.
-    fn seems_inverted(&self) -> bool {
+    /// The level of the ends, as far as these are dark, or else of the lower samples.
+    fn dark(&self) -> f64 {
         let (low, high) = range(&self.values);
         let (first, last) = ends(&self.values);
+        let middle = 0.5 * (low + high);
+        if first > middle && last > middle {
+            return median(self.values.iter().copied().filter(|v| *v <= middle).collect());
+        }
         let is_cut = (first - last).abs() > CUT * (high - low);
-        !is_cut && self.dark - low > high - self.dark
+        if is_cut { first.min(last) } else { 0.5 * (first + last) }
+    }
+
+    /// Does light lower the signal? A trace mostly begins and ends in the dark; but where its ends are shorter than what they are taken
+    /// for elsewhere, pulses may be cut there, and a gap between pulses is none.
+    fn seems_inverted(&self) -> Result<bool, Refusal> {
+        let (low, high) = range(&self.values);
+        let share: Vec<f64> = self.values.iter().map(|v| (v - low) / (high - low)).collect();
+        let (n, highs) = (share.len(), runs(&share));
+        let begins = highs.first().is_some_and(|run| run.start == 0);
+        let ends_so = highs.last().is_some_and(|run| run.end == n);
+        if !begins && !ends_so {
+            let (first, last) = ends(&self.values);
+            let is_cut = (first - last).abs() > CUT * (high - low);
+            return Ok(!is_cut && first + last - low > high);
+        }
+        let whole = &highs[usize::from(begins)..highs.len() - usize::from(ends_so)];
+        let lows = highs.windows(2).map(|pair| pair[1].start - pair[0].end);
+        if begins && ends_so && highs.len() > 1 {
+            let at_ends = [&highs[0], &highs[highs.len() - 1]].map(|run| run.len());
+            let longest = whole.iter().map(|run| run.len()).max().unwrap_or(0);
+            let are_dark = at_ends[0].max(at_ends[1]) >= longest
+                && lows.clone().all(|low| at_ends[0] + at_ends[1] >= low);
+            if are_dark {
+                return Ok(true);
+            }
+        }
+        // Light mostly raises a signal, and does not last; and noise has no way.
+        let lit: usize = highs.iter().map(|run| run.len()).sum();
+        let is_open = lows.len() > 0 && (whole.is_empty() || 2 * lit > n);
+        if is_open && high - low > 2.0 * CONTRAST * self.noise {
+            return Err(Refusal::WhichWay);
+        }
+        Ok(false)
     }
 
     fn turn(&mut self) {
         self.values.iter_mut().for_each(|v| *v = -*v);
-        self.dark = -self.dark;
     }
 
     /// The peak above the dark.
@@ -285,18 +317,6 @@ impl Smooth {
         let below = self.dark - range(&self.values).0;
         let is_more_than_noise = below - STRAY * self.noise > UNDERSHOOT * light;
         is_more_than_noise.then_some(Warning::Undershoot { share: below / light })
-    }
-
-    /// Are both ends in the dark?
-    fn check_ends(&self, light: f64, has_way: bool) -> Result<(), Refusal> {
-        let (first, last) = ends(&self.values);
-        // Both are as far from their mean, `dark`: the greater one is the light's, if one is.
-        let is_cut = (first - last).abs() > CUT * light;
-        if is_cut && first <= last {
-            return Err(Refusal::EndsInPulse { has_way });
-        }
-        let is_lit = is_cut || first > self.dark + SWITCH.0 * light;
-        if is_lit { Err(Refusal::BeginsInPulse { has_way }) } else { Ok(()) }
     }
 }
 
@@ -361,33 +381,37 @@ fn drop_glitches(runs: &mut Vec<Range<usize>>, share: &[f64]) -> usize {
     before - runs.len()
 }
 
-/// The frames of the pulses, each up to halfway to the next; of several pulses, those that the trace cuts are left out.
+/// The frames of the pulses, each up to halfway to the next; those that have not some dark on both sides are left out.
 fn frames(
     trace: &Trace,
     share: &[f64],
     runs: &[Range<usize>],
     levels: (f64, f64),
-    has_way: bool,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Frame>, Refusal> {
-    let mut frames = Vec::new();
+    let (mut frames, mut cut) = (Vec::new(), [false; 2]);
+    let is_dark = |i: &usize| share[*i] < QUARTERS[0];
     for (k, run) in runs.iter().enumerate() {
         let from = if k > 0 { (runs[k - 1].end + run.start) / 2 } else { 0 };
         let to = runs.get(k + 1).map_or(share.len(), |next| (run.end + next.start) / 2);
-        let cut = if run.start - from < FEWEST_DARK {
-            Refusal::BeginsInPulse { has_way }
-        } else if to - run.end < FEWEST_DARK {
-            Refusal::EndsInPulse { has_way }
-        } else {
+        // What the trace begins or ends with may be the rest of a pulse.
+        let first = (from..run.start).find(is_dark).unwrap_or(run.start);
+        let last = (run.end..to).rfind(is_dark).map_or(run.end, |i| i + 1);
+        let few = [run.start - first, last - run.end].map(|dark| dark < FEWEST_DARK);
+        if few == [false; 2] {
+            let from = if first > from { (first + run.start) / 2 } else { from };
+            let to = if last < to { (run.end + last).div_ceil(2) } else { to };
             frames.push(frame(trace, share, run, from..to, levels));
-            continue;
-        };
-        if runs.len() == 1 {
-            return Err(cut);
+        } else {
+            cut = [cut[0] || few[0], cut[1] || few[1]];
+            warnings.push(Warning::PartialFrame { number: k + 1 });
         }
-        warnings.push(Warning::PartialFrame { number: k + 1 });
     }
-    if frames.is_empty() { Err(Refusal::BeginsInPulse { has_way }) } else { Ok(frames) }
+    if frames.is_empty() {
+        Err(Refusal::CutPulse { begins: cut[0], ends: cut[1] })
+    } else {
+        Ok(frames)
+    }
 }
 
 /// The frame of the pulse whose light is on in `run`, and which owns `samples`.

@@ -22,7 +22,9 @@ pub struct Reading {
     pub sync: Option<Named>,
     /// How a row's time is known.
     pub clock: Clock,
-    /// Who tells that.
+    /// The first time in seconds, where rows are counted and something tells it.
+    pub first: Option<f64>,
+    /// Who tells the unit or the rate.
     pub told: Told,
 }
 
@@ -89,6 +91,11 @@ impl Reading {
         format!("column {number} of {}{name}", self.columns)
     }
 
+    /// Are rows counted, and nothing tells from when?
+    pub fn is_counted(&self) -> bool {
+        matches!(self.clock, Clock::Rate(_)) && self.first.is_none()
+    }
+
     /// How the times are known.
     pub fn times(&self) -> String {
         let by = match &self.told {
@@ -104,7 +111,13 @@ impl Reading {
                 format!("{} in {}, {by}", shown(time), unit.name())
             }
             (_, Clock::Unit(unit)) => format!("in {}, {by}", unit.name()),
-            (_, Clock::Rate(rate)) => format!("{} samples a second, {by}", short(rate, 7)),
+            (_, Clock::Rate(rate)) => {
+                let first = self.first.filter(|first| *first != 0.0);
+                let from = first.map_or(String::new(), |first| {
+                    format!(", the first at {}", Unit::fit(first.abs()).show(first))
+                });
+                format!("{} samples a second, {by}{from}", short(rate, 7))
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The settings above the rows that tell when the samples were taken: a closed list of names, each with a number and its unit.
 
 use super::names::{has, unit_of, words};
-use super::numbers::{number, short_of};
+use super::numbers::{is_grouped, number, short_of};
 use super::told::Refusal;
 use crate::unit::Unit;
 
@@ -16,10 +16,20 @@ enum Kind {
     Clock,
     /// The first sample's time.
     Start,
+    /// The same, by a name that may also count samples.
+    Begin,
+    /// So many samples come before time 0.
+    Trigger,
+    /// Where time 0 is, counted from nobody says where.
+    Zero,
+    /// The times' unit, and that of a step that has none.
+    Unit,
+    /// So many samples become one.
+    Decimation,
 }
 
 /// The names without blanks and marks. What is not here, such as a `Max. sampling rate`, is another number.
-const NAMES: [(Kind, &str); 4] = [
+const NAMES: [(Kind, &str); 9] = [
     (
         Kind::Rate,
         "samplerate samplesrate samplingrate samplefrequency samplingfrequency samplefreq samplingfreq sampleclock \
@@ -31,7 +41,21 @@ const NAMES: [(Kind, &str); 4] = [
                   abtastintervall timeinterval timeincrement increment tinc xinc xincr xincrement hresolution deltax deltat dt",
     ),
     (Kind::Clock, "clock"),
-    (Kind::Start, "start t0 x0"),
+    (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime"),
+    (Kind::Begin, "start"),
+    (
+        Kind::Trigger,
+        "triggerpoint triggerposition triggeraddress triggersample triggerindex zeroindex",
+    ),
+    (Kind::Zero, "triggeroffset triggertime triggerdelay horizontaldelay pretrigger"),
+    (
+        Kind::Unit,
+        "horizontalunits horizontalunit hunit xunits xunit timeunit timeunits zeiteinheit",
+    ),
+    (
+        Kind::Decimation,
+        "decimation decimationfactor decimationrate decimationratio downsampling subsampling",
+    ),
 ];
 
 /// A unit of time or of a rate.
@@ -79,21 +103,31 @@ fn named(name: &str) -> Option<(Kind, Option<Measure>)> {
     NAMES.iter().find(|(_, names)| has(names, &name)).map(|(kind, _)| (*kind, unit))
 }
 
+/// Is it the name of a setting?
+pub fn is_setting(name: &str) -> bool {
+    named(name).is_some()
+}
+
 /// A number and the unit behind it, as in `100 kHz`, `10.0uS` or `Analog:1e-5`; none where what stands behind it is no unit.
 fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
     let text = text.rsplit(':').next()?.trim();
     let is_part =
         |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | '\u{2212}' | 'e' | 'E');
     let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
-    let x = number(text[..end].trim_end_matches(['e', 'E']), comma)?;
+    let digits = text[..end].trim_end_matches(['e', 'E']);
+    let x = number(digits, comma)?;
     let is_unit = |c: &char| c.is_alphanumeric() || matches!(c, '/' | 'µ' | 'μ' | '\u{fffd}');
     let behind = text[end..].trim_start();
     let unit: String = behind.chars().take_while(is_unit).collect();
     // Another rate behind the first leaves open which one is meant.
     let others = behind[unit.len()..].split([' ', '(', ')', ',', ';']);
     let mut others = others.filter_map(Measure::parse);
-    match Measure::parse(&unit) {
+    // Of `50.000 Hz` it stays open what the point means.
+    let unit = Measure::parse(&unit);
+    let is_bare = matches!(unit, None | Some(Measure::Hertz(1.0)));
+    match unit {
         None if end < text.len() => None,
+        _ if is_bare && digits.contains('.') && is_grouped(&digits.replace('.', ",")) => None,
         _ if others.any(|other| matches!(other, Measure::Hertz(_))) => None,
         unit => Some((x, unit)),
     }
@@ -102,10 +136,13 @@ fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
 /// What the settings above the rows say of the times.
 #[derive(Debug, Default)]
 pub struct Settings {
-    /// The seconds from one sample to the next, each with the words that give it.
-    steps: Vec<(String, f64)>,
-    /// The first sample's time.
-    pub start: f64,
+    /// The times from one sample to the next, each with the words that give it; in seconds, or without a unit.
+    steps: Vec<(String, f64, bool)>,
+    /// What says where time 0 is, the likeliest first: with its kind, and has it a unit?
+    zeros: Vec<(Kind, f64, bool)>,
+    /// The times' unit, and the words that give it.
+    pub unit: Option<(String, Unit)>,
+    decimation: Option<String>,
     /// Words that may give a rate, but fit no rule.
     pub unread: Option<String>,
 }
@@ -159,29 +196,63 @@ impl Settings {
 
     /// Is it a setting of the list, with a value?
     fn add(&mut self, words: &str, name: &str, text: &str, comma: bool) -> bool {
+        let words =
+            || short_of(&words.replace('"', "").split_whitespace().collect::<Vec<_>>().join(" "));
+        let kind = named(name);
+        if let Some((Kind::Unit, None)) = kind {
+            let unit = unit_of(&text.trim().trim_matches('"').to_lowercase());
+            self.unit = self.unit.take().or(unit.map(|unit| (words(), unit)));
+            return unit.is_some();
+        }
         let Some((x, behind)) = value(text, comma) else { return false };
         // A rate may stand alone.
         let lone = name.is_empty() && matches!(behind, Some(Measure::Hertz(_)));
-        let Some((kind, before)) = named(name).or(lone.then_some((Kind::Rate, None))) else {
+        let Some((kind, before)) = kind.or(lone.then_some((Kind::Rate, None))) else {
             return false;
         };
         if before.is_some() && behind.is_some() && before != behind {
             return false;
         }
-        let seconds = match (kind, before.or(behind)) {
+        let unit = before.or(behind);
+        let x = match (kind, unit) {
             (Kind::Rate, None) => 1.0 / x,
             (Kind::Rate, Some(Measure::Hertz(each))) => 1.0 / (each * x),
-            (Kind::Step | Kind::Start, None) => x,
-            (Kind::Step | Kind::Start | Kind::Clock, Some(Measure::Time(unit))) => unit.seconds(x),
-            _ => return false,
+            (Kind::Rate | Kind::Trigger, Some(_))
+            | (Kind::Clock, None)
+            | (_, Some(Measure::Hertz(_))) => {
+                return false;
+            }
+            (_, Some(Measure::Time(unit))) => unit.seconds(x),
+            (_, None) => x,
         };
-        if kind == Kind::Start {
-            self.start = if seconds.is_finite() { seconds } else { 0.0 };
-        } else if seconds > 0.0 && seconds.is_finite() {
-            let words = words.replace('"', "").split_whitespace().collect::<Vec<_>>().join(" ");
-            self.steps.push((short_of(&words), seconds));
+        let is_sure = unit.is_some() || kind == Kind::Rate;
+        match kind {
+            Kind::Rate | Kind::Step | Kind::Clock if x > 0.0 && x.is_finite() => {
+                self.steps.push((words(), x, is_sure))
+            }
+            Kind::Start | Kind::Begin | Kind::Trigger | Kind::Zero if x.is_finite() => {
+                self.zeros.push((kind, x, is_sure))
+            }
+            Kind::Decimation if x != 1.0 => self.decimation = Some(words()),
+            _ => (),
         }
         true
+    }
+
+    /// The first sample's time, where the samples come so many seconds apart; none where nothing tells it.
+    pub fn start(&self, step: f64) -> Option<f64> {
+        let of = |kind: Kind| self.zeros.iter().find(|zero| zero.0 == kind);
+        match [Kind::Start, Kind::Trigger, Kind::Zero, Kind::Begin].into_iter().find_map(of)? {
+            (Kind::Zero, ..) => None,
+            (Kind::Trigger, samples, _) => Some(-samples * step),
+            (_, time, is_sure) => Some(self.seconds(*time, *is_sure)),
+        }
+    }
+
+    /// In the unit of the times, where it has none of its own.
+    fn seconds(&self, time: f64, is_sure: bool) -> f64 {
+        let unit = self.unit.as_ref().filter(|_| !is_sure);
+        unit.map_or(time, |(_, unit)| unit.seconds(time))
     }
 
     /// The seconds from one sample to the next, and the words that give it.
@@ -189,12 +260,14 @@ impl Settings {
     /// # Errors
     /// Two that differ.
     pub fn step(&self) -> Result<Option<(String, f64)>, Refusal> {
-        let Some((first, step)) = self.steps.first() else { return Ok(None) };
-        match self.steps.iter().find(|(_, other)| (other / step - 1.0).abs() > 1e-3) {
-            Some((second, _)) => {
-                Err(Refusal::TwoRates { first: first.clone(), second: second.clone() })
-            }
-            None => Ok(Some((first.clone(), *step))),
+        let mut steps =
+            self.steps.iter().map(|(words, step, is_sure)| (words, self.seconds(*step, *is_sure)));
+        let Some((first, step)) = steps.next() else { return Ok(None) };
+        let other =
+            steps.find(|(_, other)| (other / step - 1.0).abs() > 1e-3).map(|(words, _)| words);
+        match other.or(self.decimation.as_ref()) {
+            Some(second) => Err(Refusal::TwoRates { first: first.clone(), second: second.clone() }),
+            None => Ok(Some((first.clone(), step))),
         }
     }
 }
@@ -214,7 +287,7 @@ mod tests {
         let step = |text| settings(text, ',', false).step().unwrap().map(|(_, step)| step);
         let ten_microseconds = "Sample rate: 100000 Hz|Samplerate: 100 kHz|Sampling rate 100 kHz|Sampling rate (kHz): 100\
             |Sample Rate [kS/s],100|Sampling Rate:100.0KSa/s|sampling_rate_hz=100000|Sample Rate: 100000 Hz. Values are linear.\
-            |100 kHz|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
+            |100 kHz|100.000 kHz|Sample rate: 100000.000|XInc,10\nXUnits,us|HResolution,1E-5\nHUnit,s|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
             |XInc:,1.0E-05|CLOCK=10.0uS|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
         for text in ten_microseconds.split('|') {
             assert!(
@@ -225,11 +298,27 @@ mod tests {
         }
         let nothing = "Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
-            |Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
+            |Sample rate: 100.000 Hz|Sample rate: 1.000.000|Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
         nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));
         let found = settings("Abtastintervall [ms];0,01", ';', true).step().unwrap();
         assert_eq!(found, Some(("Abtastintervall [ms];0,0…".into(), 1e-5)));
-        assert_eq!(settings("CH1,t0 = -6ms, tInc = 10us", ',', false).start, -0.006);
         assert!(settings("Sample rate: 1 Hz\nSample period,2", ',', false).step().is_err());
+        assert!(settings("Sample rate: 1 Hz\nDecimation,8", ',', false).step().is_err());
+    }
+
+    #[test]
+    fn a_setting_gives_the_first_time() {
+        let start = |text: &str| settings(text, ',', false).start(1e-5);
+        let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|XOrg:,-6.0E-03\nStart:,0\
+            |Trigger Point,600,Samples|Trigger position: 600|Trigger Address,600|Zero Index,600|X,Start\nSequence,-6.0ms";
+        for text in six_before.split('|') {
+            assert!(
+                (start(text).unwrap_or_default() + 0.006).abs() < 1e-15,
+                "{text}: {:?}",
+                start(text)
+            );
+        }
+        let nothing = "Sample rate: 100 kHz|Trigger position: 50 %|Trigger position: 6 ms|TriggerOffset,-0.006|Trigger Level,1.0";
+        nothing.split('|').for_each(|text| assert_eq!(start(text), None, "{text}"));
     }
 }

@@ -1,9 +1,9 @@
 //! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands above them.
 
 use super::asked::Column;
-use super::names::{is_axis, is_time, is_unit};
+use super::names::{is_axis, is_time, is_unit, words};
 use super::numbers::{is_decimal, is_grouped, number, short_of, split};
-use super::settings::Settings;
+use super::settings::{Settings, is_setting};
 use super::told::Refusal;
 
 /// A longer line is no row of samples.
@@ -295,6 +295,12 @@ impl<'a> Table<'a> {
             self.columns.len() > 1
                 && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
         };
+        // Names that are told to be some.
+        let is_told =
+            |(_, fields): &&Above| words(&fields[0]).concat() == "tracename" && is_wide(fields);
+        if let Some((_, fields)) = self.above.iter().find(is_told) {
+            return [fields.clone(), Vec::new()];
+        }
         let has_words = |line: &str| line.contains(char::is_alphanumeric);
         let is_it = |(line, fields): &Above| has_words(line) && is_wide(fields);
         let Some(lowest) = self.above.iter().rposition(is_it) else {
@@ -326,7 +332,8 @@ impl<'a> Table<'a> {
             let may_be = (is_time(first) || is_axis(first)) && is_channel(field);
             !may_be && (is_number(field) || is_date(field) || is_measure(field))
         };
-        fields.iter().any(is_value) || before_brackets.contains(['=', ':'])
+        let is_setting_before = self.columns[0] > 0 && is_setting(&fields[0]);
+        is_setting_before || fields.iter().any(is_value) || before_brackets.contains(['=', ':'])
     }
 
     /// What the lines above the rows say of the times.
@@ -337,7 +344,23 @@ impl<'a> Table<'a> {
             ' ' => (*line, whole(line)),
             _ => (*line, fields.clone()),
         });
-        Settings::new(&lines.collect::<Vec<_>>(), self.decimal_comma)
+        // Settings may stand beside the first rows, where others have nothing.
+        let beside = self.rows().take(JUDGED).map(|(_, row)| {
+            let fields = split(row, self.delimiter).enumerate();
+            (
+                row,
+                fields
+                    .filter(|(k, _)| !self.columns.contains(k))
+                    .map(|(_, field)| field.into())
+                    .collect(),
+            )
+        });
+        let has_words =
+            |(_, fields): &Above| fields.iter().any(|field| field.contains(char::is_alphabetic));
+        Settings::new(
+            &lines.chain(beside.filter(has_words)).collect::<Vec<_>>(),
+            self.decimal_comma,
+        )
     }
 
     /// The lines from the first row on, each with its number.

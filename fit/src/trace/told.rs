@@ -84,18 +84,20 @@ pub enum Refusal {
         counted(.samples, "sample")
     )]
     ShortPulse { samples: usize, required: usize },
-    /// The first samples are not dark; was it said which way light moves the signal?
+    /// Every pulse is cut off: the first samples or the last ones are not dark.
     #[error(
-        "the trace begins in the pulse; record some of the dark before it as well (more pre-trigger){}",
-        or_the_way(.has_way)
+        "no whole pulse: the trace {} in the pulse; record some of the dark {} it as well ({})",
+        either(.begins, .ends, "begins", "ends"),
+        either(.begins, .ends, "before", "after"),
+        if *.begins { "more pre-trigger" } else { "a longer window" }
     )]
-    BeginsInPulse { has_way: bool },
-    /// The last samples are not dark.
+    CutPulse { begins: bool, ends: bool },
+    /// Light raises the signal and pulses are cut, or it lowers it.
     #[error(
-        "the trace ends in the pulse; record some of the dark after it as well (a longer window){}",
-        or_the_way(.has_way)
+        "the trace begins or ends in its higher level, which may be the dark, or a pulse that is cut off; say which way \
+         light moves the signal (--light up or --light down)"
     )]
-    EndsInPulse { has_way: bool },
+    WhichWay,
     /// A frame that is asked for is not there.
     #[error("there is no frame {number}; the trace has {}", counted(.frames, "whole frame"))]
     NoFrame { number: usize, frames: usize },
@@ -151,12 +153,11 @@ fn thousands(number: &str, other: &str) -> String {
     )
 }
 
-/// What may help beside more dark, unless it was done.
-fn or_the_way(has_way: &bool) -> &'static str {
-    if *has_way {
-        ""
-    } else {
-        ", or say which way light moves the signal (--light up or --light down)"
+fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
+    match (first, second) {
+        (true, true) => format!("{one} and {other}"),
+        (true, false) => one.into(),
+        _ => other.into(),
     }
 }
 
@@ -329,9 +330,9 @@ pub enum Warning {
     )]
     #[strum(serialize = "noise")]
     NoiseHidesRamps { noise: f64 },
-    /// Edges that are no longer than a sample.
+    /// Edges that take two samples at most.
     #[error(
-        "edges as short as a sample: each is known to {} at best (the sampling interval by the root of 12); sample \
+        "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
          faster if that matters",
         time(&(step / 12f64.sqrt()))
     )]

@@ -74,7 +74,8 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let clock = Clock::Rate(rate);
     let (columns, signal, of_sync) = (channels, named(0), sync.map(named));
-    let mut reading = Reading { columns, time: None, signal, sync: of_sync, clock, told };
+    let mut reading =
+        Reading { columns, time: None, signal, sync: of_sync, clock, first: Some(0.0), told };
     let mut warnings = vec![Warning::SoundCard];
     if there < announced && is_said {
         warnings.push(Warning::CutOff { samples: there, announced });

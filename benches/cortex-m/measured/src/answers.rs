@@ -4,7 +4,7 @@
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
 
-use shutter_curve::{CubicBezier, CurveError, Pulse, ShutterCurve};
+use shutter_curve::{CubicBezier, CurveError, Pulse, PulseLimits, ShutterCurve};
 
 use crate::baseline::Ramp;
 use crate::{CURVES, DEFAULT, uniform};
@@ -176,16 +176,16 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             }
         }
         let mut pulses = [Pulse::default(); 9];
-        hash.made(curve.pulses_into(&mut pulses, 0.3, hz, 3, 7));
+        hash.made(curve.pulses_into(&mut pulses, 0.3, hz, PulseLimits { min_pulse: 3, min_gap: 7 }));
         hash.add(pulses);
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
             let mut ticks = [0; 20];
-            hash.made(curve.schedule_into(&mut ticks, hz, gap));
+            hash.made(curve.ticks_into(&mut ticks, hz, gap));
             hash.add(ticks);
             let ticks = hash.made(curve.ticks::<3>(hz, gap));
             hash.add(ticks.into_iter().flatten());
-            let planned = hash.made(curve.schedule::<64>(n, hz, gap));
+            let planned = hash.made(curve.ticks_vec::<64>(n, hz, gap));
             hash.add(planned.iter().flatten());
             let most = hash.made(curve.most_triggers(n, hz, gap));
             hash.add(most);

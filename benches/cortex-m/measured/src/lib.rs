@@ -63,6 +63,8 @@ pub enum Function {
     Schedule,
     Construct,
     Newton,
+    /// The same with care.
+    NearerEnd,
     Table,
     /// Straight ramps, by one square root a side.
     SqrtLibm,
@@ -71,7 +73,7 @@ pub enum Function {
 }
 
 impl Function {
-    pub const ALL: [Self; 12] = {
+    pub const ALL: [Self; 13] = {
         use Function::*;
         [
             InverseCdf,
@@ -82,6 +84,7 @@ impl Function {
             Schedule,
             Construct,
             Newton,
+            NearerEnd,
             Table,
             SqrtLibm,
             SqrtMicromath,

@@ -12,7 +12,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
-use measured::baseline::{InverseTable, StraightRamps, TextbookNewton};
+use measured::baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
 use measured::{CURVES, Function, Inputs, SCALES, Series, TICK_HZ, TRIGGERS, TYPICAL};
 use micromath::F32Ext;
 use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
@@ -35,6 +35,16 @@ fn fpu_sqrt(x: f32) -> f32 {
     return core::intrinsics::sqrtf32(x);
     #[cfg(not(bare))]
     libm::sqrtf(x)
+}
+
+/// The processor's instruction, or else `libm`'s code.
+#[inline(always)]
+fn own_sqrt(x: f32) -> f32 {
+    if cfg!(any(target_abi = "eabihf", target_feature = "f")) {
+        fpu_sqrt(x)
+    } else {
+        libm::sqrtf(x)
+    }
 }
 
 /// The inverse of each typical curve, in a `static` of its own.
@@ -139,7 +149,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             let mut ticks = [0; TRIGGERS as usize];
             let plan = |curve: &ShutterCurve<C>,
                         (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
-                curve.schedule_into(ticks, TICK_HZ, gap)
+                curve.ticks_into(ticks, TICK_HZ, gap)
             };
             // On hard curves triggers may share a tick.
             let gap = u32::from(series.inputs == Inputs::Uniform);
@@ -161,6 +171,11 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
         Function::Newton => {
             let newton = black_box(TextbookNewton::new(data.opening, data.closing));
             depth(us, |u| the_call(TextbookNewton::inverse_cdf, &newton, u))
+        }
+        Function::NearerEnd => {
+            let newton = black_box(NearerEnd::new(data.opening, data.closing));
+            let inverse = |newton: &NearerEnd, u| newton.inverse_cdf(u, own_sqrt);
+            depth(us, |u| the_call(inverse, &newton, u))
         }
         Function::Table => {
             let table = black_box(InverseTable::<256>::new(|u| curve.inverse_cdf(u)));
