@@ -18,6 +18,7 @@ MANIFEST = ROOT / "Cargo.toml"
 REPOSITORY = re.compile(r'^repository = "(.*)"\n', re.M)
 # [text](target) and ![text](target), not in code; a target has no blank.
 LINK = re.compile(r"(?<=\])\(([^()\s]+)\)")
+PICTURES = {".png", ".svg"}
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.M | re.S)
 
 
@@ -73,7 +74,7 @@ def settle(url, files):
         for link, file, part in reversed(list(links(document, text))):
             path = file.relative_to(ROOT).as_posix()
             if file.exists() and path not in files:
-                kind = "tree" if file.is_dir() else "blob"
+                kind = "tree" if file.is_dir() else "raw" if file.suffix in PICTURES else "blob"
                 absolute = f"{url}/{kind}/main/{path}" + (f"#{part}" if part else "")
                 text = text[: link.start(1)] + absolute + text[link.end(1) :]
         document.write_text(text)

@@ -88,7 +88,7 @@
 //! [`pulses`]: ShutterCurve::pulses
 //! [`pulses_into`]: ShutterCurve::pulses_into
 
-#![cfg_attr(not(test), no_std)]
+#![no_std]
 // docs.rs says of each item which feature it needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
@@ -137,16 +137,6 @@ pub use trigger::pulse::{Pulse, PulseLimits};
 #[doc = include_str!("../docs/accuracy.md")]
 #[cfg(doc)]
 pub mod accuracy {}
-
-#[cfg(test)]
-#[path = "../tests/inside/mod.rs"]
-mod inside;
-/// The oracle and the curves of the integration tests, for tests of what is not public.
-#[cfg(test)]
-#[path = "../tests/support/mod.rs"]
-mod support;
-#[cfg(test)]
-extern crate self as shutter_curve;
 
 /// The README's code, compiled.
 #[cfg(doctest)]

@@ -1,15 +1,17 @@
 //! The program: its arguments, the files it reads and writes, its exit code.
 //!
-//! Whatever goes wrong is told on standard error with exit code 2, and nothing is written then.
+//! Whatever goes wrong is told on standard error with exit code 2, and no file is written then.
 
 mod design;
 mod fit;
 mod fit_many;
 mod input;
 mod kept;
+mod mark;
 mod output;
 mod plan;
 mod quantity;
+mod read;
 mod settings;
 
 use std::ffi::OsString;
@@ -56,7 +58,7 @@ pub fn run(
         }
     };
     let ended = match args.command.unwrap_or_else(|| Command::Plan(plan::Args::default())) {
-        Command::Plan(args) => plan::run(&args, out),
+        Command::Plan(args) => plan::run(&args, out, err),
         Command::Design(args) => design::run(&args, out),
         Command::Fit(args) => fit::run(&args, out, err),
     };

@@ -7,6 +7,7 @@ use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::set_up::SetUp;
 use crate::shape::Shape;
 
 /// A scene as it is written; each value knows its place in the text.
@@ -21,7 +22,7 @@ pub struct Scene {
     close_end: Spanned<Number>,
     shutteropening: Option<Spanned<Vec<Number>>>,
     pub(crate) triggers: Spanned<Number>,
-    pub(crate) timer_hz: Spanned<Number>,
+    pub(crate) timer_hz: Option<Spanned<Number>>,
     pub(crate) timer_bits: Option<Spanned<Number>>,
     pub(crate) min_gap: Spanned<Number>,
     pub(crate) nominal: Option<Spanned<Number>>,
@@ -31,6 +32,9 @@ pub struct Scene {
     pub(crate) delay: Option<Spanned<Number>>,
     pub(crate) delay_spread: Option<Spanned<Number>>,
     pub(crate) sync_falls: Option<Spanned<bool>>,
+    pub(crate) lamp_lag: Option<Spanned<Number>>,
+    pub(crate) set_up: Option<Spanned<SetUp>>,
+    pub(crate) fully_open: Option<Spanned<bool>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -90,7 +94,7 @@ impl Scene {
             close_end: number("close_end"),
             shutteropening: optional(KEYS[EIGHT]).map(|first| Spanned::new(first.span(), eight())),
             triggers: number("triggers"),
-            timer_hz: number("timer_hz"),
+            timer_hz: optional("timer_hz"),
             timer_bits: optional("timer_bits"),
             min_gap: number("min_gap"),
             nominal: optional("nominal"),
@@ -100,6 +104,9 @@ impl Scene {
             delay: optional("delay"),
             delay_spread: optional("delay_spread"),
             sync_falls: None,
+            lamp_lag: None,
+            set_up: None,
+            fully_open: None,
         }
     }
 }
@@ -160,6 +167,18 @@ pub(crate) fn trigger_times_at(text: &str) -> Option<usize> {
     table.keys().find(|key| key.get_ref() == TRIGGER_TIMES).map(|key| key.span().start)
 }
 
+/// What the head of a text keeps of a fit: what was measured, and what is doubtful about it.
+pub(crate) fn fitted(text: &str) -> Vec<(&'static str, String)> {
+    let kept = |line: &str| {
+        let measured = line.strip_prefix("# Exposure ").map(|it| {
+            let it = it.trim_end_matches(", standard errors behind ±.");
+            ("measured", format!("exposure {it}"))
+        });
+        measured.or(line.strip_prefix("# Warning: ").map(|it| ("doubt", it.into())))
+    };
+    text.lines().take_while(|line| line.starts_with('#')).filter_map(kept).collect()
+}
+
 /// The scene that `text` describes.
 ///
 /// # Errors
@@ -188,7 +207,8 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
             let key = key.get_ref();
             reason = match key.as_ref() {
                 "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
-                key @ "sync_falls" => format!("{key}: true or false is required"),
+                "set_up" => "set_up: \"emulated\" or \"in_path\" is required".into(),
+                key @ ("sync_falls" | "fully_open") => format!("{key}: true or false is required"),
                 _ if reason.contains("a sequence") => {
                     format!("{key}: numbers in brackets are required")
                 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 const SHUTTER: &str = env!("CARGO_BIN_EXE_shutter");
 const SCENE: &str = "open_start = 0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1\n\
-                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\n";
+                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\nset_up = 'emulated'\n";
 
 /// An empty folder with a scene and a trace of straight ramps, in which the program is run.
 struct Folder(PathBuf);
@@ -163,18 +163,55 @@ fn a_file_of_something_else_needs_force() {
     assert_eq!(folder.run("plan --emit csv --to notes --force").0, Some(0));
     assert!(folder.text("notes").starts_with("scene,index,"));
     assert!(folder.path("link.svg").is_symlink());
-    // What it wrote itself may be edited since: only the same text, or none, is replaced without being asked.
+    // What it wrote is replaced while nobody has changed it: by its mark, or by the same bytes where it has none.
     for form in ["rust", "c", "csv", "json"] {
         let line = format!("plan --emit {form} --to made.{form}");
         for _ in 0..2 {
-            assert_eq!(folder.run(&line).0, Some(0), "{form}");
+            let (code, _, err) = folder.run(&line);
+            assert_eq!((code, err), (Some(0), format!("wrote made.{form}\n")));
+        }
+        let (has_mark, other) = (matches!(form, "rust" | "c"), format!("{line} --triggers 5"));
+        match has_mark {
+            true => assert_eq!(folder.run(&other).0, Some(0), "{form}"),
+            false => folder.refuses(&format!("$shutter {other}"), "a table does not tell whose"),
         }
         let made = folder.text(&format!("made.{form}"));
         folder.write(&format!("made.{form}"), &format!("{made}\n"));
-        folder.refuses(&format!("$shutter {line}"), "--force");
-        assert_eq!(folder.run(&format!("{line} --force")).0, Some(0), "{form}");
-        assert_eq!(folder.text(&format!("made.{form}")), made);
+        let reason = if has_mark { "you have changed it since" } else { "--force" };
+        folder.refuses(&format!("$shutter {line}"), reason);
+        let (code, _, err) = folder.run(&format!("{line} --force"));
+        assert_eq!((code, err), (Some(0), format!("wrote made.{form}\n")));
+        assert_ne!(folder.text(&format!("made.{form}")), made + "\n");
     }
+    for _ in 0..2 {
+        assert_eq!(folder.run("plan --out made.svg --set-ups both.svg").0, Some(0));
+    }
+    assert_eq!(folder.run("fit trace.csv --picture made.svg").0, Some(0));
+    folder.write("made.svg", &folder.text("made.svg").replace("<svg ", "<svg  "));
+    folder.refuses("$shutter fit trace.csv --picture made.svg", "you have changed it since");
+}
+
+/// What cannot be written is told before a trace is even read; what fails after the fit leaves its report.
+#[test]
+fn a_fit_is_not_lost_with_its_files() {
+    let folder = Folder::new("late");
+    folder.write("notes", "mine\n");
+    symlink("notes", folder.path("notes.svg")).unwrap();
+    for (line, reason) in [
+        ("fit none.csv --out notes", "notes: it holds no scene that a fit wrote"),
+        ("fit none.csv --picture notes.svg", "notes.svg: it holds something else"),
+        ("fit none.csv --out none/leaf.toml", "its folder is not there"),
+        ("fit none.csv --out ok.toml --picture none/leaf.svg", "its folder is not there"),
+    ] {
+        folder.refuses(&format!("$shutter {line}"), reason);
+    }
+    assert_eq!(folder.run("fit trace.csv --out leaf.toml").0, Some(0));
+    let text = folder.text("leaf.toml").replace("min_gap = 0 ", "min_gap = 9 ");
+    folder.write("leaf.toml", &text);
+    let (code, out, err) = folder.run("fit trace.csv --out leaf.toml");
+    assert!(code == Some(2) && err.contains("with what it keeps"), "{err}");
+    assert!(out.contains("\nexposure     5.00"), "{out}");
+    assert_eq!(folder.text("leaf.toml"), text);
 }
 
 #[test]
@@ -185,7 +222,7 @@ fn links_are_written_through_and_other_names_keep_what_they_had() {
     symlink("link.svg", folder.path("twice.svg")).unwrap();
     assert_eq!(folder.run("plan --out twice.svg").0, Some(0));
     assert!(folder.path("link.svg").is_symlink() && folder.path("twice.svg").is_symlink());
-    assert!(folder.text("far/new.svg").starts_with("<svg "));
+    assert!(folder.text("far/new.svg").contains("\n<svg "));
     // The mode stays, and a new file's is that of any new file.
     fs::set_permissions(folder.path("far/new.svg"), PermissionsExt::from_mode(0o604)).unwrap();
     fs::hard_link(folder.path("far/new.svg"), folder.path("other.svg")).unwrap();
@@ -213,15 +250,16 @@ fn devices_and_pipes_are_written_to() {
     assert_eq!(folder.run("plan --emit csv --to /dev/stdout").1, folder.run("plan --emit csv").1);
     let (code, out, err) =
         folder.shell("mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait");
-    assert!(code == Some(0) && out.starts_with("<svg ") && out.ends_with("</svg>\n"), "{err}");
+    assert!(code == Some(0) && out.contains("\n<svg ") && out.ends_with("</svg>\n"), "{err}");
     assert!(folder.text("text").contains("exposure"));
-    let (code, out, _) =
-        folder.shell("$shutter fit trace.csv --out - | $shutter plan - --emit csv --to -");
+    let (code, out, _) = folder.shell(
+        "$shutter fit trace.csv --out - | $shutter plan - --set-up emulated --timer-hz 1MHz --emit csv --to -",
+    );
     assert!(code == Some(0) && out.starts_with("scene,index,u,"), "{out}");
     let (code, out, _) = folder.shell("$shutter fit - --report json < trace.csv");
     assert!(code == Some(0) && out.contains("\"trace\": \"standard input\""), "{out}");
     let (code, out, _) = folder.run("plan --out -");
-    assert!(code == Some(0) && out.starts_with("<svg ") && out.ends_with("</svg>\n"));
+    assert!(code == Some(0) && out.contains("\n<svg ") && out.ends_with("</svg>\n"));
 }
 
 /// A file whose writing fails at any block leaves the old ones and no other: here a limit is in place of a full disk.
@@ -335,13 +373,14 @@ fn what_cannot_be_written_leaves_nothing() {
         "$shutter fit trace.csv --picture ok.svg --out none/leaf.toml",
         "its folder is not there",
     );
-    // A failed plan, and a form that the scene does not have.
+    // A failed plan.
     folder.write("leaf.h", "/* old */\n");
     folder
         .refuses("$shutter plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers");
+    folder.write("bare.toml", &SCENE.replace("set_up", "# set_up"));
     folder.refuses(
-        "$shutter plan scene.toml --out ok.svg --emit pico --to leaf.h --force",
-        "scene.toml: ",
+        "$shutter plan bare.toml --out ok.svg --emit c --to leaf.h --force",
+        "bare.toml: hardware needs",
     );
     // Whoever made it read-only does not want it replaced, and root is no exception.
     fs::set_permissions(folder.path("leaf.h"), PermissionsExt::from_mode(0o444)).unwrap();
@@ -359,14 +398,17 @@ fn what_cannot_be_written_leaves_nothing() {
 #[test]
 fn a_new_fit_keeps_what_a_user_wrote() {
     let folder = Folder::new("kept");
+    let wrote = "wrote leaf.toml\nnext: shutter plan leaf.toml\n";
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
-    assert_eq!((code, err.as_str()), (Some(0), ""));
+    assert_eq!((code, err.as_str()), (Some(0), wrote));
     let first = folder.text("leaf.toml");
     // Of its own it keeps nothing, and piles nothing up.
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
-    assert_eq!((code, err.as_str(), folder.text("leaf.toml")), (Some(0), "", first.clone()));
+    assert_eq!((code, err.as_str(), folder.text("leaf.toml")), (Some(0), wrote, first.clone()));
     let edited = first
-        .replace("timer_hz = 1000000 # your timer's", "timer_hz = 84_000_000 # TIM2")
+        .replace("# timer_hz = ... # your timer's rate, in Hz", "timer_hz = 84_000_000 # TIM2")
+        .replace("# sync_falls = ... # true, or", "sync_falls = false # not true, nor")
+        .replace("# set_up = \"in_path\" #", "set_up = \"in_path\" #")
         .replace("min_gap = 0 ", "min_gap = 0.1 ")
         .replace("triggers = 16", "# as many as the LED takes\ntriggers = 5")
         .replace("open_start = ", "duty = 0.3\n# by the scope\nopen_start = ")
@@ -389,8 +431,15 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     ] {
         assert!(text.lines().any(|it| it == line), "{line}\n{text}");
     }
-    assert!(text.starts_with("# Fitted to slow.csv") && text.contains("# the end\n"), "{text}");
+    assert!(
+        text.contains(" holds\n# Fitted to slow.csv") && text.contains("# the end\n"),
+        "{text}"
+    );
     assert!(!text.contains("trace.csv") && !text.contains("# delay = ?"), "{text}");
+    // What the user has answered is asked no more, and kept.
+    assert!(text.contains("\nset_up = \"in_path\"") && !text.contains("# set_up"), "{text}");
+    assert!(text.contains("\nsync_falls = false") && !text.contains("# sync_falls"), "{text}");
+    assert!(!text.contains("# timer_hz"), "{text}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/100 --sync 1ms");
     assert!(code == Some(0) && !err.contains("nominal") && !err.contains("delay"), "{err}");
@@ -398,11 +447,16 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     assert!(text.contains("\nnominal = 10\n") && text.contains("\ndelay = 3.0"), "{text}");
     assert_eq!(text.matches("# From the edge of the camera's sync").count(), 1, "{text}");
     // What is asked for counts, in the unit of the scene.
-    folder.write("leaf.toml", "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n");
+    let mine = "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n";
+    folder.write("leaf.toml", mine);
+    folder.refuses("$shutter fit trace.csv --out leaf.toml", "no scene that a fit wrote");
+    let (mark, _) = first.split_once('\n').unwrap();
+    folder.write("leaf.toml", &format!("{mark}\n{mine}"));
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --triggers 6");
     assert_eq!(code, Some(0), "{err}");
     let text = folder.text("leaf.toml");
-    assert!(text.contains("unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 20"), "{text}");
+    assert!(text.contains("unit = 'us'\n# set_up = "), "{text}");
+    assert!(text.contains("min_gap = 200\n# mine\nopen_start = 20"), "{text}");
     assert!(
         text.contains(" # too\n")
             && text.contains(" # gone\n")
@@ -426,7 +480,8 @@ fn several_fits_keep_what_a_user_wrote() {
     assert_eq!(folder.run("fit trace.csv v1.5.csv --out .").0, Some(0));
     folder.write("v1.5.toml", &folder.text("v1.5.toml").replace("min_gap = 0 ", "min_gap = 0.2 "));
     let (code, _, err) = folder.run("fit trace.csv v1.5.csv --nominal 1/200,1/100 --out .");
-    assert_eq!((code, err.as_str()), (Some(0), "./v1.5.toml: kept min_gap = 0.2\n"));
+    let told = "./v1.5.toml: kept min_gap = 0.2\nwrote ./trace.toml\nwrote ./v1.5.toml\nnext: ";
+    assert!(code == Some(0) && err.starts_with(told), "{err}");
     assert!(folder.text("v1.5.toml").contains("nominal = 10\n"));
 }
 

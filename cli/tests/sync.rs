@@ -196,7 +196,7 @@ fn the_spread_is_told_and_kept() {
     let record = Record { noise: 0.0, ..Record::new(5, 3) };
     folder.write("five.csv", record.csv());
     let (code, out, err) = folder.run("fit five.csv --sync CH2 --out leaf.toml --triggers 4");
-    assert_eq!((code, err.contains("sync")), (0, false), "{err}");
+    assert_eq!((code, err.contains("warning")), (0, false), "{err}");
     let spread = format!("{:.2}", 1e3 * record.spread());
     for line in [
         "sync         column 3 of 3, \"CH2\"",
@@ -232,9 +232,10 @@ fn the_spread_is_told_and_kept() {
     let written: f64 = written.lines().next().unwrap().parse().unwrap();
     let most = (0.01 * 5.0 / written) as u32;
     assert!(told.contains(&format!("up to {most} trigger")), "{told}");
-    let (_, json, _) = folder.run("plan leaf.toml --emit json");
+    let (_, json, _) = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz");
     let json: Value = serde_json::from_str(&json).unwrap();
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
+    assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
 
     // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml");
@@ -293,6 +294,101 @@ fn the_shots_of_several_files_count_together() {
         );
         let (_, out, _) = folder.run(&format!("fit {args}slow.csv --sync CH2"));
         assert!(out.contains("\ntrace ") && out.contains("  spread  worst\n"), "{out}");
+    }
+}
+
+/// Files of one setting are as good as one record of all their shots: they make one scene, with one delay.
+#[test]
+fn shots_in_files_of_their_own_make_one_scene() {
+    let folder = Folder::new("shots");
+    let all = Record::new(5, 21);
+    let mut names = String::new();
+    for (k, delay) in all.delays.iter().enumerate() {
+        let one = Record { delays: vec![*delay], seed: 40 + k as u64, ..Record::new(1, 0) };
+        folder.write(&format!("{k}.csv"), one.csv());
+        names += &format!("{k}.csv ");
+    }
+    let json = folder.json(&format!("{names}--sync CH2"));
+    assert_eq!((&json["delay_shots"], &json["pulses"]), (&5.into(), &5.into()));
+    assert!((number(&json, "delay_s") - all.mean()).abs() < 10e-6, "{json}");
+    assert!((number(&json, "delay_spread_s") - all.spread()).abs() < 3e-6, "{json}");
+    let (code, out, err) =
+        folder.run(&format!("fit {names}--sync CH2 --out leaf.toml --nominal 5ms"));
+    assert!(code == 0 && out.contains(" of 5; the exposures scatter by "), "{out}{err}");
+    let scene = fs::read_to_string(folder.0.join("leaf.toml")).unwrap();
+    assert!(scene.contains(", of 5 files: ") && scene.contains("\nnominal = 5\n"), "{scene}");
+    // The edge may have triggered each record: then it is at one time in all.
+    let record = |delay: f64, seed| {
+        let rows = Record { delays: vec![delay], seed, ..Record::new(1, 0) }.rows();
+        // A shot's edge comes within the sample after 8 ms.
+        let row = |[t, light, _]: [f64; 3]| format!("{:.7},{light:.4}\n", t - 0.0080025);
+        String::from("Time (s),CH1\n") + &rows.into_iter().map(row).collect::<String>()
+    };
+    folder.write("a.csv", record(0.003, 60));
+    folder.write("b.csv", record(0.0031, 61));
+    let json = folder.json("a.csv b.csv --sync 0");
+    assert!((number(&json, "delay_s") - 0.00305).abs() < 5e-6, "{json}");
+    assert!((number(&json, "delay_spread_s") - 1e-4 / 2f64.sqrt()).abs() < 5e-6, "{json}");
+    // What is not one setting, or read otherwise, is none.
+    folder.write("late.csv", record(-0.001, 62));
+    folder.write("ms.csv", record(0.003, 63).replace("Time (s),CH1", "Time (s),CH7"));
+    for (args, reason) in [
+        (
+            "a.csv b.csv --out speeds",
+            "make one scene: name it SCENE.toml, or give each trace its speed",
+        ),
+        ("a.csv ms.csv", "shots of one setting are read alike, and this is column 2 of 2, \"CH7\""),
+        ("a.csv late.csv --sync 0", "before the edge of the sync"),
+    ] {
+        let (code, _, err) = folder.run(&format!("fit {args}"));
+        assert!(code == 2 && err.contains(reason), "{args}: {err}");
+    }
+    let (code, out, _) = folder.run("fit a.csv b.csv --nominal 4ms,5ms");
+    assert!(code == 0 && out.starts_with("trace "), "{out}");
+}
+
+/// A scope that writes a file a channel: the sync's is as good as a column, and has to be of the same record.
+#[test]
+fn a_sync_may_have_a_file_of_its_own() {
+    let folder = Folder::new("channels");
+    let record = Record::new(3, 7);
+    let channel = |name: &str, column: usize, rows: &[[f64; 3]]| {
+        let row = |row: &[f64; 3]| format!("{:.7},{:.4}\n", row[0], row[column]);
+        format!("Time (s),{name}\n") + &rows.iter().map(row).collect::<String>()
+    };
+    let mut rows = record.rows();
+    folder.write("both.csv", record.csv());
+    folder.write("1.csv", channel("CH1", 1, &rows));
+    folder.write("2.csv", channel("CH2", 2, &rows));
+    let two = record.csv().replace("CH1,CH2", "CH1,CH1");
+    let two = two.lines().map(|row| match row.split(',').collect::<Vec<_>>()[..] {
+        [time, light, _] => format!("{time},{light},{light}\n"),
+        _ => unreachable!("three columns"),
+    });
+    folder.write("two.csv", two.collect::<String>());
+    folder.write("fewer.csv", channel("CH2", 2, &rows[1..]));
+    rows.iter_mut().for_each(|row| row[0] += 2.5e-6);
+    folder.write("later.csv", channel("CH2", 2, &rows));
+    let other = folder.0.join("2.csv");
+    let [one, two] = ["both.csv --sync CH2".into(), format!("1.csv --sync {}", other.display())]
+        .map(|args| folder.json(&args));
+    for key in ["delay_s", "delay_spread_s", "exposure_s", "sync_threshold"] {
+        assert!((number(&one, key) - number(&two, key)).abs() < 1e-3 * number(&one, key), "{key}");
+    }
+    assert_eq!(two["columns"]["sync_name"], "CH2 of 2.csv");
+    for (args, reason) in [
+        (
+            "1.csv --sync fewer.csv",
+            "fewer.csv: it is no channel of the same record: 14399 samples, and the light has 14400",
+        ),
+        ("1.csv --sync later.csv", "sample 1 is at 0.0000025 s, the light's at 0 s"),
+        ("1.csv --sync two.csv", "two.csv: a sync's file has one signal"),
+        ("1.csv --sync 1.csv", "is it the light's?"),
+        ("1.csv both.csv --sync 2.csv", "--sync: each trace has a file of its own"),
+        ("1.csv --sync none.csv", "no column"),
+    ] {
+        let (code, _, err) = folder.run(&format!("fit {args}"));
+        assert!(code == 2 && err.contains(reason), "{args}: {err}");
     }
 }
 

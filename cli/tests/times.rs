@@ -76,7 +76,14 @@ fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
         assert!(!text.contains("\nclose_end") && text.contains("\ntrigger_times = ["), "{text}");
         assert!(text.contains("no model explains the trace"), "{text}");
 
-        let (code, out, err) = run([Path::new("plan"), &scene, Path::new("--emit=json")]);
+        let (code, out, err) = run([
+            Path::new("plan"),
+            &scene,
+            Path::new("--emit=json"),
+            Path::new("--set-up=emulated"),
+            Path::new("--timer-hz=1MHz"),
+            Path::new("--sync-falls=false"),
+        ]);
         assert_eq!((code, err.as_str()), (0, ""));
         let plan: serde_json::Value = serde_json::from_str(&out).unwrap();
         let hz = plan["timer_hz"].as_f64().unwrap();

@@ -9,9 +9,10 @@ use crate::trace::{
     Edge, Edges, Frame, Pulses, Refusal, Switch, Trace, Warning, edges, sampling_interval,
 };
 use crate::unit::{Unit, decimals, plus_minus, short, trimmed};
+use crate::{Record, Shot};
 
 /// Shots whose exposures differ by no more than this share are of one speed.
-const ALIKE: f64 = 0.1;
+pub(crate) const ALIKE: f64 = 0.1;
 
 /// From where the edge is known.
 #[derive(Clone, Debug)]
@@ -20,6 +21,13 @@ pub enum Sync {
     Edge(f64),
     /// It was recorded beside the light.
     Channel(Trace),
+}
+
+impl Switch {
+    /// Does it fall in a shot?
+    pub fn falls(&self) -> bool {
+        self.levels[1] < self.levels[0]
+    }
 }
 
 /// The delays of the shots of one speed.
@@ -87,87 +95,123 @@ pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
     }
 }
 
-/// The delay where the frame `asked` has this signal, starts to open at `start`, and has these triggers; and what is doubtful
-/// about it.
+/// What a record's sync tells.
+struct Synced {
+    /// Of each frame the edge that starts it, if there is one.
+    edges: Vec<Option<Edge>>,
+    /// What the sync does, where it was recorded; and of that record from sample to sample.
+    switch: Option<Switch>,
+    step: f64,
+    /// So many frames have several edges, and so many edges start no frame.
+    bounced: usize,
+    others: usize,
+}
+
+impl Synced {
+    fn new(sync: &Sync, frames: &[Frame]) -> Result<Self, String> {
+        match sync {
+            Sync::Edge(time) => {
+                let mut edges = vec![None; frames.len()];
+                let after = frames.iter().position(|frame| frame.crossings[1] > *time);
+                edges[after.unwrap_or(frames.len() - 1)] = Some(Edge { time: *time, error: 0.0 });
+                Ok(Self { edges, switch: None, step: 0.0, bounced: 0, others: 0 })
+            }
+            Sync::Channel(channel) => {
+                let Edges { switch, starts } = edges(channel, frames)?;
+                let (bounced, others) = (starts.bounced, starts.others);
+                let (switch, step) = (Some(switch), sampling_interval(&channel.times));
+                Ok(Self { edges: starts.of, switch, step, bounced, others })
+            }
+        }
+    }
+}
+
+/// The delay where the shot `asked` has this signal, starts to open at `start`, and has these triggers, and what is doubtful
+/// about it; none without a sync.
 ///
 /// # Errors
 /// An edge of a given time after the start of opening, or before another frame; a channel that does not tell the edges.
-pub fn measure(
-    sync: &Sync,
+pub(crate) fn measure(
+    records: &[Record],
+    shots: &[Shot],
+    asked: usize,
     signal: &Signal,
     start: Measured,
     triggers: &[Measured],
-    pulses: &Pulses,
-    asked: usize,
-) -> Result<(Delay, Vec<Warning>), Refusal> {
-    let curve = signal.curve;
-    let half = curve.start + Exposure::new(&curve).feet(0.5)[0] - start.value;
-    let trigger = triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max);
-    let delay = |shots, switch, measuring| Delay {
-        shots,
-        switch,
-        measuring,
-        start: start.error,
-        trigger,
-        half,
-    };
-    let refused = |reason: String| Refusal::NoDelay { reason };
-    match sync {
-        Sync::Edge(edge) => {
-            let before = |frame: &Frame| frame.crossings[1] > *edge;
-            if let Some(i) = pulses.frames[..asked].iter().position(before) {
-                return Err(refused(format!(
-                    "the edge of the sync is followed by pulse {0} first: --frame {0}",
-                    i + 1
-                )));
-            }
-            let value = start.value - edge;
-            if value < 0.0 {
-                let late = shown(-value);
-                let reason = format!("the shutter opens {late} before the edge of the sync");
-                return Err(refused(reason));
-            }
-            Ok((delay(vec![value], None, 0.0), Vec::new()))
-        }
-        Sync::Channel(channel) => {
-            let Edges { switch, starts } = edges(channel, &pulses.frames).map_err(refused)?;
-            let fitted = &pulses.frames[asked];
-            let is_alike = |frame: &Frame| (frame.exposure / fitted.exposure - 1.0).abs() <= ALIKE;
-            let all = pulses.frames.iter().zip(&starts.of);
-            let all: Vec<_> = all.filter(|(frame, _)| is_alike(frame)).collect();
-            let (mut shots, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
-            let with_edge = all.iter().filter_map(|(frame, edge)| Some((frame, edge.as_ref()?)));
-            for (frame, Edge { time, error }) in with_edge {
-                let later = later(signal, pulses, frame, fitted);
-                shots.push(start.value + later.value - time);
-                edges_variance += error.powi(2);
-                variance += error.powi(2) + later.error.powi(2);
-            }
-            if shots.is_empty() {
-                let reason = "no shot of the fitted speed has an edge before it (--frame)";
-                return Err(refused(reason.into()));
-            }
-            let late = shots.iter().filter(|shot| **shot < 0.0);
-            let by = late.clone().fold(0.0, |most, shot| f64::max(most, -shot));
-            let (late, n, all) = (late.count(), shots.len(), all.len());
-            let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
-            let step = sampling_interval(&channel.times);
-            if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
-                let reason = "its column changes after the opening, and as slowly as light does; is it the light's?";
-                return Err(refused(reason.into()));
-            }
-            let (bounced, edges) = (starts.bounced, starts.others);
-            let doubts = [
-                (bounced, Warning::SyncBounced { few: bounced, all: pulses.frames.len() }),
-                (all - n, Warning::SyncMissing { few: all - n, all }),
-                (edges, Warning::SyncOthers { edges }),
-                (late, Warning::SyncLate { few: late, all: n, by }),
-            ];
-            let told = doubts.into_iter().filter(|(count, _)| *count > 0);
-            let delay = delay(shots, Some(switch), (variance / n as f64).sqrt());
-            Ok((delay, told.map(|(_, doubt)| doubt).collect()))
-        }
+) -> Result<Option<(Delay, Vec<Warning>)>, Refusal> {
+    let refused = |reason: &str| Err(Refusal::NoDelay { reason: reason.into() });
+    let syncs =
+        records.iter().filter_map(|record| Some((record.sync.as_ref()?, &record.pulses.frames)));
+    let synced: Result<Vec<_>, _> = syncs.map(|(sync, frames)| Synced::new(sync, frames)).collect();
+    let synced = synced.map_err(|reason| Refusal::NoDelay { reason })?;
+    if synced.is_empty() {
+        return Ok(None);
     }
+    let fitted = &shots[asked];
+    let falls = |it: &Synced| it.switch.map(|Switch { levels: [rest, on], .. }| on < rest);
+    if synced.len() < records.len() || synced.iter().any(|it| falls(it) != falls(&synced[0])) {
+        return refused("the sync is not the same in all traces: it falls, rises or is missing");
+    }
+    let Synced { switch, step, .. } = synced[fitted.record];
+    let is_given = switch.is_none();
+    let edges: Vec<Option<Edge>> = synced.iter().flat_map(|it| it.edges.iter().copied()).collect();
+    if is_given && edges[asked].is_none() {
+        let is_own = |k: &usize| shots[*k].record == fitted.record && edges[*k].is_some();
+        let first = (0..shots.len()).find(is_own).map_or(0, |k| k + 1);
+        return refused(&format!(
+            "the edge of the sync is followed by pulse {first} first: --frame {first}"
+        ));
+    }
+
+    let curve = signal.curve;
+    let is_alike = |shot: &Shot| (shot.frame.exposure / fitted.frame.exposure - 1.0).abs() <= ALIKE;
+    let all: Vec<_> = shots.iter().zip(edges).filter(|(shot, _)| is_alike(shot)).collect();
+    let (mut delays, mut variance, mut edges_variance) = (Vec::new(), 0.0, 0.0);
+    for (shot, edge) in &all {
+        let Some(Edge { time, error }) = edge else { continue };
+        // The one shot of a given edge is the fitted one.
+        let later = match is_given && records.len() == 1 {
+            true => Measured { value: 0.0, error: 0.0 },
+            false => later(signal, shot.pulses, shot.frame, fitted.frame),
+        };
+        delays.push(start.value + later.value - time);
+        edges_variance += error.powi(2);
+        variance += error.powi(2) + later.error.powi(2);
+    }
+    if delays.is_empty() {
+        return refused("no shot of the fitted speed has an edge before it (--frame)");
+    }
+    let is_late = delays.iter().filter(|delay| **delay < 0.0);
+    let by = is_late.clone().fold(0.0, |most, delay| f64::max(most, -delay));
+    let (late, n, all) = (is_late.count(), delays.len(), all.len());
+    if is_given && late > 0 {
+        return refused(&format!("the shutter opens {} before the edge of the sync", shown(by)));
+    }
+    let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
+    if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
+        return refused(
+            "its column changes after the opening, and as slowly as light does; is it the light's?",
+        );
+    }
+    let sum = |of: fn(&Synced) -> usize| synced.iter().map(of).sum::<usize>();
+    let (bounced, edges) = (sum(|it| it.bounced), sum(|it| it.others));
+    let missing = if is_given { 0 } else { all - n };
+    let doubts = [
+        (bounced, Warning::SyncBounced { few: bounced, all: shots.len() }),
+        (missing, Warning::SyncMissing { few: missing, all }),
+        (edges, Warning::SyncOthers { edges }),
+        (late, Warning::SyncLate { few: late, all: n, by }),
+    ];
+    let doubts = doubts.into_iter().filter(|(count, _)| *count > 0).map(|(_, doubt)| doubt);
+    let delay = Delay {
+        shots: delays,
+        switch,
+        measuring: (variance / n as f64).sqrt(),
+        start: start.error,
+        trigger: triggers.iter().map(|trigger| trigger.error).fold(0.0, f64::max),
+        half: curve.start + Exposure::new(&curve).feet(0.5)[0] - start.value,
+    };
+    Ok(Some((delay, doubts.collect())))
 }
 
 /// By how much a frame opens later than the fitted one: by least squares, the fitted curve is shifted along the frame's opening
@@ -238,8 +282,9 @@ pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
 }
 
 /// What a sync does, for a report.
-pub fn switch(Switch { levels: [rest, on], threshold }: &Switch) -> String {
-    let way = if on < rest { "falls" } else { "rises" };
+pub fn switch(switch: &Switch) -> String {
+    let Switch { levels: [rest, on], threshold } = switch;
+    let way = if switch.falls() { "falls" } else { "rises" };
     let places = decimals(on - rest, 3);
     let [rest, on, threshold] = [rest, on, threshold].map(|level| trimmed(*level, places));
     format!("{way} from {rest} to {on}; an edge counts at {threshold}")
@@ -258,7 +303,11 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
     let (error, trigger) = (digits(delay.error()), digits(delay.trigger_error()));
     let text = format!("# {WHAT}, ± {error}; from the edge to any trigger, ± {trigger}");
     let value = trimmed(unit.of(mean), places);
-    match (delay.spread(), delay.worst()) {
+    let edge = match delay.switch {
+        Some(switch) => format!("sync_falls = {}\n", switch.falls()),
+        None => "# sync_falls = ... # true, or false if that edge rises\n".into(),
+    };
+    let lines = match (delay.spread(), delay.worst()) {
         (Some(spread), Some(worst)) => format!(
             "{text}; of {} shots the worst is {} off\ndelay = {value}\ndelay_spread = {}\n",
             delay.shots.len(),
@@ -266,7 +315,8 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
             digits(spread),
         ),
         _ => format!("{text}; one shot tells no spread\ndelay = {value}\n"),
-    }
+    };
+    lines + &edge
 }
 
 /// A time in the unit that suits it.

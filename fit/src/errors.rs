@@ -7,6 +7,7 @@ use crate::hum;
 use crate::missed::least_open;
 use crate::signal::{Hum, Kind};
 use crate::solve::Cholesky;
+use crate::trace::Timing;
 use crate::units::Units;
 
 /// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
@@ -118,6 +119,15 @@ impl Results {
             trigger.error = trigger.error.hypot(triggers * of);
         }
         self.exposure.error = self.exposure.error.hypot(exposure * of);
+        self
+    }
+
+    /// With what is not known of the clock, in seconds.
+    pub fn timed(mut self, timing: &Timing) -> Self {
+        self.exposure.error = self.exposure.error.hypot(timing.pace * self.exposure.value);
+        for time in self.triggers.iter_mut().chain([&mut self.start]) {
+            time.error = time.error.hypot(timing.error);
+        }
         self
     }
 

@@ -1,6 +1,6 @@
 //! From a measured trace to the simplest shutter that serves. There is no file, terminal, thread or clock in it.
 //!
-//! [`fit`] takes a trace that [`crate::trace`] has read, and gives a [`Fit`]. Its stages, in the order in which they happen:
+//! [`fit`] takes a trace that [`crate::trace`] has read, [`fit_records`] several of one setting, and gives a [`Fit`]. Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
 //! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from `starts` with `solve`, with the
@@ -45,7 +45,7 @@ pub mod trace;
 pub mod unit;
 mod units;
 
-use crate::trace::{Light, Pulses, Refusal, Trace, Warning, pulses, undone};
+use crate::trace::{Frame, Light, Pulses, Refusal, Timing, Trace, Warning, median, pulses, undone};
 pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
@@ -58,27 +58,95 @@ pub use signal::{Flicker, Hum, Kind, Signal};
 /// The most triggers of a frame that are judged and planned.
 pub const MOST_TRIGGERS: u32 = 10_000;
 
+/// A trace whose pulses are found, and its sync.
+#[derive(Clone)]
+pub struct Record {
+    pulses: Pulses,
+    sync: Option<Sync>,
+    timing: Timing,
+}
+
+impl Record {
+    /// A trace with the `light`, `sync` and `timing` of its options; all others count in [`fit_records`].
+    ///
+    /// # Errors
+    /// A trace without a whole pulse or with too few samples.
+    pub fn new(trace: &Trace, options: &Options) -> Result<Self, Refusal> {
+        let (sync, timing) = (options.sync.clone(), options.timing.clone());
+        Ok(Self { pulses: found(trace, options.light)?, sync, timing })
+    }
+
+    /// With all its times, and those of its sync's channel, moved.
+    fn shift(&mut self, by: f64) {
+        self.pulses.shift(by);
+        if let Some(Sync::Channel(channel)) = &mut self.sync {
+            channel.shift(by);
+        }
+    }
+
+    /// What its pulse of median exposure collects, in seconds of full light, before a model is fitted.
+    pub fn exposure(&self) -> f64 {
+        median(self.pulses.frames.iter().map(|frame| frame.exposure).collect())
+    }
+}
+
+/// By how much the exposures of records differ, as a share of the shortest, and is that so little that they are of one setting?
+pub fn setting(records: &[Record]) -> (f64, bool) {
+    let exposures = records.iter().map(Record::exposure);
+    let (low, high) =
+        exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
+    let differ = high / low - 1.0;
+    (differ, differ <= delay::ALIKE)
+}
+
 /// Fits a trace. `progress` is told the share that is done.
 ///
 /// # Errors
-/// A trace without a whole pulse or with too few samples, a frame that is not there, a full light below what is seen.
+/// What [`Record::new`] and [`fit_records`] refuse.
 pub fn fit(
     trace: &Trace,
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
+    fit_records(&[Record::new(trace, options)?], options, progress)
+}
+
+/// Fits the shots of all these records, which are of one setting, as if they were in one: the curve is that of the shot of
+/// median exposure, and each shot gives a delay.
+///
+/// # Errors
+/// A frame that is not there, a full light below what is seen, a sync that tells no delay.
+///
+/// # Panics
+/// Without a record.
+pub fn fit_records(
+    records: &[Record],
+    options: &Options,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Fit, Refusal> {
     let n = options.triggers.clamp(1, MOST_TRIGGERS);
-    let pulses = found(trace, options.light)?;
-    let asked = shots::asked(&pulses.frames, options.frame)?;
-    let gap = gaps::gaps(&pulses, &pulses.frames[asked])?;
-    let counted = Frames::new(&pulses.frames, asked);
-    let differ = shots::differ(&pulses.frames, counted.scatter, pulses.relative_noise());
-    let fits = &explain::fits(&pulses, &pulses.frames[asked], options.mains, progress);
+    let frames: Vec<Frame> = Shot::all(records).iter().map(|shot| shot.frame.clone()).collect();
+    let asked = shots::asked(&frames, options.frame)?;
+    // Times are those of the fitted shot's own segment.
+    let Shot { record, frame, .. } = Shot::all(records)[asked];
+    let later = records[record].timing.later(frame.crossings[0]);
+    let mut moved = Vec::new();
+    if later != 0.0 {
+        moved = records.to_vec();
+        moved[record].shift(-later);
+    }
+    let records = if moved.is_empty() { records } else { &moved };
+    let shots = Shot::all(records);
+    let Shot { record, pulses, frame } = shots[asked];
+    let gap = gaps::gaps(pulses, frame)?;
+    let counted = Frames::new(&frames, asked);
+    let differ = shots::differ(&frames, counted.scatter, pulses.relative_noise());
+    let fits = &explain::fits(pulses, frame, options.mains, progress);
     progress(1.0);
 
     let candidates = choice::candidates(fits, n);
     let (chosen, reason) = choice::choose(options, &candidates, fits);
-    let peak = outcome::peak(options.full, &pulses, &candidates[chosen as usize])?;
+    let peak = outcome::peak(options.full, pulses, &candidates[chosen as usize])?;
     let (test, hidden) = judged(fits, chosen, reason);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
     let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
@@ -90,9 +158,9 @@ pub fn fit(
         }
         None => model.clone(),
     };
-    let [model, results] = [model, results].map(|results| results.outside(&fits.units, peak));
+    let [model, results] = [model, results]
+        .map(|results| results.outside(&fits.units, peak).timed(&records[record].timing));
 
-    let frame = &pulses.frames[asked];
     let mut fit = Fit {
         candidates,
         chosen,
@@ -107,6 +175,7 @@ pub fn fit(
         model_triggers: model.triggers,
         test,
         peak,
+        record,
         frames: counted,
         nominal: None,
         reading: None,
@@ -115,11 +184,17 @@ pub fn fit(
         inverted: pulses.inverted,
         middle: fits.units.seconds(0.0),
     };
+    // What is doubtful of other records, once.
+    for doubt in records.iter().flat_map(|other| &other.pulses.warnings) {
+        if fit.warnings.iter().all(|told| told.code() != doubt.code()) {
+            fit.warnings.push(doubt.clone());
+        }
+    }
     fit.warnings.extend(gap);
-    if let Some(sync) = &options.sync {
-        let signal = fit.best().signal;
-        let (delay, doubts) =
-            delay::measure(sync, &signal, results.start, &fit.triggers, &pulses, asked)?;
+    let signal = fit.best().signal;
+    if let Some((delay, doubts)) =
+        delay::measure(records, &shots, asked, &signal, results.start, &fit.triggers)?
+    {
         fit.delay = Some(delay);
         fit.warnings.extend(doubts);
     }
@@ -131,6 +206,24 @@ pub fn fit(
     let doubts = doubts::doubts(&fit, fits, frame, options.full.is_some());
     fit.warnings.extend(doubts);
     if fit.is_determined() { Ok(fit) } else { Err(Refusal::Undetermined) }
+}
+
+/// A frame, and where it was recorded.
+#[derive(Clone, Copy)]
+struct Shot<'a> {
+    record: usize,
+    pulses: &'a Pulses,
+    frame: &'a Frame,
+}
+
+impl<'a> Shot<'a> {
+    fn all(records: &'a [Record]) -> Vec<Self> {
+        let of = |(record, of): (usize, &'a Record)| {
+            let pulses = &of.pulses;
+            pulses.frames.iter().map(move |frame| Self { record, pulses, frame })
+        };
+        records.iter().enumerate().flat_map(of).collect()
+    }
 }
 
 /// The pulses of the trace; those without a capacitor before the recorder, where the dark asks for that.

@@ -4,7 +4,7 @@ use crate::curve::Exposure;
 use crate::delay::{Delay, Sync};
 use crate::errors::Measured;
 use crate::signal::{Kind, Signal};
-use crate::trace::{Frame, Light, Pulses, Reading, Refusal, Trace, Warning};
+use crate::trace::{Frame, Light, Pulses, Reading, Refusal, Timing, Trace, Warning};
 use crate::unit::Unit;
 
 /// A difference in trigger times that is small enough.
@@ -35,6 +35,8 @@ pub struct Options {
     pub mains: Option<f64>,
     /// The edge of the camera's sync, where that is known.
     pub sync: Option<Sync>,
+    /// What is known of the trace's times.
+    pub timing: Timing,
 }
 
 impl Options {
@@ -53,6 +55,7 @@ impl Default for Options {
             triggers: Self::TRIGGERS,
             mains: None,
             sync: None,
+            timing: Timing::default(),
         }
     }
 }
@@ -173,7 +176,9 @@ pub struct Fit {
     pub test: Test,
     /// The peak as a share of full light, where that was given; else 1.
     pub peak: f64,
-    /// The pulses.
+    /// The place of the record that holds the fitted pulse, among those that were given.
+    pub record: usize,
+    /// The pulses of all records.
     pub frames: Frames,
     /// What the exposure is called, in seconds, where whoever knows that says so.
     pub nominal: Option<f64>,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use generator::Random;
 use shutter_fit::trace::{self, Column, Recording, Warning, open};
 use shutter_fit::unit::Unit;
-use shutter_fit::{Options, fit};
+use shutter_fit::{Fit, Kind, Options, Sync, fit};
 use strum::IntoEnumIterator;
 
 /// Opens from 2 to 4 ms and closes from 7 to 9: an exposure of 5 ms. The times in seconds, the light from 0 to 1.
@@ -239,4 +239,124 @@ fn pulses_that_are_left_out_are_said() {
     assert_eq!(said, [spark.to_string(), left_out(1), left_out(4)]);
     let codes: Vec<&str> = fit.warnings.iter().map(Warning::code).collect();
     assert_eq!(codes, ["glitches", "partial_frame", "partial_frame"]);
+}
+
+/// The codes of all that is doubted, and the fit.
+fn doubted(text: &str, sync: Option<Sync>) -> (Fit, Recording, Vec<&'static str>) {
+    let recording = open(text.as_bytes(), &trace::Options::default()).unwrap();
+    let options = Options { timing: recording.timing.clone(), sync, ..Options::default() };
+    let fit = fit(&recording.trace, &options, &mut |_| ()).unwrap();
+    let codes =
+        recording.warnings.iter().chain(&fit.warnings).map(|warning| warning.code()).collect();
+    (fit, recording, codes)
+}
+
+#[test]
+fn segments_whose_times_begin_anew_are_shots() {
+    let segment = |later: f64, longer: f64| -> String {
+        let times = (0..700).map(|i| -2e-3 + 2e-5 * f64::from(i));
+        let mut random = Random::new(later as u64);
+        let openness = |t: f64| (t.min(0.005 + longer - t) / 6e-4).clamp(0.0, 1.0);
+        let rows =
+            times.map(|t| format!("{t:.6},{:.5}\n", openness(t - later) + 0.003 * random.normal()));
+        rows.collect()
+    };
+    let file = |segments: &[String]| format!("Time (s),A\n{}", segments.concat());
+    let equal = file(&[segment(0.0, 0.0), segment(4e-4, 0.0), segment(2e-4, 0.0)]);
+    let (fit, recording, codes) = doubted(&equal, Some(Sync::Edge(0.0)));
+    assert_eq!((fit.frames.count, fit.chosen, recording.reading.segments), (3, Kind::Trapezoid, 3));
+    assert!(codes.is_empty(), "{codes:?}");
+    assert!(
+        (fit.exposure.value - 0.0044).abs() < 4.0 * fit.exposure.error && fit.exposure.error < 2e-6
+    );
+    // Its times are those of its own segment.
+    let later = [0.0, 4e-4, 2e-4][fit.frames.fitted - 1];
+    assert!((fit.delay.unwrap().mean() - later).abs() < 3e-6);
+    let (_, _, codes) = doubted(&file(&[segment(0.0, 0.0), segment(0.0, 0.003)]), None);
+    assert_eq!(codes, ["shots_differ"]);
+    // Another column's names between them begin another recording; the same ones do not.
+    let [first, second] = [0.0, 1e-4].map(|later| segment(later, 0.0));
+    let parted = |names: &str| {
+        open(
+            file(&[first.clone(), format!("{names}\n"), second.clone()]).as_bytes(),
+            &trace::Options::default(),
+        )
+    };
+    assert!(
+        parted("Time (s),B").unwrap_err().to_string().contains("'Time (s),B' between the rows")
+    );
+    assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
+}
+
+#[test]
+fn rounded_times_are_spread_and_doubted() {
+    let mut random = Random::new(21);
+    let openness = |t: f64| ((t - 0.0123).min(0.0187 - t) / 4e-4).clamp(0.0, 1.0);
+    let values: Vec<f64> =
+        (0..2000).map(|i| openness(2e-5 * f64::from(i)) + 0.003 * random.normal()).collect();
+    type Form<'a> = &'a dyn Fn(f64) -> String;
+    let forms: [(&str, Form, f64); 6] = [
+        ("t_s", &|t| format!("{:.2e}", t + 0.2), 0.2),
+        ("t_s", &|t| format!("{:.5e}", t + 20.0), 20.0),
+        ("t_ms", &|t| format!("{:.0}", 1e3 * t), 0.0),
+        ("t_ms", &|t| (1e3 * t + 1e-9).floor().to_string(), 0.0),
+        ("t_ms", &|t| format!("{:.1}", 1e3 * t), 0.0),
+        // No time comes twice.
+        ("t_s", &|t| format!("{:.5}", 0.75 * t), 0.0),
+    ];
+    for (k, (name, form, start)) in forms.into_iter().enumerate() {
+        let pace = if k == 5 { 0.75 } else { 1.0 };
+        let rows: String = values
+            .iter()
+            .enumerate()
+            .map(|(i, v)| format!("{},{v:.5}\n", form(2e-5 * i as f64)))
+            .collect();
+        let (fit, _, codes) = doubted(&format!("{name},A\n{rows}"), None);
+        assert!(codes[0] == "rounded_times" && codes.len() < 3, "{k}: {codes:?}");
+        let off = [
+            (fit.exposure, pace * 0.006),
+            (fit.triggers[0], pace * 0.0126873 + start),
+            (fit.triggers[15], pace * 0.0183127 + start),
+        ];
+        for (found, truth) in off {
+            assert!((found.value - truth).abs() < 3.0 * found.error, "{k}: {found:?} {truth}");
+        }
+        assert!(
+            fit.exposure.error < 2e-4 && fit.chosen == Kind::Trapezoid,
+            "{k}: {:?} {:?}",
+            fit.exposure,
+            fit.chosen
+        );
+    }
+    // Rows that come twice are no rounding.
+    let twice: String = values
+        .iter()
+        .enumerate()
+        .map(|(i, v)| format!("{:.5},{v:.5}\n", 2e-5 * i as f64).repeat(2))
+        .collect();
+    assert_eq!(doubted(&format!("t_s,A\n{twice}"), None).2, ["duplicates"]);
+}
+
+#[test]
+fn a_list_of_changes_is_read_as_light_and_as_sync() {
+    let list = "Time [s],flash,light\n0,1,0\n0.5,0,0\n0.5031,0,1\n0.5093,0,0\n0.512,1,0\n1.5,0,0\n1.5031,0,1\n1.5093,0,0\n1.513,1,0\n";
+    let options = trace::Options { sync: Some(Column::Name("flash".into())), ..Default::default() };
+    let recording = open(list.as_bytes(), &options).unwrap();
+    assert_eq!(recording.warnings, [Warning::Changes]);
+    let options = Options { sync: recording.sync.map(Sync::Channel), ..Options::default() };
+    let fit = fit(&recording.trace, &options, &mut |_| ()).unwrap();
+    assert_eq!((fit.frames.count, fit.chosen), (2, Kind::Box));
+    assert!((fit.exposure.value - 0.0062).abs() < 1e-5, "{:?}", fit.exposure);
+    assert!((fit.delay.unwrap().mean() - 0.0031).abs() < 1e-5);
+    let (fit, _, codes) = doubted("Time [s],Channel 0\n0.0,0\n0.7,1\n0.7625,0\n", None);
+    assert!(
+        codes[0] == "changes" && (fit.exposure.value - 0.0625).abs() < 1e-4,
+        "{codes:?} {:?}",
+        fit.exposure
+    );
+    // A switch that was sampled is no list.
+    let sampled: String = (0..60)
+        .map(|i| format!("{},{}\n", 0.1 * f64::from(i), i32::from((20..40).contains(&i))))
+        .collect();
+    assert!(!doubted(&format!("t_s,A\n{sampled}"), None).2.contains(&"changes"));
 }

@@ -1,6 +1,5 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::convert::Infallible;
 use std::io::Write;
 use std::iter::once;
 use std::path::{Path, PathBuf};
@@ -9,15 +8,17 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
-use shutter_fit::unit::{Unit, count};
-use shutter_fit::{Fit, Kind, Options, Sync, Tolerance, delay};
+use shutter_fit::trace::{Light, Refusal, Warning};
+use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
 use super::fit_many::{self, Speed};
-use super::input::{self, file_name, shown, stem};
+use super::input::{file_name, shown, stem};
 use super::kept::Old;
-use super::output::{Outputs, svg_path};
+use super::mark;
+use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
+use super::read::{self, Asked, Read};
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -35,56 +36,63 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
-    /// Other traces, of other speeds: a table of them all instead of the report
+    /// More traces: shots of the same setting, to 10 % of the exposure, make one scene; of other speeds, or with --nominal, the
+    /// report is a table of them all
     #[arg(value_name = "TRACE")]
     others: Vec<PathBuf>,
-    /// What each trace's speed is called, in their order: 1/250, 4ms
+    /// What each trace's speed is called, in their order, or that of one setting: 1/250, 4ms
     #[arg(long, value_name = "TIME,...", value_delimiter = ',', value_parser = speed)]
     nominal: Vec<f64>,
-    /// Write the scene to this file, for `shutter plan`, and keep what a user wrote there; of several traces, a folder of them;
-    /// `-` is standard output, in place of the report
+    /// Write the scene to this file, for `shutter plan`, and keep what you changed in one that a fit wrote; of traces of several
+    /// speeds, a folder of them; `-` is standard output, in place of the report
     #[arg(long, value_name = "SCENE.toml")]
     out: Option<PathBuf>,
     /// Write the picture to this file: trace, curve, residual, triggers
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     picture: Option<PathBuf>,
-    /// Replace files that hold something else
+    /// Replace files that hold something else, or that you have changed
     #[arg(long)]
     force: bool,
     /// The unit of the times, where the header does not tell
     #[arg(long)]
-    unit: Option<Unit>,
+    pub(super) unit: Option<Unit>,
     /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
     #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
-    columns: Vec<String>,
+    pub(super) columns: Vec<String>,
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
-    rate: Option<f64>,
+    pub(super) rate: Option<f64>,
+    /// The first time of the trace that counts: -5ms
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    pub(super) from: Option<f64>,
+    /// The last time of the trace that counts
+    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    pub(super) to: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
-    light: Light,
+    pub(super) light: Light,
     /// The signal of a shutter that is fully open, where this one never is
     #[arg(long, value_name = "SIGNAL", allow_negative_numbers = true)]
-    full: Option<f64>,
+    pub(super) full: Option<f64>,
     /// Which pulse, from 1; the one of median exposure if left out
     #[arg(long, value_name = "NUMBER")]
-    frame: Option<usize>,
+    pub(super) frame: Option<usize>,
     /// The shutter's model; the simplest that serves if left out
     #[arg(long)]
-    model: Option<Kind>,
+    pub(super) model: Option<Kind>,
     /// Take the simplest model whose triggers are as near to the free model's: 0.1% (of the exposure), 20us
     #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
-    tolerance: Option<Tolerance>,
+    pub(super) tolerance: Option<Tolerance>,
     /// How many triggers; as many as the scene has that is there, or 16, if left out
     #[arg(long, value_name = "N", value_parser = trigger_count())]
     triggers: Option<u32>,
     /// The mains' frequency in hertz: a hum in the trace has it
     #[arg(long, value_name = "50|60", value_parser = mains)]
-    mains: Option<f64>,
-    /// The column of the camera's sync, by number or name, or the time of its edge in the trace: CH2, 3, 0, 1.5ms; the scene has
-    /// the delay from the edge to the opening, and how it differs between shots
-    #[arg(long, value_name = "COLUMN|TIME", value_parser = sync, allow_hyphen_values = true)]
-    sync: Option<Asked>,
+    pub(super) mains: Option<f64>,
+    /// The column of the camera's sync, by number or name, the time of its edge in the trace, or a file of the same record: CH2,
+    /// 3, 0, 1.5ms, F0001CH2.CSV; the scene has the delay from the edge to the opening, and how it differs between shots
+    #[arg(long, value_name = "COLUMN|TIME|FILE", value_parser = read::sync, allow_hyphen_values = true)]
+    sync: Vec<Asked>,
     /// The report's form; `json` is an object, or an array of those of several traces, whose names stay as they are
     #[arg(long, default_value = "text")]
     report: Report,
@@ -102,17 +110,6 @@ enum Report {
     Json,
 }
 
-/// What is told of the sync.
-#[derive(Clone)]
-enum Asked {
-    Time(f64),
-    Column(Column),
-}
-
-fn sync(text: &str) -> Result<Asked, Infallible> {
-    Ok(time(text).map_or_else(|_| Asked::Column(Column::parse(text)), Asked::Time))
-}
-
 fn mains(text: &str) -> Result<f64, String> {
     match text {
         "50" => Ok(50.0),
@@ -127,65 +124,58 @@ pub(super) fn trigger_count() -> RangedI64ValueParser<u32> {
 
 pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
     let traces: Vec<&Path> = once(&args.trace).chain(&args.others).map(PathBuf::as_path).collect();
-    if args.picture.is_some() && traces.len() > 1 {
-        return Err("--picture: a picture is of one trace".into());
-    }
-    if !args.nominal.is_empty() && args.nominal.len() != traces.len() {
-        let speeds = count(args.nominal.len() as u64, "speed");
-        let traces = count(traces.len() as u64, "trace");
-        return Err(format!("--nominal: {speeds} for {traces}"));
-    }
-    let scenes: Vec<PathBuf> = match (&args.out, traces.as_slice()) {
-        (None, _) => Vec::new(),
-        (Some(file), [_]) => vec![file.clone()],
-        (Some(folder), traces) => {
-            traces.iter().map(|trace| folder.join(stem(trace) + ".toml")).collect()
+    for (option, n) in [("--nominal", args.nominal.len()), ("--sync", args.sync.len())] {
+        if ![0, 1, traces.len()].contains(&n) {
+            let traces = count(traces.len() as u64, "trace");
+            return Err(format!("{option}: {n} for {traces}; give one for all, or one for each"));
         }
-    };
+    }
+    let sync = |i: usize| args.sync.get(i).or(args.sync.first());
+    let files: Vec<&Path> = args.sync.iter().filter_map(Asked::file).collect();
+    if files.len() == 1 && traces.len() > 1 {
+        return Err(
+            "--sync: each trace has a file of its own for its sync; give one for each".into()
+        );
+    }
+    let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
     let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
-    let mut outputs = Outputs::new(&traces, &to, args.force)?;
-
-    let (mut fits, mut beside) = (Vec::new(), Vec::new());
-    for (i, path) in traces.iter().enumerate() {
-        let old = scenes.get(i).map_or(Ok(None), |file| old(&mut outputs, file))?;
-        let triggers = args.triggers.or(old.as_ref().and_then(Old::triggers));
-        let refused = |reason: String| format!("{}: {reason}", shown(path));
-        let (mut fit, warnings) = measure(args, path, triggers).map_err(refused)?;
-        fit.nominal = args.nominal.get(i).copied();
-        fits.push(fit);
-        beside.push((old, warnings));
+    let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
+    if let ([_, _, ..], Some(folder)) = (&scenes[..], &args.out) {
+        outputs.in_folder(folder);
     }
-    delay::pool(fits.iter_mut().filter_map(|fit| Some((fit.exposure.value, fit.delay.as_mut()?))));
-
-    let (mut speeds, mut told, mut shown_scene) = (Vec::new(), String::new(), String::new());
-    for (i, (fit, (old, mut warnings))) in fits.into_iter().zip(beside).enumerate() {
-        let (path, file) = (traces[i], scenes.get(i));
-        let refused = |reason: String| format!("{}: {reason}", shown(path));
-        let name = file_name(path);
-        let scene = fitted::scene(&fit, &name, args.zero, old.as_ref().map(Old::unit))
-            .map_err(|refusal| refused(refusal.to_string()))?;
-        if scene.zero != args.zero && file.is_some() {
-            warnings.push(Warning::ZeroMoved);
-        }
-        let whose = if traces.len() > 1 { shown(path) + ": " } else { String::new() };
-        for warning in &warnings {
-            told += &format!("warning: {whose}{warning}\n");
-        }
-        let (text, kept) = match old {
-            Some(old) => merged(&old, &scene.text, file)?,
-            None => (scene.text, Vec::new()),
-        };
-        if let (Some(file), false) = (file, kept.is_empty()) {
-            told += &format!("{}: kept {}\n", file.display(), kept.join(", "));
-        }
-        match file {
-            Some(file) => outputs.replace(file, text)?,
-            None => shown_scene = text,
-        }
-        speeds.push(Speed { name, fit, warnings });
+    if let Some(picture) = &args.picture {
+        outputs.check(picture)?;
     }
-    if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, speeds.as_slice()) {
-        outputs.add(file, picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?)?;
+    let olds: Result<Vec<_>, _> = scenes.iter().map(|file| old(&mut outputs, file)).collect();
+    let olds = olds?;
+
+    let read = traces.iter().enumerate().map(|(i, path)| Read::new(args, path, sync(i)));
+    let read: Vec<Read> = read.collect::<Result<_, _>>()?;
+    let records = read.iter().map(|it| {
+        Record::new(&it.trace, &it.options)
+            .map_err(|refusal| format!("{}: {refusal}; read: {}", shown(it.path), it.reading))
+    });
+    let records: Vec<Record> = records.collect::<Result<_, _>>()?;
+    let is_one = is_one_setting(args, &read, &records, scenes.len())?;
+    let size = if is_one { read.len() } else { 1 };
+    let mut speeds = Vec::new();
+    for (i, (read, records)) in read.chunks(size).zip(records.chunks(size)).enumerate() {
+        let triggers =
+            args.triggers.or(olds.get(i).and_then(Option::as_ref).and_then(Old::triggers));
+        let mut speed = measure(read, records, triggers)?;
+        speed.fit.nominal = args.nominal.get(i).copied();
+        speeds.push(speed);
+    }
+    let fits = speeds.iter_mut().map(|speed| &mut speed.fit);
+    delay::pool(fits.filter_map(|fit| Some((fit.exposure.value, fit.delay.as_mut()?))));
+
+    // What is refused from here on leaves the report.
+    let (mut told, mut shown_scene) = (String::new(), String::new());
+    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut told, &mut shown_scene);
+    let mut warnings = String::new();
+    for Speed { name, warnings: of, .. } in &speeds {
+        let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
+        warnings.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
     }
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
@@ -200,31 +190,126 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         }
         (_, speeds) => fit_many::table(speeds),
     };
-    outputs.finish(out, &report)?;
+    let ended = match ready {
+        Ok(ready) => ready.finish(out, &report).map(|wrote| told += &wrote),
+        Err(reason) => print(out, &report).and(Err(reason)),
+    };
+    if ended.is_ok() {
+        told += &next(&scenes);
+    }
     // There is no one to tell if standard error cannot be written.
-    let _ = err.write_all(told.as_bytes());
-    Ok(())
+    let _ = err.write_all((warnings + &told).as_bytes());
+    ended
 }
 
-/// The scene that is there already, unless it is to be replaced.
-fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
-    match outputs.old(file)?.filter(|text| !text.is_empty()) {
-        None => Ok(None),
-        Some(text) => Old::parse(&text).map(Some).ok_or_else(|| {
-            format!(
-                "{}: it holds something other than a scene; --force replaces it",
-                file.display()
-            )
-        }),
+/// Where scenes go: to the file of one, or into a folder, where each is called as its trace is.
+fn scenes(out: &Path, traces: &[&Path]) -> Vec<PathBuf> {
+    let is_toml = out.extension().is_some_and(|end| end.eq_ignore_ascii_case("toml"));
+    match traces {
+        several @ [_, _, ..] if !is_toml && !is_std(out) => {
+            several.iter().map(|trace| out.join(stem(trace) + ".toml")).collect()
+        }
+        _ => vec![out.into()],
     }
 }
 
+/// Are these the shots of one setting, which make one scene? If so, they are read alike; if not, each trace makes its own.
+fn is_one_setting(
+    args: &Args,
+    read: &[Read],
+    records: &[Record],
+    scenes: usize,
+) -> Result<bool, String> {
+    let (differ, is_one) = shutter_fit::setting(records);
+    let (n, differ) = (read.len(), short(100.0 * differ, 2));
+    if n == 1 {
+        return Ok(true);
+    }
+    let is_one = is_one && args.nominal.len() < n;
+    if !is_one {
+        let reason = match (&args.nominal[..], scenes, &args.picture) {
+            ([_], ..) => "--nominal: one speed",
+            (_, 1, _) => "--out: one scene; name a folder for one of each trace",
+            (.., Some(_)) => "--picture: one picture",
+            _ => return Ok(false),
+        };
+        return Err(format!("{reason}: the exposures differ by {differ} %"));
+    }
+    if scenes > 1 {
+        return Err(format!(
+            "--out: the exposures differ by {differ} % only, so the traces are shots of one setting and make one scene: \
+             name it SCENE.toml, or give each trace its speed with --nominal"
+        ));
+    }
+    read[1..].iter().try_for_each(|other| other.like(&read[0]))?;
+    Ok(true)
+}
+
+/// All that is written: scenes, with what is kept of the older ones, and a picture.
+fn write(
+    args: &Args,
+    speeds: &mut [Speed],
+    files: &[PathBuf],
+    olds: Vec<Option<Old>>,
+    mut outputs: Outputs,
+    told: &mut String,
+    shown_scene: &mut String,
+) -> Result<Ready, String> {
+    let mut olds = olds.into_iter();
+    for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
+        let old = olds.next().flatten();
+        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
+            .map_err(|refusal| format!("{name}: {refusal}"))?;
+        let Some(file) = files.get(i) else {
+            *shown_scene = scene.text;
+            continue;
+        };
+        if scene.zero != args.zero {
+            warnings.push(Warning::ZeroMoved);
+        }
+        let (text, kept) = match old {
+            Some(old) => merged(&old, &scene.text, file)?,
+            None => (scene.text, Vec::new()),
+        };
+        if !kept.is_empty() {
+            *told += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        }
+        outputs.replace(file, mark::marked(mark::TOML, &text))?;
+    }
+    if let (Some(file), [Speed { name, fit, .. }]) = (&args.picture, &*speeds) {
+        let picture = picture::trace(name, fit).map_err(|e| format!("the picture: {e}"))?;
+        outputs.add(file, mark::SVG, &picture)?;
+    }
+    outputs.ready()
+}
+
+/// What to do with the scenes.
+fn next(scenes: &[PathBuf]) -> String {
+    let quoted = |path: &PathBuf| match path.display().to_string() {
+        name if name.contains(char::is_whitespace) => format!(" '{name}'"),
+        name => format!(" {name}"),
+    };
+    match scenes.iter().any(|file| is_stream(file)) || scenes.is_empty() {
+        true => String::new(),
+        false => format!("next: shutter plan{}\n", scenes.iter().map(quoted).collect::<String>()),
+    }
+}
+
+/// The scene that a fit wrote there, whatever was changed in it since.
+fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
+    let Some(text) = outputs.old(file)? else { return Ok(None) };
+    let text = std::str::from_utf8(&text).ok().and_then(mark::below);
+    text.and_then(|(text, _)| Old::parse(text.as_bytes())).map(Some).ok_or_else(|| {
+        format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display())
+    })
+}
+
 /// The new scene with what is kept of the old one, if it can be planned.
-fn merged(old: &Old, text: &str, file: Option<&PathBuf>) -> Result<(String, Vec<String>), String> {
+fn merged(old: &Old, text: &str, file: &Path) -> Result<(String, Vec<String>), String> {
     let (text, kept) = old.kept_in(text);
     Planned::parse(&text).map_err(|fault| {
-        let file = file.map(|file| file.display().to_string()).unwrap_or_default();
-        format!("{file}: with what it keeps, {}; --force replaces it all", fault.reason)
+        let (file, reason) = (file.display(), fault.reason);
+        format!("{file}: with what it keeps, {reason}; --force replaces it all")
     })?;
     Ok((text, kept))
 }
@@ -239,43 +324,25 @@ fn json(speeds: &[Speed]) -> String {
     format!("{json:#}\n")
 }
 
-/// The fit of a trace, and what is doubtful about it.
-fn measure(args: &Args, path: &Path, triggers: Option<u32>) -> Result<(Fit, Vec<Warning>), String> {
-    let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
-    let (edge, sync) = match &args.sync {
-        Some(Asked::Time(time)) => (Some(Sync::Edge(*time)), None),
-        Some(Asked::Column(column)) => (None, Some(column.clone())),
-        None => (None, None),
-    };
-    let options = trace::Options { unit: args.unit, columns, rate: args.rate, sync };
-    let told = |refusal: Refusal| refusal.to_string();
-    let Recording { trace, sync, reading, mut warnings } =
-        trace::open(&input::read(path)?, &options).map_err(told)?;
-    if edge.is_some() && reading.is_counted() {
-        return Err(format!(
-            "--sync: times are counted from the first row, and nothing tells how long that is before or after the edge; name the \
-             column of the sync, or take a record with times; read: {reading}"
-        ));
-    }
-    let options = Options {
-        model: args.model,
-        tolerance: args.tolerance,
-        full: args.full,
-        frame: args.frame,
-        light: args.light,
-        triggers: triggers.unwrap_or(Options::TRIGGERS),
-        mains: args.mains,
-        sync: edge.or(sync.map(Sync::Channel)),
-    };
-    let mut fit =
-        fitted(&trace, &options).map_err(|refusal| format!("{refusal}; read: {reading}"))?;
-    fit.reading = Some(reading);
+/// The fit of the shots of one setting, and what is doubtful about it.
+fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<Speed, String> {
+    let more = |n: usize| if n > 1 { format!(", of {n} files") } else { String::new() };
+    let options =
+        Options { triggers: triggers.unwrap_or(Options::TRIGGERS), ..read[0].options.clone() };
+    let mut fit = fitted(records, &options).map_err(|refusal| {
+        let (path, reading) = (shown(read[0].path) + &more(read.len()), &read[0].reading);
+        format!("{path}: {refusal}; read: {reading}")
+    })?;
+    let Read { path, reading, .. } = &read[fit.record];
+    fit.reading = Some(reading.clone());
+    let mut warnings = Vec::new();
+    read::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
     warnings.extend(fit.warnings.iter().cloned());
-    Ok((fit, warnings))
+    Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
 }
 
 /// The fit, with a bar for whoever waits for it.
-fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
+fn fitted(records: &[Record], options: &Options) -> Result<Fit, Refusal> {
     let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {
         bar.set_style(style);
@@ -286,7 +353,7 @@ fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
         }
         bar.set_position((1000.0 * done) as u64);
     };
-    let fit = shutter_fit::fit(trace, options, &mut progress);
+    let fit = shutter_fit::fit_records(records, options, &mut progress);
     bar.finish_and_clear();
     fit
 }

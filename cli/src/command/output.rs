@@ -1,17 +1,20 @@
 //! All that the commands write. Nothing that a user has is lost:
 //!
 //! - An output that is an input or another output is refused before anything is read.
-//! - A file that holds something else is refused without `--force`; one that is read-only, always.
+//! - A file is replaced without `--force` only where it is empty, or as a run wrote it: by its [`mark`], or by the same bytes
+//!   where it can have none. One that is read-only is always refused.
 //! - All files of a run are written beside their places first, and take these when they are whole. What fails leaves the
 //!   old ones, and no other.
 //! - Links are followed. What is no regular file (a device, a pipe) is written to as it is.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 
 use same_file::Handle;
 use tempfile::NamedTempFile;
+
+use super::mark::{self, Comment};
 
 /// The name of a picture's file, as an argument.
 pub fn svg_path(name: &str) -> Result<PathBuf, String> {
@@ -29,7 +32,7 @@ pub fn is_std(path: &Path) -> bool {
 }
 
 /// Is it written to directly, as nothing in it can be lost?
-fn is_stream(path: &Path) -> bool {
+pub fn is_stream(path: &Path) -> bool {
     is_std(path) || fs::metadata(path).is_ok_and(|it| !it.is_file() && !it.is_dir())
 }
 
@@ -37,6 +40,8 @@ fn is_stream(path: &Path) -> bool {
 #[derive(Default)]
 pub struct Outputs {
     force: bool,
+    /// A folder that is made if files are to be in it.
+    folder: Option<PathBuf>,
     /// What was where a file is to be, when that was looked at; nothing where it may be replaced whatever it is.
     seen: Vec<(PathBuf, Option<Vec<u8>>)>,
     /// Whole, and not in their places yet: these, and the names by which they were asked for.
@@ -81,25 +86,65 @@ impl Outputs {
         Ok(Self { force, ..Self::default() })
     }
 
-    /// What an older file holds that is to be written to, unless it may be replaced whatever that is.
+    /// Files may be in this folder, which need not be there.
+    pub fn in_folder(&mut self, folder: &Path) {
+        self.folder = Some(folder.into());
+    }
+
+    /// What an older file holds that is to be written to; nothing where that counts for nothing. What cannot be written is
+    /// refused.
     pub fn old(&mut self, path: &Path) -> Result<Option<Vec<u8>>, String> {
-        if self.force || is_stream(path) {
+        if is_stream(path) {
             return Ok(None);
+        }
+        let place = writable(path)?;
+        let folder = place.parent().unwrap_or(&place);
+        if !folder.is_dir() && self.makes(path).is_none() {
+            return Err(format!("{}: its folder is not there", path.display()));
+        }
+        if self.force {
+            return Ok(None);
+        }
+        if let Some((_, old)) = self.seen.iter().find(|(seen, _)| seen == path) {
+            return Ok(old.clone().filter(|old| !old.is_empty()));
         }
         let old = match fs::read(path) {
             Err(e) if e.kind() == ErrorKind::NotFound => None,
             old => Some(old.map_err(|e| told(path, &e))?),
         };
         self.seen.push((path.into(), old.clone()));
-        Ok(old)
+        Ok(old.filter(|old| !old.is_empty()))
     }
 
-    /// Adds a file; an older one has to be empty, or the same.
-    pub fn add(&mut self, path: &Path, text: String) -> Result<(), String> {
+    /// The folder that is made for this file.
+    fn makes(&self, path: &Path) -> Option<&Path> {
+        self.folder.as_deref().filter(|folder| path.parent() == Some(folder))
+    }
+
+    /// Refuses a file that no run wrote, or that was changed since.
+    pub fn check(&mut self, path: &Path) -> Result<(), String> {
+        let Some(old) = self.old(path)? else { return Ok(()) };
+        let reason = match std::str::from_utf8(&old).ok().and_then(mark::below) {
+            Some((_, true)) => return Ok(()),
+            Some(_) => "you have changed it since it was written",
+            None => "it holds something else",
+        };
+        Err(format!("{}: {reason}; --force replaces it", path.display()))
+    }
+
+    /// Adds a file of such comments in place of its own older one.
+    pub fn add(&mut self, path: &Path, comment: Comment, text: &str) -> Result<(), String> {
+        self.check(path)?;
+        self.replace(path, mark::marked(comment, text))
+    }
+
+    /// Adds a file that has no comments; an older one has to be the same.
+    pub fn add_table(&mut self, path: &Path, text: String) -> Result<(), String> {
         match self.old(path)? {
-            Some(old) if !old.is_empty() && old != text.as_bytes() => {
-                Err(format!("{}: it holds something else; --force replaces it", path.display()))
-            }
+            Some(old) if old != text.as_bytes() => Err(format!(
+                "{}: it holds something else, and a table does not tell whose; --force replaces it",
+                path.display()
+            )),
             _ => self.replace(path, text),
         }
     }
@@ -111,14 +156,17 @@ impl Outputs {
         } else if is_stream(path) {
             self.streams.push((path.into(), text));
         } else {
+            if let Some(folder) = self.makes(path) {
+                fs::create_dir_all(folder).map_err(|e| told(folder, &e))?;
+            }
             let (file, place) = beside(path, &text)?;
             self.files.push((file, place, path.into()));
         }
         Ok(())
     }
 
-    /// Writes all, and the report to standard output unless something else is to go there.
-    pub fn finish(self, out: &mut dyn Write, report: &str) -> Result<(), String> {
+    /// Writes to what is no file. The files can be placed then, unless one has changed since it was looked at.
+    pub fn ready(self) -> Result<Ready, String> {
         for (path, text) in &self.streams {
             let mut stream =
                 OpenOptions::new().write(true).open(path).map_err(|e| told(path, &e))?;
@@ -127,15 +175,28 @@ impl Outputs {
         if let Some((path, _)) = self.seen.iter().find(|(path, old)| fs::read(path).ok() != *old) {
             return Err(format!("{}: it has changed meanwhile", path.display()));
         }
-        print(out, self.text.as_deref().unwrap_or(report))?;
-        for (file, place, path) in self.files {
-            let is_new = self.seen.iter().any(|(of, old)| *of == path && old.is_none());
+        Ok(Ready(self))
+    }
+}
+
+/// What needs no more than to be put in its place.
+pub struct Ready(Outputs);
+
+impl Ready {
+    /// Prints the report, unless something else is to go to standard output, then puts all files in their places; tells which.
+    pub fn finish(self, out: &mut dyn Write, report: &str) -> Result<String, String> {
+        let Self(Outputs { seen, files, text, .. }) = self;
+        print(out, text.as_deref().unwrap_or(report))?;
+        let mut wrote = String::new();
+        for (file, place, path) in files {
+            let is_new = seen.iter().any(|(of, old)| *of == path && old.is_none());
             let placed = if is_new { file.persist_noclobber(&place) } else { file.persist(&place) };
             placed.map_err(|e| told(&path, &e.error))?;
             // It is there; where a folder can be synced, it stays there if the power goes.
             let _ = place.parent().map(File::open).map(|folder| folder?.sync_all());
+            wrote += &format!("wrote {}\n", path.display());
         }
-        Ok(())
+        Ok(wrote)
     }
 }
 
@@ -148,17 +209,21 @@ pub fn print(out: &mut dyn Write, text: &str) -> Result<(), String> {
     }
 }
 
+/// Where a file is, or would be, behind all links, unless it is not to be written.
+fn writable(path: &Path) -> Result<PathBuf, String> {
+    let place = place(path).map_err(|e| told(path, &e))?;
+    match fs::metadata(&place) {
+        Ok(it) if it.permissions().readonly() => {
+            Err(format!("{}: it is read-only", path.display()))
+        }
+        _ => Ok(place),
+    }
+}
+
 /// The whole text in a file in the same folder, which is gone when it is dropped.
 fn beside(path: &Path, text: &str) -> Result<(NamedTempFile, PathBuf), String> {
     let (failed, name) = (|e: io::Error| told(path, &e), path.display());
-    let place = place(path).map_err(|e| match e.kind() {
-        ErrorKind::NotFound => format!("{name}: its folder is not there"),
-        _ => told(path, &e),
-    })?;
-    let old = fs::metadata(&place).ok().map(|it| it.permissions());
-    if old.as_ref().is_some_and(fs::Permissions::readonly) {
-        return Err(format!("{name}: it is read-only"));
-    }
+    let place = writable(path)?;
     let mut builder = tempfile::Builder::new();
     builder.prefix(".shutter-").suffix(".tmp");
     // As any new file is, not for its owner alone.
@@ -167,8 +232,8 @@ fn beside(path: &Path, text: &str) -> Result<(NamedTempFile, PathBuf), String> {
     let mut file = builder
         .tempfile_in(place.parent().unwrap_or(&place))
         .map_err(|e| format!("{name}: {} in its folder", e.kind()))?;
-    if let Some(old) = old {
-        file.as_file().set_permissions(old).map_err(failed)?;
+    if let Ok(old) = fs::metadata(&place) {
+        file.as_file().set_permissions(old.permissions()).map_err(failed)?;
     }
     file.as_file_mut().write_all(text.as_bytes()).map_err(failed)?;
     file.as_file().sync_all().map_err(failed)?;
@@ -188,7 +253,8 @@ fn place(path: &Path) -> io::Result<PathBuf> {
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     match (fs::read_link(path), path.file_name()) {
         (Ok(target), _) => place(&folder.join(target)),
-        (_, Some(name)) => Ok(fs::canonicalize(folder)?.join(name)),
+        // A folder that is not there has one name.
+        (_, Some(name)) => Ok(fs::canonicalize(folder).or_else(|_| absolute(folder))?.join(name)),
         _ => Err(ErrorKind::NotFound.into()),
     }
 }

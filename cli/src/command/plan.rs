@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::input::{self, shown, stem};
+use super::mark::{self, Comment};
 use super::output::{Outputs, svg_path};
 use super::settings::Settings;
 use crate::emit::Form;
@@ -38,7 +39,7 @@ pub struct Args {
     /// Write the form to this file, and not to standard output
     #[arg(long, value_name = "FILE", requires = "emit")]
     to: Option<PathBuf>,
-    /// Replace files that hold something else
+    /// Replace files that hold something else, or that you have changed
     #[arg(long)]
     force: bool,
     /// What it is called; the scene's file name, or `shutter` for several, if left out
@@ -48,7 +49,7 @@ pub struct Args {
 
 type Draw = fn(&str, &Planned) -> Result<String, Box<dyn Error>>;
 
-pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
+pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), String> {
     let Args { scenes, out: picture, set_ups, emit: form, to, .. } = args;
     if scenes.len() > 1 && (picture.is_some() || set_ups.is_some()) {
         return Err("a picture is of one scene".into());
@@ -68,7 +69,7 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
             for (file, draw) in pictures {
                 if let Some(file) = file {
                     let svg = draw(name, plan).map_err(|e| format!("the picture: {e}"))?;
-                    outputs.add(file, svg)?;
+                    outputs.add(file, mark::SVG, &svg)?;
                 }
             }
             match form {
@@ -83,12 +84,28 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
         }
         (plans, None) => speeds::text(plans),
     };
-    match to {
-        Some(file) => {
-            outputs.add(file, text)?;
-            outputs.finish(out, "")
+    let printed = match to.as_ref().zip(*form) {
+        Some((file, form)) => {
+            match comment(form) {
+                Some(comment) => outputs.add(file, comment, &text)?,
+                None => outputs.add_table(file, text)?,
+            }
+            String::new()
         }
-        None => outputs.finish(out, &text),
+        None => text,
+    };
+    let wrote = outputs.ready()?.finish(out, &printed)?;
+    // There is no one to tell if standard error cannot be written.
+    let _ = err.write_all(wrote.as_bytes());
+    Ok(())
+}
+
+/// The comments of a form, if it has some.
+fn comment(form: Form) -> Option<Comment> {
+    match form {
+        Form::Rust => Some(mark::RUST),
+        Form::C => Some(mark::C),
+        Form::Csv | Form::Json => None,
     }
 }
 

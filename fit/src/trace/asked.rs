@@ -41,6 +41,10 @@ pub struct Options {
     pub columns: Vec<Column>,
     /// The samples in a second, where the file holds no times.
     pub rate: Option<f64>,
+    /// The first time that counts, in seconds, if not all do.
+    pub from: Option<f64>,
+    /// The last one.
+    pub to: Option<f64>,
     /// The column of the camera's sync, which holds no light.
     pub sync: Option<Column>,
 }

@@ -41,7 +41,7 @@ fn is_counter(numbers: &[f64]) -> bool {
 fn runs(numbers: &[f64]) -> bool {
     let rises = numbers.windows(2).filter(|pair| pair[1] > pair[0]).count();
     let falls = numbers.windows(2).filter(|pair| pair[1] < pair[0]).count();
-    rises + falls > 2.max(numbers.len() / 50) && 10 * rises.min(falls) <= rises + falls
+    rises + falls >= 2.max(numbers.len() / 50) && 10 * rises.min(falls) <= rises + falls
 }
 
 /// The unit in which the numbers go on by so many seconds from one to the next.
@@ -115,6 +115,8 @@ impl Layout {
             clock,
             first,
             told: self.told.clone(),
+            window: [None; 2],
+            segments: 0,
         }
     }
 

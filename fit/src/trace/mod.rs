@@ -16,6 +16,7 @@ mod samples;
 mod select;
 mod settings;
 mod table;
+mod times;
 mod told;
 mod wav;
 
@@ -30,5 +31,6 @@ pub use read::open;
 pub use reading::{Clock, Reading, Recording, Told};
 pub use samples::Trace;
 pub(crate) use samples::{median, sampling_interval};
+pub use times::Timing;
 pub(crate) use told::from_opening;
 pub use told::{Refusal, Warning};

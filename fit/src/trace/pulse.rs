@@ -83,6 +83,12 @@ pub struct Pulses {
 }
 
 impl Pulses {
+    /// Moves all times.
+    pub(crate) fn shift(&mut self, by: f64) {
+        self.trace.shift(by);
+        self.frames.iter_mut().for_each(|frame| frame.crossings.iter_mut().for_each(|t| *t += by));
+    }
+
     /// How much the light adds to the dark.
     pub fn light(&self) -> f64 {
         self.levels.1

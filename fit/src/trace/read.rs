@@ -8,9 +8,10 @@ use super::bytes::decode;
 use super::layout::{Layout, Time};
 use super::numbers::{number, short_of, split};
 use super::reading::{Recording, Samples, Told, shown};
-use super::samples::{Trace, range};
+use super::samples::range;
 use super::select::light_among;
 use super::table::Table;
+use super::times::{Sample, lists_changes, ordered, staying};
 use super::told::{Refusal, Warning};
 use super::wav;
 
@@ -32,27 +33,45 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if layout.told == Told::Assumed {
         warnings.push(Warning::UnitAssumed);
     }
-    let mut read = samples(&table, &layout)?;
+    let time = match layout.time {
+        Time::Column(column, _) => Some(column),
+        Time::Steps { .. } => None,
+    };
+    let changes = time.is_some_and(|time| lists_changes(&table, time));
+    if changes {
+        warnings.push(Warning::Changes);
+    }
+    let is_asked =
+        |t: f64| options.from.is_none_or(|from| t >= from) && options.to.is_none_or(|to| t <= to);
+    let mut read = samples(&table, &layout, |rows| {
+        rows.retain(|row| is_asked(row.time));
+        if changes {
+            *rows = staying(rows);
+        }
+    })?;
     // It was read last.
     let sync = layout.sync.and_then(|_| read.pop()).transpose()?;
     let (signal, samples) = match <[_; 1]>::try_from(read) {
         Ok([only]) => (layout.signals[0], only?),
         Err(all) => {
             let all = layout.signals.iter().copied().zip(all).collect();
-            let time = match layout.time {
-                Time::Column(column, _) => Some(column),
-                Time::Steps { .. } => None,
-            };
             light_among(all, |k| shown(&(k + 1, table.name(k))), time, &mut warnings)?
         }
     };
     warnings.extend(samples.warnings);
-    let (trace, sync) = (samples.trace, sync.map(|sync| sync.trace));
-    Ok(Recording { trace, sync, reading: layout.reading(&table, signal), warnings })
+    let (trace, timing) = (samples.trace, samples.timing);
+    let mut reading = layout.reading(&table, signal);
+    reading.window = [options.from, options.to];
+    reading.segments = timing.segments.len();
+    Ok(Recording { trace, timing, sync: sync.map(|sync| sync.trace), reading, warnings })
 }
 
-/// The samples of each signal, and of the sync. Each line is read once, since there may be thousands of columns.
-fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
+/// The samples of each signal, and of the sync, of rows as they are `taken`. Each line is read once, since there may be thousands of columns.
+fn samples(
+    table: &Table,
+    layout: &Layout,
+    taken: impl Fn(&mut Vec<Sample>),
+) -> Result<Vec<Result<Samples, Refusal>>, Refusal> {
     let signals: Vec<usize> = layout.signals.iter().copied().chain(layout.sync).collect();
     let mut columns: Vec<Column> = signals.iter().map(|_| Column::default()).collect();
     let by_rows = matches!(layout.time, Time::Steps { column: None, .. });
@@ -77,18 +96,20 @@ fn samples(table: &Table, layout: &Layout) -> Result<Vec<Result<Samples, Refusal
                 }
             }
         }
-        // Where the rows count, what parts them parts recordings.
+        // Where the rows count, what parts them parts recordings; elsewhere other names do.
         match &between {
             Some((line, text)) if is_read => {
                 return Err(Refusal::Blocks { line: *line, text: short_of(text) });
             }
-            None if by_rows && rows > 0 && (is_remark || is_word) => between = Some((line, row)),
+            None if rows > 0 && (by_rows && (is_remark || is_word) || table.names_others(row)) => {
+                between = Some((line, row));
+            }
             _ => (),
         }
         rows += usize::from(!is_remark);
     }
     let read = |(signal, column): (&usize, Column)| {
-        column.read(|| layout.reading(table, *signal).to_string())
+        column.read(&taken, || layout.reading(table, *signal).to_string())
     };
     Ok(signals.iter().zip(columns).map(read).collect())
 }
@@ -103,7 +124,11 @@ struct Column {
 }
 
 impl Column {
-    fn read(mut self, reading: impl Fn() -> String) -> Result<Samples, Refusal> {
+    fn read(
+        mut self,
+        taken: impl Fn(&mut Vec<Sample>),
+        reading: impl Fn() -> String,
+    ) -> Result<Samples, Refusal> {
         let mut warnings = Vec::new();
         if let Some((line, reason)) = self.first {
             let (count, rows) = (self.broken, self.samples.len() + self.broken);
@@ -114,14 +139,10 @@ impl Column {
             warnings.push(Warning::BrokenRows { count, line, reason });
         }
         limit(&mut self.samples, &mut warnings);
-        Ok(Samples { trace: ordered(self.samples, &mut warnings), warnings })
+        taken(&mut self.samples);
+        let (trace, timing) = ordered(self.samples, &mut warnings);
+        Ok(Samples { trace, timing, warnings })
     }
-}
-
-struct Sample {
-    time: f64,
-    value: f64,
-    line: u64,
 }
 
 /// Puts the greatest or the least finite value in the place of what was too large for the instrument.
@@ -137,34 +158,4 @@ fn limit(samples: &mut [Sample], warnings: &mut Vec<Warning>) {
         count += 1;
     }
     warnings.push(Warning::Overload { count, line });
-}
-
-/// In order, those of the same time averaged.
-fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> Trace {
-    if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
-        warnings.push(Warning::Unsorted { line: pair[1].line });
-        rows.sort_by(|a, b| a.time.total_cmp(&b.time));
-    }
-    let mut trace = Trace::default();
-    let (mut same, mut again) = (1.0, None);
-    let mut duplicates = 0;
-    for row in rows {
-        match trace.values.last_mut() {
-            Some(value) if trace.times.last() == Some(&row.time) => {
-                same += 1.0;
-                *value += (row.value - *value) / same;
-                duplicates += 1;
-                again.get_or_insert(row.line);
-            }
-            _ => {
-                same = 1.0;
-                trace.times.push(row.time);
-                trace.values.push(row.value);
-            }
-        }
-    }
-    if let Some(line) = again {
-        warnings.push(Warning::Duplicates { count: duplicates, line });
-    }
-    trace
 }

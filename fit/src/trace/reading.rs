@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::samples::Trace;
+use super::times::Timing;
 use super::told::Warning;
 use crate::unit::{Unit, short};
 
@@ -26,6 +27,10 @@ pub struct Reading {
     pub first: Option<f64>,
     /// Who tells the unit or the rate.
     pub told: Told,
+    /// The first and the last time that count, where that was asked.
+    pub window: [Option<f64>; 2],
+    /// So many segments begin anew, each a shot.
+    pub segments: usize,
 }
 
 /// How the time of a row is known.
@@ -59,6 +64,8 @@ pub enum Told {
 pub struct Recording {
     /// The samples.
     pub trace: Trace,
+    /// What is known of their times.
+    pub timing: Timing,
     /// Those of the camera's sync, if its column was asked for.
     pub sync: Option<Trace>,
     /// What was read.
@@ -70,6 +77,7 @@ pub struct Recording {
 /// The samples of one column.
 pub struct Samples {
     pub trace: Trace,
+    pub timing: Timing,
     pub warnings: Vec<Warning>,
 }
 
@@ -106,7 +114,7 @@ impl Reading {
             Told::Against(unit) => format!("as asked, where its name says {}", unit.name()),
             Told::Assumed => "assumed".into(),
         };
-        match (&self.time, self.clock) {
+        let times = match (&self.time, self.clock) {
             (Some(time), Clock::Unit(unit)) => {
                 format!("{} in {}, {by}", shown(time), unit.name())
             }
@@ -118,7 +126,17 @@ impl Reading {
                 });
                 format!("{} samples a second, {by}{from}", short(rate, 7))
             }
-        }
+        };
+        let shown = |seconds: f64| Unit::fit(seconds.abs()).show(seconds);
+        let limit = |word: &str, time: Option<f64>| {
+            time.map_or(String::new(), |time| format!(", {word} {}", shown(time)))
+        };
+        let [from, to] = self.window;
+        let segments = match self.segments {
+            0 => String::new(),
+            n => format!(", in {n} segments, each a shot"),
+        };
+        times + &segments + &limit("from", from) + &limit("to", to)
     }
 }
 

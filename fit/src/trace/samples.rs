@@ -18,6 +18,11 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Moves all times.
+    pub(crate) fn shift(&mut self, by: f64) {
+        self.times.iter_mut().for_each(|t| *t += by);
+    }
+
     /// Some of the samples.
     pub(crate) fn part(&self, samples: &Range<usize>) -> Self {
         Self {

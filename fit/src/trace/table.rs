@@ -363,6 +363,21 @@ impl<'a> Table<'a> {
         )
     }
 
+    /// Is the line a row of names, though not of these columns?
+    pub fn names_others(&self, line: &str) -> bool {
+        let fields = self.fields_above(line);
+        let is_name = |k: &usize| {
+            fields.get(*k).is_some_and(|field| {
+                field.starts_with(char::is_alphabetic)
+                    && number(field, self.decimal_comma).is_none()
+            })
+        };
+        self.columns.len() > 1
+            && self.columns.iter().all(is_name)
+            && self.columns.iter().any(|k| self.names[0].get(*k) != fields.get(*k))
+            && !self.above.iter().any(|(above, _)| *above == line)
+    }
+
     /// The lines from the first row on, each with its number.
     pub fn lines(&self) -> impl Iterator<Item = (u64, &'a str)> {
         let lines = (1..).zip(self.text.lines());

@@ -180,6 +180,19 @@ pub enum Warning {
         are(.count)
     )]
     Duplicates { count: usize, line: u64 },
+    /// Times of a steady clock that were rounded to such a step.
+    #[error(
+        "the file rounds its times to {}; they are spread evenly, as a steady clock's, and the ± allow for it; export them with \
+         more digits",
+        time(.to)
+    )]
+    RoundedTimes { to: f64 },
+    /// The rows are changes of levels.
+    #[error(
+        "the rows list the changes of a level of two values, as a logic analyser's do: it is taken to stay in between, so no \
+         ramp shows"
+    )]
+    Changes,
     /// The file does not tell the time's unit.
     #[error(
         "the file does not say in which unit its times are; they are taken as seconds (see --unit)"

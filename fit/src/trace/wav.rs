@@ -8,6 +8,7 @@ use super::asked::{Column, Options};
 use super::reading::{Clock, Reading, Recording, Samples, Told};
 use super::samples::Trace;
 use super::select::light_among;
+use super::times::Timing;
 use super::told::{Refusal, Warning};
 
 /// From this length in bytes on, a recorder writes that it does not know it yet (2 or 4 GiB, less a header).
@@ -47,9 +48,13 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let channel = |k: usize| {
         let values = values.iter().skip(k).step_by(channels);
         let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
-        let (times, values) =
-            values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v)).unzip();
-        Ok(Samples { trace: Trace { times, values }, warnings: Vec::new() })
+        let timed = values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v));
+        let is_asked = |(t, _): &(f64, f64)| {
+            options.from.is_none_or(|from| *t >= from) && options.to.is_none_or(|to| *t <= to)
+        };
+        let (times, values) = timed.filter(is_asked).unzip();
+        let timing = Timing::default();
+        Ok(Samples { trace: Trace { times, values }, timing, warnings: Vec::new() })
     };
     let place = |column: &Column| match column {
         Column::Number(number) if (1..=channels).contains(number) => Ok(number - 1),
@@ -74,8 +79,17 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };
     let clock = Clock::Rate(rate);
     let (columns, signal, of_sync) = (channels, named(0), sync.map(named));
-    let mut reading =
-        Reading { columns, time: None, signal, sync: of_sync, clock, first: Some(0.0), told };
+    let mut reading = Reading {
+        columns,
+        time: None,
+        signal,
+        sync: of_sync,
+        clock,
+        first: Some(0.0),
+        told,
+        window: [options.from, options.to],
+        segments: 0,
+    };
     let mut warnings = vec![Warning::SoundCard];
     if there < announced && is_said {
         warnings.push(Warning::CutOff { samples: there, announced });
@@ -86,5 +100,5 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     reading.signal = named(signal);
     let sync: Result<_, Refusal> = sync.map(channel).transpose();
     let sync = sync?.map(|sync: Samples| sync.trace);
-    Ok(Recording { trace: samples.trace, sync, reading, warnings })
+    Ok(Recording { trace: samples.trace, timing: samples.timing, sync, reading, warnings })
 }

@@ -1,0 +1,196 @@
+//! What the times of a file's rows are beside numbers: segments that begin anew, values that were rounded, changes of a level that stays
+//! in between.
+
+use super::samples::{Trace, median};
+use super::table::Table;
+use super::told::Warning;
+
+/// A row's sample.
+#[derive(Clone, Copy)]
+pub struct Sample {
+    pub time: f64,
+    pub value: f64,
+    pub line: u64,
+}
+
+/// What is known of a trace's times beside them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Timing {
+    /// Of segments one after the other, from when on each is, and how much later that is than it was recorded.
+    pub segments: Vec<(f64, f64)>,
+    /// The standard error of all times alike, in seconds.
+    pub error: f64,
+    /// That of every length, as a share of it.
+    pub pace: f64,
+}
+
+impl Timing {
+    /// By how much later than it was recorded the trace has what is at this time.
+    pub(crate) fn later(&self, time: f64) -> f64 {
+        self.segments.iter().rev().find(|(from, _)| *from <= time).map_or(0.0, |(_, later)| *later)
+    }
+}
+
+/// A segment has so many rows at least.
+const FEWEST: usize = 16;
+/// So many times their length are segments put apart: too far to be each other's dark.
+const APART: f64 = 4.0;
+/// More than one in so many rows at the time of another is no accident.
+const OFTEN: usize = 20;
+/// A list of changes becomes so many samples at each end of a level that stays, and so many in the usual one.
+const STAYS: usize = 4000;
+const USUAL: f64 = 1000.0;
+
+/// Puts segments whose times begin anew one after the other, and tells where they are.
+fn apart(rows: &mut [Sample]) -> Vec<(f64, f64)> {
+    let (mut starts, mut longest) = (vec![0], 0.0);
+    for k in 1..rows.len() {
+        let start = starts[starts.len() - 1];
+        let length = rows[k - 1].time - rows[start].time;
+        longest = f64::max(longest, length);
+        let begins =
+            rows[k].time < rows[k - 1].time && rows[k].time <= rows[start].time + 0.1 * length;
+        if begins && length > 0.0 && k - start >= FEWEST {
+            starts.push(k);
+        }
+    }
+    if starts.len() < 2 {
+        return Vec::new();
+    }
+    let (mut segments, n) = (Vec::new(), rows.len());
+    let mut end = rows[0].time - APART * longest;
+    for (i, start) in starts.iter().enumerate() {
+        let part = &mut rows[*start..starts.get(i + 1).copied().unwrap_or(n)];
+        let later = if i == 0 { 0.0 } else { end + APART * longest - part[0].time };
+        part.iter_mut().for_each(|row| row.time += later);
+        segments.push((part[0].time - 0.5 * APART * longest, later));
+        end = part.iter().map(|row| row.time).fold(end, f64::max);
+    }
+    segments
+}
+
+/// Spreads the times of a steady clock that were rounded: to which step, with what is left unknown.
+fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
+    let n = rows.len();
+    let steps = || rows.windows(2).map(|pair| pair[1].time - pair[0].time);
+    let again = || rows.windows(2).filter(|pair| pair[1].time == pair[0].time);
+    let differ = again().filter(|pair| pair[1].value != pair[0].value).count();
+    // Without repeated times there are two steps that differ by one of the rounding.
+    let (least, most) =
+        steps().fold((f64::INFINITY, 0.0), |(a, b), step| (f64::min(a, step), f64::max(b, step)));
+    let rounding = most - least;
+    let near = |to: f64| steps().filter(|step| (step - to).abs() < 0.1 * rounding).count() * OFTEN;
+    let is_two =
+        near(least) > n && near(most) > n && near(least) + near(most) + OFTEN >= (n - 1) * OFTEN;
+    let is_repeated = again().count() * OFTEN > n && differ * OFTEN > again().count();
+    if n < FEWEST || !(is_repeated || least > 0.0 && is_two && rounding > 1e-3 * most) {
+        return None;
+    }
+    // The step of the rounding around each row: digits may become fewer on the way.
+    let mut around = vec![0.0; n];
+    let changes: Vec<usize> = (1..n).filter(|k| rows[*k].time > rows[k - 1].time).collect();
+    for (i, k) in changes.iter().enumerate() {
+        let step = if least > 0.0 { rounding } else { rows[*k].time - rows[k - 1].time };
+        let from = if i > 0 { changes[i - 1] } else { 0 };
+        let to = changes.get(i + 1).copied().unwrap_or(n);
+        around[from..to].iter_mut().for_each(|around| *around = f64::max(*around, step));
+    }
+    // The line through the times, by weights.
+    let weighted =
+        |of: &dyn Fn(usize) -> f64| (0..n).map(|k| of(k) / around[k].powi(2)).sum::<f64>();
+    let all = weighted(&|_| 1.0);
+    let (middle, time) = (weighted(&|k| k as f64) / all, weighted(&|k| rows[k].time) / all);
+    let off = |k: usize| k as f64 - middle;
+    let squares = weighted(&|k| off(k).powi(2));
+    let step = weighted(&|k| off(k) * (rows[k].time - time)) / squares;
+    let at = |k: usize| time + step * off(k);
+    let is_line = (0..n).all(|k| (rows[k].time - at(k)).abs() <= 0.8 * around[k]);
+    if !is_line || !(step > 0.0) {
+        return None;
+    }
+    let usual = median(around.clone());
+    let groups = (changes.len() + 1) as f64;
+    let pace = usual / (step * n as f64 * groups.sqrt());
+    (0..n).for_each(|k| rows[k].time = at(k));
+    Some((usual, Timing { segments: Vec::new(), error: usual / 12f64.sqrt(), pace }))
+}
+
+/// The samples in order, those of the same time averaged, and what is known of the times.
+pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
+    let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
+    if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
+        warnings.push(Warning::Unsorted { line: pair[1].line });
+        rows.sort_by(|a, b| a.time.total_cmp(&b.time));
+    } else if let (Some((to, spread)), true) = (spread(&mut rows), timing.segments.is_empty()) {
+        warnings.push(Warning::RoundedTimes { to });
+        timing = spread;
+    }
+    let mut trace = Trace::default();
+    let (mut same, mut again) = (1.0, None);
+    let mut duplicates = 0;
+    for row in rows {
+        match trace.values.last_mut() {
+            Some(value) if trace.times.last() == Some(&row.time) => {
+                same += 1.0;
+                *value += (row.value - *value) / same;
+                duplicates += 1;
+                again.get_or_insert(row.line);
+            }
+            _ => {
+                same = 1.0;
+                trace.times.push(row.time);
+                trace.values.push(row.value);
+            }
+        }
+    }
+    if let Some(line) = again {
+        warnings.push(Warning::Duplicates { count: duplicates, line });
+    }
+    (trace, timing)
+}
+
+/// Does nearly every row tell a change of a column that has two values, at uneven times?
+pub fn lists_changes(table: &Table, time: usize) -> bool {
+    let times = &table.first[time];
+    let others: Vec<&Vec<f64>> =
+        table.columns.iter().filter(|k| **k != time).map(|k| &table.first[*k]).collect();
+    let is_switch = |values: &&Vec<f64>| {
+        let other = values.iter().find(|v| **v != values[0]);
+        values.len() == times.len() && values.iter().all(|v| *v == values[0] || Some(v) == other)
+    };
+    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
+    let (least, most) =
+        steps().fold((f64::INFINITY, 0.0), |(a, b), step| (f64::min(a, step), f64::max(b, step)));
+    let changes = |k: &usize| others.iter().any(|values| values[*k] != values[k - 1]);
+    let n = times.len();
+    n > 2
+        && !others.is_empty()
+        && others.iter().all(is_switch)
+        && least > 0.0
+        && most > 1.5 * least
+        && 10 * ((1..n).filter(changes).count() + 1) >= 9 * n
+}
+
+/// A list of changes as samples of levels that stay in between: where they stay for long, at both ends alone.
+pub fn staying(changes: &[Sample]) -> Vec<Sample> {
+    let lengths: Vec<f64> = changes.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
+    if lengths.is_empty() {
+        return Vec::new();
+    }
+    let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let step = (2.0 * shortest / USUAL).max(median(lengths.clone()) / USUAL);
+    let stays = STAYS.min(100_000 / lengths.len() + 20);
+    let last = stays as f64 * step;
+    let mut samples = Vec::new();
+    for (change, length) in changes.iter().zip(lengths.iter().copied().chain([last])) {
+        let mut add = |since: f64| samples.push(Sample { time: change.time + since, ..*change });
+        let count = (length / step).round().max(1.0);
+        if count <= 2.0 * stays as f64 {
+            (0..count as usize).for_each(|k| add((k as f64 + 0.5) * length / count));
+        } else {
+            (0..stays).for_each(|k| add((k as f64 + 0.5) * step));
+            (0..stays).rev().for_each(|k| add(length - (k as f64 + 0.5) * step));
+        }
+    }
+    samples
+}
