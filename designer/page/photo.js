@@ -3,7 +3,7 @@
 
 import { $, watch, write } from './dom.js';
 import { collected, shareAt } from './graph.js';
-import { short } from './scene.js';
+import { STOPS } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, ROOM = 10, FINE = 2;
 const TRAVEL = WIDTH - HEIGHT;
@@ -45,7 +45,7 @@ function expose(light, most) {
   return image;
 }
 
-const isNew = watch(), isSeen = watch();
+const isDeveloped = watch(), isShown = watch();
 let list, flashes, pictures;
 
 // Both pictures, of the light until a time.
@@ -70,10 +70,13 @@ function develop(scene, view, until) {
   pictures = [ideal, triggered].map((light) => expose(light, most));
 }
 
-export function draw({ now: { scene }, last: view, cursor, isPlaying }) {
-  if (!view || !isSeen(view, scene.measured, cursor, isPlaying)) return;
+export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
+  $('flashes').value = STOPS.findLastIndex((n) => n <= scene.triggers);
+  $('flashes').setAttribute('aria-valuetext', `${scene.triggers} flashes`);
+  write($('flash-count'), String(scene.triggers));
+  if (!view || !isShown(view, scene.measured, cursor, isPlaying)) return;
   const until = isPlaying ? cursor : Infinity;
-  if (isNew(view, scene.measured, until)) develop(scene, view, until);
+  if (isDeveloped(view, scene.measured, until)) develop(scene, view, until);
   const [start, end] = [list[0][0], list.at(-1)[0]];
   const n = flashes.length;
   pictures.forEach((image, i) => {
@@ -98,10 +101,7 @@ export function draw({ now: { scene }, last: view, cursor, isPlaying }) {
     if (i && n <= 120) for (let k = 1; k < n; k++) context.fillRect((WIDTH * k) / n - 1, HEIGHT + 3, 2, ROOM - 3);
   });
   if (isPlaying) return;
-  const [a, b] = pictures.map(({ data }) => data);
-  let squares = 0;
-  for (let i = 0; i < a.length; i += 4) squares += (a[i] - b[i]) ** 2;
-  const differ = (100 * Math.sqrt((4 * squares) / a.length)) / 255;
   const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${n > 1 ? ' of equal light' : ''}`;
-  write($('flash-caption'), `${what}: ${differ < 2 ? 'hard to tell from the first picture' : `${short(differ, 2)} % off the first picture`}`);
+  write($('flash-caption'), what);
+  write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
 }

@@ -104,16 +104,15 @@ export function withTimes(scene, times) {
   return { ...withInner(scene, along(scene.inner)), times, spare: { ...scene.spare, inner: along(scene.spare.inner) } };
 }
 
-/** The scene as the part of an address behind '#', with another one and a table of speeds beside it if there are such. */
-export function hash({ scene, other, speeds }) {
+/** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */
+export function hash({ scene, speeds }) {
   const part = (key, value) => `${key}=${encodeURIComponent(value)}`;
   const parts = [part('name', scene.name), part('unit', scene.unit === 'µs' ? 'us' : scene.unit), `times=${scene.times}`];
   if (scene.inner) parts.push(`inner=${scene.inner}`);
   for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
   if (scene.measured) parts.push(`measured=${scene.measured}`);
-  for (const doubt of scene.doubts) parts.push(part('doubt', doubt));
+  for (const { about, text } of scene.doubts) parts.push(part('doubt', `${about}: ${text}`));
   if (scene.untold) parts.push(part('untold', scene.untold));
-  if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
   if (speeds) parts.push(part('speeds', JSON.stringify(speeds)));
   return '#' + parts.join('&');
 }
@@ -121,14 +120,19 @@ export function hash({ scene, other, speeds }) {
 /** What such a part of an address holds; an error says what is wrong. */
 export function fromAddress(text) {
   const parts = new URLSearchParams(text.replace(/^#/, ''));
-  const other = parts.get('with');
   const speeds = parts.has('speeds') ? JSON.parse(parts.get('speeds')) : null;
   if (speeds && !(Array.isArray(speeds) && speeds.every(isSpeed))) throw new Error('speeds: a name, a kind, doubts and numbers are required in each row');
-  return { scene: fromHash(text), other: other ? fromHash(other) : null, speeds };
+  return { scene: fromHash(text), speeds };
+}
+
+// `exposure: clipped`: what is doubtful, and about which number.
+function fromDoubt(words) {
+  const [, about, text] = /^(?:(\w+): )?(.*)$/s.exec(words);
+  return { about: about ?? 'exposure', text };
 }
 
 const isSpeed = (it) => [it?.name, it?.kind, ...(it?.doubts ?? [null])].every((words) => typeof words === 'string')
-  && [it.exposure, it.error, it.scatter, it.pulses].every(Number.isFinite);
+  && [it.exposure, it.error, it.scatter, it.pulses, it.dial ?? 0].every(Number.isFinite);
 
 function fromHash(text) {
   if (text.length > LONGEST) throw new Error(`it is ${text.length} characters long`);
@@ -142,7 +146,7 @@ function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubts: parts.getAll('doubt'), untold: parts.get('untold'), spare: {}, given: GIVEN };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubts: parts.getAll('doubt').map(fromDoubt), untold: parts.get('untold'), spare: {}, given: GIVEN };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
   for (const key of WHOLE) if (scene[key] !== null && !Number.isInteger(scene[key])) throw new Error(`${key}: a whole number is required`);

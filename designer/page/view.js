@@ -4,16 +4,20 @@ import { UNITS } from './presets.js';
 import { INNER, NUMBERS, TIMES } from './scene.js';
 
 const decoder = new TextDecoder();
-let module;
+const folder = document.currentScript.src;
+/** The address of a file beside this script. */
+export const fileOf = (name) => new URL(name, folder);
+
+let engine;
 let exports;
 
-export async function load() {
-  module = await WebAssembly.compileStreaming(fetch(new URL('engine.wasm', import.meta.url)));
-  await start();
+export async function loadEngine() {
+  engine = await WebAssembly.compileStreaming(fetch(fileOf('engine.wasm')));
+  await instantiate();
 }
 
-async function start() {
-  exports = (await WebAssembly.instantiate(module, {})).exports;
+async function instantiate() {
+  exports = (await WebAssembly.instantiate(engine, {})).exports;
 }
 
 // A scene's number by its key; NaN for none.
@@ -35,27 +39,27 @@ export function allowed(scene, isDeep) {
     ask(scene);
     return exports.allowed(isDeep);
   } catch {
-    start();
+    instantiate();
     return 0;
   }
 }
 
 /** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export function view(scene) {
+export function viewOf(scene) {
   try {
     ask(scene);
     const length = exports.view();
     const answer = JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
-    if (answer.Ok) read(answer.Ok, exports.memory.buffer, exports.numbers());
+    if (answer.Ok) readNumbers(answer.Ok, exports.memory.buffer, exports.numbers());
     return answer;
   } catch (fault) {
-    start();
+    instantiate();
     return { Err: { reason: `this could not be computed (${fault.message})`, notes: [] } };
   }
 }
 
 // Puts the numbers into a view, which only tells where they are.
-function read(view, memory, at) {
+function readNumbers(view, memory, at) {
   const numbers = ([from, to]) => Array.from(new Float64Array(memory, at + 8 * from, to - from));
   const tuples = (part, size) => {
     const all = numbers(part);
@@ -71,5 +75,4 @@ function read(view, memory, at) {
   const plan = view.plan.Ok;
   if (!plan) return;
   [plan.closest, plan.min_gap, plan.half_open] = numbers(plan.seconds);
-  for (const set_up of plan.set_ups) set_up.pulses = tuples(set_up.pulses, 3);
 }

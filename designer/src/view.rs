@@ -4,7 +4,6 @@ use serde::Serialize;
 use shutter::facts::{Facts, drift};
 use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::Scene;
-use shutter::set_up::{Row, SetUps};
 use shutter::shape::Shape;
 use shutter::times::Times;
 use shutter_curve::CubicBezier;
@@ -14,9 +13,6 @@ use crate::answer::{Wrong, json};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
-
-/// More pulses are not told apart in the pictures of the set-ups.
-const MOST_DOSES: usize = 128;
 
 /// A scene's curve, and its plan where it has one. Times are in seconds.
 #[derive(Serialize)]
@@ -45,17 +41,8 @@ struct Planned {
     most: Option<u32>,
     /// The least gap between two, or the least darkness, where there are two; what is asked for; how long it is half open.
     seconds: Part,
-    set_ups: Vec<Doses>,
     /// When a delay that moves matters, as the program says it.
     drift: Option<String>,
-}
-
-/// One of the set-ups.
-#[derive(Serialize)]
-struct Doses {
-    is_shuttered: bool,
-    /// When the lamp is on and off, and the dose of light, of each pulse.
-    pulses: Part,
 }
 
 /// Where numbers of the answer are, from and to: the page reads them as they are in memory, which is faster than as text and
@@ -164,21 +151,12 @@ impl Planned {
         let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
         let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
         let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
-        let SetUps { length, rows } = SetUps::new(&plan);
-        let rows = if plan.triggers.len() > MOST_DOSES { Vec::new() } else { Vec::from(rows) };
-        let mut doses = |row: &Row| {
-            let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(&plan, length, (on, off))];
-            let pulses = numbers.put(row.pulses.iter().flat_map(dose));
-            Doses { is_shuttered: row.is_shuttered, pulses }
-        };
-        let set_ups = rows.iter().map(&mut doses).collect();
         Self {
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
             pulses,
             delay: plan.delay.map(|delay| delay.ticks),
             most: Some(plan.most),
             seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
-            set_ups,
             drift: drift(&plan.into()),
         }
     }
@@ -193,7 +171,6 @@ impl Planned {
             delay: times.delay.map(|delay| delay.ticks),
             most: None,
             seconds: numbers.put([closest, times.min_gap, f64::NAN]),
-            set_ups: Vec::new(),
             drift: drift(&times.into()),
         }
     }

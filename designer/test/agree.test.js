@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, bouncing, copied, drop, open, page, scratch, setUp, shutter, trace } from './harness.js';
+import { ROOT, bouncing, copied, drop, fitted, open, page, scratch, setUp, shutter, trace } from './harness.js';
 
 setUp();
 
@@ -37,10 +37,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
   for (let i = 0; i < 100; i++) {
     await page.evaluate((hash) => (location.hash = hash), scene(i));
     await page.until((name) => document.getElementById('name').value === name, `r${i}`);
-    const toml = await page.evaluate(async () => {
-      const [{ toml }, { model }] = await Promise.all([part('toml.js'), part('model.js')]);
-      return toml(model.now.scene);
-    });
+    const toml = await page.evaluate(() => designer.toml(designer.model.now.scene));
     const file = join(scratch, `r${i}.toml`);
     writeFileSync(file, toml);
     let program;
@@ -49,7 +46,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
     } catch (error) {
       // What the program refuses the page refuses, for the same reason.
       refused++;
-      const reason = await page.evaluate(async () => (await part('model.js')).model.wrong.reason);
+      const reason = await page.evaluate(() => designer.model.wrong.reason);
       assert.ok(reason.length > 10 && error.stderr.includes(reason), `${toml}${reason}\n${error.stderr}`);
       assert.ok(await page.isDisabled('#copy'));
       continue;
@@ -78,15 +75,15 @@ const TRACES = {
 };
 
 test('12 traces are fitted as the program fits them', { timeout: 600_000 }, async () => {
-  await open();
+  await open('');
   const keys = (text) => Object.fromEntries(text.split('\n').map((line) => /^(\w+) = ([^#]*)/.exec(line)).filter(Boolean).map(([, key, value]) => [key, value.trim()]));
   let misfits = 0;
   for (const [name, make] of Object.entries(TRACES)) {
     const [file, out] = [join(scratch, `${name}.csv`), join(scratch, `${name}.toml`)];
     writeFileSync(file, make());
     await drop([`${name}.csv`, make()]);
-    await page.until((name) => document.querySelector('#trace h3')?.textContent === `${name}.csv` && document.getElementById('busy').hidden, name);
-    shutter('fit', file, '--zero', 'open', '--triggers', '12', '--out', out);
+    await fitted(`${name}.csv`);
+    shutter('fit', file, '--zero', 'open', '--triggers', '6', '--out', out);
     const [there, here] = [readFileSync(out, 'utf8').replace(/\[\s+/g, '[').replace(/,\s+(?=[\d\]])/g, ', ').replace(/, \]/g, ']'), await copied('toml')].map(keys);
     if (there.trigger_times) misfits++;
     assert.deepEqual(here, there, name);
