@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the curve designer into designer/dist, plain files for any web server: `cargo run -- design` serves them here.
+# Builds the curve designer into designer/dist, plain files for any web server: `shutter design` serves them here.
 #
 # It needs Rust with the target wasm32-unknown-unknown, and adds it by rustup where it is missing.
 set -euo pipefail

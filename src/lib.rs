@@ -39,12 +39,12 @@
 //! # From a measured shutter
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
-//! crate's repository fits the trace and prints a module for the firmware, with the curve as a `static`, the ticks of a
-//! frame, and the delay from the camera's sync:
+//! crate's repository fits the trace and prints a module for the firmware, with the ticks of a frame, the delay from the
+//! camera's sync, and the curve as a `static`. First it asks for what no trace tells: set-up, edge and timer.
 //!
 //! ```text
-//! cargo run -- fit trace.csv --sync 0 --out leaf.toml
-//! cargo run -- plan leaf.toml --emit rust --to leaf.rs
+//! shutter fit trace.csv --sync 0 --out leaf.toml
+//! shutter plan leaf.toml --emit rust --curve --to leaf.rs
 //! ```
 //!
 //! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count
@@ -128,7 +128,7 @@ mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
-#[doc(hidden)]
+#[cfg(feature = "measure")]
 pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};

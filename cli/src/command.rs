@@ -12,6 +12,7 @@ mod output;
 mod plan;
 mod quantity;
 mod read;
+mod sensors;
 mod settings;
 
 use std::ffi::OsString;

@@ -676,10 +676,9 @@ fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     let [toml, svg] =
         ["leaf.toml", "leaf.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
     let run = run(&[&csv, "--out", &toml, "--picture", &svg, "--triggers", "5", "--zero", "open"]);
-    assert_eq!(
-        (run.code, run.err),
-        (0, format!("wrote {toml}\nwrote {svg}\nnext: shutter plan {toml}\n"))
-    );
+    let told =
+        format!("wrote {toml}\nwrote {svg}\nnext: write set_up, timer_hz into the scene, then ");
+    assert!(run.code == 0 && run.err.starts_with(&told), "{}", run.err);
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
     assert!(run.out.contains("* straight ramps") && run.out.contains("exposure     5.00"));
     let scene = fs::read_to_string(&toml).unwrap();
@@ -700,6 +699,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
     let good = written(&dir, "good.csv", &text);
     let cut = written(&dir, "cut.csv", &text[..text.len() / 2]);
     let values = written(&dir, "values.csv", &rows(&trace, |_, v| format!("{v}")));
+    let scene = written(&dir, "scene.toml", include_str!("../scenes/soft.toml"));
+    let json = written(&dir, "trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
     let missing = dir.join("missing.csv").to_str().unwrap().to_string();
     let [toml, svg] =
         ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
@@ -709,6 +710,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         (vec![&values], "--rate"),
         (vec![&missing], "missing.csv: "),
         (vec![dir.to_str().unwrap()], ": "),
+        (vec![&scene], "this is a scene, and no trace; `shutter plan "),
+        (vec![&json], "this is JSON; a trace is a table"),
         (vec![&good, "--columns", "time_s,w"], "no column 'w'; there are 2: time_s, v"),
         (vec![&good, "--frame", "3"], "no frame 3; the trace has 1 whole frame"),
         (vec![&good, "--full", "-3"], "--full -3"),
@@ -867,12 +870,15 @@ fn several_traces_are_a_table() {
     for (args, reason) in [
         (
             vec![&*slow, &fast, "--nominal", "10ms"],
-            "--nominal: one speed: the exposures differ by 100 %",
+            "--nominal: give a speed for each trace; the exposures differ by 100 %",
         ),
         (vec![&slow, &fast, "--nominal", "1ms,2ms,3ms"], "--nominal: 3 for 2 traces"),
-        (vec![&slow, &fast, "--out", "no.toml"], "--out: one scene; name a folder"),
+        (vec![&slow, &fast, "--out", "no.toml"], "--out: name a folder for a scene of each trace"),
         (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
-        (vec![&slow, &fast, "--picture", "no.svg"], "--picture: one picture: the exposures differ"),
+        (
+            vec![&slow, &fast, "--picture", "no.svg"],
+            "--picture: it is of one setting; the exposures",
+        ),
         (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {
@@ -986,4 +992,143 @@ fn a_nominal_speed_is_told_as_such() {
             run.err
         );
     }
+}
+
+/// Four sensors behind a curtain shutter: each one's exposure, and when its light comes later than the first one's.
+#[test]
+fn several_sensors_tell_how_the_curtains_travel() {
+    let dir = empty_dir("sensors");
+    let mut random = Random::new(17);
+    let sensors = [[3.0, 5.2], [4.5, 6.95], [6.0, 8.6], [7.5, 10.4]];
+    let openness = |t: f64, [opens, closes]: [f64; 2]| {
+        ((t - opens).min(closes - t) / 0.3 + 0.5).clamp(0.0, 1.0)
+    };
+    let mut text = String::from("t_ms,A,B,C,D\n");
+    for i in 0..3000 {
+        let t = 5e-3 * f64::from(i);
+        write!(text, "{t:.3}").unwrap();
+        sensors.iter().for_each(|ends| {
+            write!(text, ",{:.5}", openness(t, *ends) + 0.003 * random.normal()).unwrap()
+        });
+        text += "\n";
+    }
+    let csv = written(&dir, "travel.csv", &text);
+    let run_all = run(&[&csv, "--columns", "1,2,3,4,5"]);
+    assert_eq!((run_all.code, run_all.err.as_str()), (0, ""));
+    for (name, [opens, closes]) in ["A", "B", "C", "D"].into_iter().zip(sensors) {
+        let line = run_all.out.lines().find(|line| line.starts_with(name)).unwrap();
+        let numbers: Vec<f64> =
+            line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let more = ((closes - opens) / 2.2_f64).log2();
+        let truths = [closes - opens, more, opens - 3.0, closes - 5.2];
+        // Each ± but that of the stops has an error behind it.
+        let found = if name == "A" {
+            vec![numbers[0]]
+        } else {
+            vec![numbers[0], numbers[2], numbers[3], numbers[5]]
+        };
+        for (found, truth) in found.into_iter().zip(truths) {
+            assert!(
+                (found - truth).abs() < if truth == more { 0.006 } else { 0.002 },
+                "{line}: {truth}"
+            );
+        }
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&run(&[&csv, "--columns", "1,A,D", "--report", "json"]).out).unwrap();
+    let half = |k: usize| json[k]["half_light_s"][0].as_f64().unwrap();
+    assert!((half(1) - half(0) - 0.0045).abs() < 2e-6 && json.as_array().unwrap().len() == 2);
+    let rise = json[0]["rise_fall_s"][0].as_f64().unwrap();
+    assert!((rise - 0.8 * 0.3e-3).abs() < 5e-6, "{rise}");
+    let refused = run(&[&csv, "--columns", "1,2,3", "--out", "no.toml"]);
+    assert!(
+        refused.code == 2 && refused.err.contains("several sensors have no scene"),
+        "{}",
+        refused.err
+    );
+}
+
+#[test]
+fn a_window_and_the_zero_of_time_are_kept_to() {
+    let dir = empty_dir("window");
+    let two = |t: f64| trapezoid(t) + 0.5 * trapezoid(2.0 * t - 0.02);
+    let mut random = Random::new(6);
+    let text: String = (0..2000)
+        .map(|i| format!("{:.5}\n", two(1e-5 * f64::from(i)) + 0.004 * random.normal()))
+        .collect();
+    let csv = written(&dir, "rated.csv", &(String::from("Sample rate: 100 kHz\nA\n") + &text));
+    let exposure = |args: &[&str]| {
+        let run = run(&[&[csv.as_str(), "--report", "json"], args].concat());
+        assert_eq!(run.code, 0, "{}", run.err);
+        let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+        (1e3 * json["exposure_s"].as_f64().unwrap(), json["pulses"].as_u64().unwrap())
+    };
+    let (first, one) = exposure(&["--to", "10ms"]);
+    let (second, other) = exposure(&["--from", "10ms", "--to=1s"]);
+    assert!(
+        (first - 5.0).abs() < 0.02 && (second - 2.5).abs() < 0.02 && (one, other) == (1, 1),
+        "{first} {second}"
+    );
+    assert!(run(&[&csv, "--to", "10ms"]).out.contains("by 'Sample rate: 100 kHz', to 10 ms"));
+    // The rows are counted, and nothing says from when.
+    let refused = run(&[&csv, "--to", "10ms", "--sync", "0"]);
+    assert!(
+        refused.code == 2 && refused.err.contains("--sync: times are counted from the first row"),
+        "{}",
+        refused.err
+    );
+    let zero = written(
+        &dir,
+        "zero.csv",
+        &(String::from("Sample rate: 100 kHz\nTrigger point,150\nA\n") + &text),
+    );
+    let json = run(&[&zero, "--to", "8ms", "--sync", "0", "--report", "json"]);
+    let json: serde_json::Value = serde_json::from_str(&json.out).unwrap();
+    assert!((json["delay_s"].as_f64().unwrap() - 0.0005).abs() < 1e-5, "{json}");
+}
+
+/// The fit ends its window where the light ends, not the light where its window does.
+#[test]
+fn tails_are_looked_at_to_their_end() {
+    let sampled = |f: &dyn Fn(f64) -> f64, ends: [f64; 2], n: usize, seed: u64| {
+        let mut random = Random::new(seed);
+        let times: Vec<f64> =
+            (0..n).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / n as f64).collect();
+        let values = times.iter().map(|t| f(*t) + 0.002 * random.normal()).collect();
+        fitted(&Trace { times, values }, &Options::default()).unwrap()
+    };
+    let decay = |t: f64| (t / 2e-4).clamp(0.0, 1.0) * (-(t - 2e-4).max(0.0) / 7e-4).exp();
+    each(8, |seed| {
+        let fit = sampled(&decay, [-0.02, 0.03], 3000, u64::from(seed));
+        let off = (fit.exposure.value - 8e-4).abs();
+        assert!(off < (2.5 * fit.exposure.error).min(4e-5), "{seed}: {:?}", fit.exposure);
+        assert!(
+            !told(&fit, |w| matches!(w, Warning::CutTail { .. })),
+            "{seed}: {:?}",
+            fit.warnings
+        );
+    });
+    let cut = sampled(&decay, [-0.02, 0.0015], 2000, 1);
+    assert!(told(&cut, |w| matches!(w, Warning::CutTail { .. })), "{:?}", cut.warnings);
+    // A third of the signal lags by 60 ms behind a shutter of 6 ms: by its step answer, worked out for each ramp.
+    let lag = |t: f64| if t > 0.0 { t - 0.06 * (1.0 - (-t / 0.06).exp()) } else { 0.0 };
+    let lagging = |t: f64| {
+        [(0.0, 1.0), (5e-4, -1.0), (6e-3, -1.0), (6.5e-3, 1.0)]
+            .map(|(at, by)| by * lag(t - at) / 5e-4)
+    };
+    let shutter = |t: f64| (t.min(6.5e-3 - t) / 5e-4).clamp(0.0, 1.0);
+    let slow = |t: f64| 0.7 * shutter(t) + 0.3 * lagging(t).iter().sum::<f64>();
+    let fit = sampled(&slow, [-0.03, 0.4], 8600, 3);
+    let with = fit.warnings.iter().find_map(|w| match w {
+        Warning::SlowTail { with, .. } => Some(*with),
+        _ => None,
+    });
+    assert!((fit.exposure.value - 6e-3).abs() < 5e-5, "{:?}", fit.exposure);
+    // All of it is 6 ms at 1, and full light 0.7 with some of the lag.
+    assert!((0.0078..0.0088).contains(&with.unwrap_or(0.0)), "{:?}", fit.warnings);
+    assert!(
+        !told(&fit, |w| matches!(w, Warning::Drift { .. } | Warning::DriftOrCapacitor { .. })),
+        "{:?}",
+        fit.warnings
+    );
 }

@@ -433,7 +433,7 @@ fn what_is_no_sync_is_refused() {
     folder.refuses("a.csv --sync 1", "column 1, \"Time (s)\" holds times");
     folder.refuses("a.csv --sync CH1 --columns 1,2", "column 2, \"CH1\" is the signal's");
     // Then the sync is taken for the light.
-    folder.refuses("a.csv --sync CH1", "as slowly as light does; is it the light's?");
+    folder.refuses("a.csv --sync CH1 --light down", "as slowly as light does; is it the light's?");
     write(&Record { lost: vec![0, 1, 2], ..Record::new(3, 1) });
     folder.refuses("a.csv --sync CH2", "never switches: its levels are 1.");
     write(&Record { lost: vec![0, 1, 2], noise: 0.0, ..Record::new(3, 1) });

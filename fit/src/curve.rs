@@ -146,6 +146,21 @@ impl Exposure {
         [opening * self.ramps[0].reaches(openness), closing * self.ramps[1].reaches(openness)]
     }
 
+    /// Does it come to a point, or nearly, by how much of the time above half it is above 95 % of its peak? A tenth of a triangle's,
+    /// three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau of a tenth of the whole.
+    pub fn is_peak(&self) -> bool {
+        let [top, half] =
+            [0.95, 0.5].map(|openness| self.between(openness)).map(|[from, to]| to - from);
+        let curve = self.curve;
+        top < 0.25 * half || 3.0 * top < half && curve.plateau < 0.1 * curve.length()
+    }
+
+    /// When it reaches an openness, and when it leaves it.
+    pub fn between(&self, openness: f64) -> [f64; 2] {
+        let [opening, closing] = self.feet(openness);
+        [self.curve.start + opening, self.curve.end() - closing]
+    }
+
     /// The mean openness over an interval.
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         (self.collected(to).amount - self.collected(from).amount) / (to - from)

@@ -13,6 +13,9 @@ use crate::trace::{Frame, Warning, least_step};
 
 /// A capacitor that is taken for a drift of this share of the light moves the triggers by a per mille.
 const LARGE: f64 = 0.015;
+/// A tail has to sink by so many standard deviations, and to have this share of the exposure.
+const TAIL: f64 = 8.0;
+const LITTLE: f64 = 0.003;
 /// A standard error of the exposure or of a trigger beyond this share of the exposure is told.
 const WIDE: f64 = 0.02;
 
@@ -26,7 +29,8 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
         clipped(fit).or_else(|| saturated(fit, fits)),
         if is_bent { None } else { hum(fit, fits) },
         flicker(fit),
-        cut_tail(fit, fits),
+        if frame.is_cut { cut_tail(fit, fits) } else { None },
+        slow_tail(fit, fits),
         drift(fit, fits),
         lost_ramps(fit, fits.correlation, frame, step),
         if full_is_given { None } else { no_plateau(fit) },
@@ -133,6 +137,36 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     (falls && left > 5.0 * error && left > 1e-3).then_some(Warning::CutTail { left })
 }
 
+/// Light behind the curve that sinks slowly to what the dark was before: its amount leaves open whose it is.
+fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
+    let Parts { before, pulse, after } = Parts::new(fits, fit.chosen);
+    let gain = fits.of(fit.chosen).solution.signal.gain;
+    let amount = |bin: &Bin| bin.mean * (bin.to - bin.from) / gain;
+    let mean = |part: std::ops::Range<usize>| {
+        let bins = &fits.samples[part];
+        bins.iter().map(amount).sum::<f64>() / bins.iter().map(|bin| bin.to - bin.from).sum::<f64>()
+    };
+    let (few, quarter) = (before.len() / 2, after.len() / 4);
+    if few < 8 || quarter < 8 || fit.from == From::Trace {
+        return None;
+    }
+    let dark = mean(before.clone());
+    let drift = (mean(before.start..before.start + few) - mean(before.end - few..before.end)).abs();
+    let [first, second, third, last] = [0, 1, 2, 3]
+        .map(|k| mean(after.start + k * quarter..after.start + (k + 1) * quarter) - dark);
+    let flat = Parts { before, pulse, after: 0..0 };
+    let walk = Walk::new(&missed(fits, fit.chosen), &flat, fits.step)?;
+    let error = (walk.power / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
+    let sinks = first > second && second > third && second - last > TAIL * error;
+    let seconds = fits.samples[after.clone()]
+        .iter()
+        .map(|bin| amount(bin) - dark * (bin.to - bin.from))
+        .sum::<f64>()
+        * fits.units.pulse();
+    let is_told = sinks && first - last > 4.0 * drift && seconds > LITTLE * fit.exposure.value;
+    is_told.then_some(Warning::SlowTail { share: first, with: fit.exposure.value + seconds })
+}
+
 /// A drift; one that a capacitor explains as well, within two standard deviations, and that moves the triggers, is
 /// doubted.
 fn drift(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
@@ -171,18 +205,8 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
     is_sharp.then_some(Warning::SharpEdges { step })
 }
 
-/// A curve that comes to a point, or nearly, by how much of the time above half it is above 95 % of its peak: a tenth
-/// of a triangle's, three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau
-/// of a tenth of the whole.
 fn no_plateau(fit: &Fit) -> Option<Warning> {
-    let curve = fit.best().signal.curve;
-    let above = |openness: f64| {
-        let feet = Exposure::new(&curve).feet(openness);
-        curve.length() - feet[0] - feet[1]
-    };
-    let (top, half) = (above(0.95), above(0.5));
-    let is_peak = top < 0.25 * half || 3.0 * top < half && curve.plateau < 0.1 * curve.length();
-    is_peak.then_some(Warning::NoPlateau)
+    Exposure::new(&fit.best().signal.curve).is_peak().then_some(Warning::NoPlateau)
 }
 
 /// What the test does not see.

@@ -41,6 +41,8 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "open_s": open_s,
         "closes_s": closes_s,
         "closed_s": closed_s,
+        "half_light_s": fit.half_light(),
+        "rise_fall_s": fit.rise_and_fall(),
         "triggers": triggers(&fit.triggers),
         "triggers_from": match fit.from {
             From::Model => "model",

@@ -215,10 +215,22 @@ impl Fit {
         let length = self.best().signal.curve.length();
         let signals = self.candidates.iter().map(|candidate| candidate.signal);
         [self.exposure, self.efficiency].iter().chain(&self.triggers).all(sound)
-            && self.exposure.value > self.exposure.error
+            && self.exposure.value > 0.0
             && self.efficiency.value <= 1.0
             && length > 0.0
             && signals.into_iter().all(|s| s.gain > 0.0 && s.gain.is_finite() && s.dark.is_finite())
+    }
+
+    /// When the chosen curve reaches half of the light, and when it leaves it, in seconds.
+    pub fn half_light(&self) -> [f64; 2] {
+        Exposure::new(&self.best().signal.curve).between(0.5)
+    }
+
+    /// How long the chosen curve takes from 10 to 90 % of the light, and back, in seconds.
+    pub fn rise_and_fall(&self) -> [f64; 2] {
+        let exposure = Exposure::new(&self.best().signal.curve);
+        let [[rises, falls], [rose, fell]] = [0.1, 0.9].map(|openness| exposure.between(openness));
+        [rose - rises, falls - fell]
     }
 
     /// The fitted signal at a time in seconds, light upwards.

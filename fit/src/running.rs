@@ -161,6 +161,11 @@ impl Running {
         let alike = stretches.iter().filter(|s| s.0 <= ALIKE * usual.clamp(least, 4.0 * least));
         let alike: Vec<f64> = alike.map(|(_, level)| *level).collect();
         let middle = mean(-0.25, 0.25)?;
+        // A peak counts as full light, as it does where the model is right; the flatter it is, the better it is known.
+        if fits.exposure(Kind::Free).is_peak() {
+            let error = (walk / FLAT).sqrt().hypot(0.1 * (1.0 - middle));
+            return Some(Measured { value: 1.0, error });
+        }
         let (scatter, value) = match alike.len() {
             0 => (0.0, middle),
             n => (least, alike.iter().sum::<f64>() / n as f64),

@@ -1,7 +1,6 @@
 //! What a shutter tester says: the exposure beside the nearest speed of the scale, and the curve's times by their names.
 
-use crate::curve::Exposure;
-use crate::outcome::Fit;
+use crate::outcome::{Fit, From};
 use crate::unit::{decimals, short, stops};
 
 /// The full steps of the usual scale that are no powers of two, in parts of a second.
@@ -55,13 +54,19 @@ pub fn speed(fit: &Fit) -> Option<String> {
 pub fn times(fit: &Fit) -> String {
     let unit = fit.unit();
     let curve = fit.best().signal.curve;
-    let feet = Exposure::new(&curve).feet(0.5);
     let places = places(fit);
     let show = |seconds: f64| format!("{:.places$}", unit.of(seconds));
     let [opening, open, closing] = [curve.opening, curve.plateau, curve.closing].map(show);
-    let half = show(curve.length() - feet[0] - feet[1]);
+    let [from, to] = fit.half_light();
+    let half = show(to - from);
+    let [rise, fall] = fit.rise_and_fall().map(show);
+    let by = if fit.from == From::Trace { ", by the model" } else { "" };
     let total = show(curve.length());
-    format!("T1 {opening}, T2 {open}, T3 {closing}; TE {half}; TOT {total} {}", unit.name())
+    format!(
+        "T1 {opening}, T2 {open}, T3 {closing}; TE {half}; TOT {total} {unit}{by}\n             10 to 90 % in {rise}, back in {fall}; \
+         TE at half light",
+        unit = unit.name()
+    )
 }
 
 /// The decimals of the curve's times: one digit more than their error has, and five digits at most.

@@ -19,6 +19,8 @@ use super::mark;
 use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
+use super::sensors;
+use crate::emit::module;
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -32,7 +34,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
 /// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
 /// written.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
@@ -56,8 +58,9 @@ pub struct Args {
     /// The unit of the times, where the header does not tell
     #[arg(long)]
     pub(super) unit: Option<Unit>,
-    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names
-    #[arg(long, value_name = "TIME,SIGNAL", value_delimiter = ',', num_args = 1)]
+    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names; of several sensors' signals, a table of
+    /// exposures and of the curtains' travel
+    #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
     pub(super) columns: Vec<String>,
     /// The samples in a second, where the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
@@ -137,6 +140,13 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             "--sync: each trace has a file of its own for its sync; give one for each".into()
         );
     }
+    let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
+    if args.columns.len() > clock + 1 {
+        if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
+            return Err("--columns: several sensors have no scene, no picture and no other trace; name one of them".into());
+        }
+        return sensors(args, clock, sync(0), out, err);
+    }
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
     let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
     let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
@@ -170,21 +180,20 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     delay::pool(fits.filter_map(|fit| Some((fit.exposure.value, fit.delay.as_mut()?))));
 
     // What is refused from here on leaves the report.
-    let (mut told, mut shown_scene) = (String::new(), String::new());
-    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut told, &mut shown_scene);
-    let mut warnings = String::new();
+    let mut said = Said::default();
+    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
+    let mut told = String::new();
     for Speed { name, warnings: of, .. } in &speeds {
         let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
-        warnings.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
+        told.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
     }
+    told += &said.kept;
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
         (_, [Speed { name, fit, .. }]) => {
             let text = shutter_fit::text(name, fit);
             match scenes.is_empty() {
-                true => {
-                    format!("{text}\nThe scene, which --out SCENE.toml writes:\n\n{shown_scene}")
-                }
+                true => text + "\nThe scene, which --out SCENE.toml writes:\n\n" + &said.scene,
                 false => text,
             }
         }
@@ -195,11 +204,55 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         Err(reason) => print(out, &report).and(Err(reason)),
     };
     if ended.is_ok() {
-        told += &next(&scenes);
+        told += &next(&scenes, &said.lacks);
     }
     // There is no one to tell if standard error cannot be written.
-    let _ = err.write_all((warnings + &told).as_bytes());
+    let _ = err.write_all(told.as_bytes());
     ended
+}
+
+/// Several sensors of one record, all of one shot; so many columns before theirs are the time's.
+fn sensors(
+    args: &Args,
+    clock: usize,
+    sync: Option<&Asked>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), String> {
+    let (time, signals) = args.columns.split_at(clock);
+    let (mut all, mut told) = (Vec::<Speed>::new(), String::new());
+    for signal in signals {
+        let columns = [time, std::slice::from_ref(signal)].concat();
+        let frame = args.frame.or(all.first().map(|first| first.fit.frames.fitted));
+        let one = Args { columns, frame, ..args.clone() };
+        let read = Read::new(&one, &args.trace, sync)?;
+        let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
+        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
+        let Speed { fit, warnings, .. } =
+            measure(&[read], &[record], args.triggers).map_err(refused)?;
+        let counts = [
+            all.first().map_or(fit.frames.count, |first| first.fit.frames.count),
+            fit.frames.count,
+        ];
+        if counts[0] != counts[1] && args.frame.is_none() {
+            let [first, here] = counts;
+            return Err(format!(
+                "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells which belong \
+                 together; see --from, --to and --frame"
+            ));
+        }
+        let reading = fit.reading.as_ref();
+        let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
+        warnings.iter().for_each(|warning| told += &format!("warning: {name}: {warning}\n"));
+        all.push(Speed { name, fit, warnings });
+    }
+    let report = match args.report {
+        Report::Json => json(&all),
+        Report::Text => sensors::table(&all),
+    };
+    print(out, &report)?;
+    let _ = err.write_all(told.as_bytes());
+    Ok(())
 }
 
 /// Where scenes go: to the file of one, or into a folder, where each is called as its trace is.
@@ -228,12 +281,12 @@ fn is_one_setting(
     let is_one = is_one && args.nominal.len() < n;
     if !is_one {
         let reason = match (&args.nominal[..], scenes, &args.picture) {
-            ([_], ..) => "--nominal: one speed",
-            (_, 1, _) => "--out: one scene; name a folder for one of each trace",
-            (.., Some(_)) => "--picture: one picture",
+            ([_], ..) => "--nominal: give a speed for each trace",
+            (_, 1, _) => "--out: name a folder for a scene of each trace",
+            (.., Some(_)) => "--picture: it is of one setting",
             _ => return Ok(false),
         };
-        return Err(format!("{reason}: the exposures differ by {differ} %"));
+        return Err(format!("{reason}; the exposures differ by {differ} %"));
     }
     if scenes > 1 {
         return Err(format!(
@@ -245,6 +298,17 @@ fn is_one_setting(
     Ok(true)
 }
 
+/// What is said of scenes.
+#[derive(Default)]
+struct Said {
+    /// What they keep of the older ones.
+    kept: String,
+    /// The keys that only their user can write.
+    lacks: Vec<&'static str>,
+    /// The one that goes to no file.
+    scene: String,
+}
+
 /// All that is written: scenes, with what is kept of the older ones, and a picture.
 fn write(
     args: &Args,
@@ -252,16 +316,21 @@ fn write(
     files: &[PathBuf],
     olds: Vec<Option<Old>>,
     mut outputs: Outputs,
-    told: &mut String,
-    shown_scene: &mut String,
+    said: &mut Said,
 ) -> Result<Ready, String> {
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
-            .map_err(|refusal| format!("{name}: {refusal}"))?;
+        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit)).map_err(
+            |refusal| match refusal {
+                Refusal::NoScene { reason } if reason.starts_with("triggers ") => {
+                    format!("{name}: {reason}; --triggers says how many")
+                }
+                _ => format!("{name}: {refusal}"),
+            },
+        )?;
         let Some(file) = files.get(i) else {
-            *shown_scene = scene.text;
+            said.scene = scene.text;
             continue;
         };
         if scene.zero != args.zero {
@@ -272,7 +341,12 @@ fn write(
             None => (scene.text, Vec::new()),
         };
         if !kept.is_empty() {
-            *told += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+            said.kept += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        }
+        for key in ["set_up", "timer_hz", "sync_falls"] {
+            if text.contains(&format!("\n# {key} = ")) && !said.lacks.contains(&key) {
+                said.lacks.push(key);
+            }
         }
         outputs.replace(file, mark::marked(mark::TOML, &text))?;
     }
@@ -284,15 +358,24 @@ fn write(
 }
 
 /// What to do with the scenes.
-fn next(scenes: &[PathBuf]) -> String {
-    let quoted = |path: &PathBuf| match path.display().to_string() {
+fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
+    if scenes.is_empty() || scenes.iter().any(|file| is_stream(file)) {
+        return String::new();
+    }
+    let quoted = |path: &Path| match path.display().to_string() {
         name if name.contains(char::is_whitespace) => format!(" '{name}'"),
         name => format!(" {name}"),
     };
-    match scenes.iter().any(|file| is_stream(file)) || scenes.is_empty() {
-        true => String::new(),
-        false => format!("next: shutter plan{}\n", scenes.iter().map(quoted).collect::<String>()),
-    }
+    let plan: String = scenes.iter().map(|scene| quoted(scene)).collect();
+    let to = match scenes {
+        [one] => quoted(&one.with_file_name(module(&stem(one)) + ".rs")),
+        _ => " shutters.rs".into(),
+    };
+    let first = match lacks {
+        [] => String::new(),
+        lacks => format!("write {} into the scene, then ", lacks.join(", ")),
+    };
+    format!("next: {first}shutter plan{plan} --emit rust --to{to}\n")
 }
 
 /// The scene that a fit wrote there, whatever was changed in it since.

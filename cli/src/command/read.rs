@@ -133,11 +133,12 @@ fn open(args: &Args, path: &Path, sync: Option<Column>) -> Result<Recording, Str
         sync,
     };
     let bytes = input::read(path)?;
-    trace::open(&bytes, &options).map_err(|refusal| match Old::parse(&bytes) {
-        Some(_) => {
+    trace::open(&bytes, &options).map_err(|refusal| match bytes.trim_ascii_start().first() {
+        _ if Old::parse(&bytes).is_some() => {
             format!("this is a scene, and no trace; `shutter plan {}` takes it", shown(path))
         }
-        None => refusal.to_string(),
+        Some(b'{' | b'[') => "this is JSON; a trace is a table, with a row for each sample".into(),
+        _ => refusal.to_string(),
     })
 }
 

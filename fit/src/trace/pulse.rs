@@ -20,6 +20,8 @@ const FEWEST_DARK: usize = 3;
 pub const QUARTERS: [f64; 3] = [0.25, 0.5, 0.75];
 /// The beginning and the end of a trace that differ by this share of the light are not both dark.
 const CUT: f64 = 0.3;
+/// A tail that falls by this share of the light is one.
+const TAIL: f64 = 0.001;
 /// Between these shares of the light the state stays what it was.
 const SWITCH: (f64, f64) = (0.4, 0.6);
 /// A pulse with less than this share of the largest one's light is a glitch: a fifth, as its warning says.
@@ -57,6 +59,8 @@ pub type Crossings = [f64; 6];
 pub struct Frame {
     /// Which samples of the trace.
     pub samples: Range<usize>,
+    /// Is nothing recorded of the dark behind them?
+    pub is_cut: bool,
     /// In seconds.
     pub crossings: Crossings,
     /// The integral over the light's level above the dark, in seconds; as the samples have it.
@@ -442,9 +446,36 @@ fn frame(
             (owned(before) + owned(after)) * (trace.values[i] - dark) / light
         })
         .sum();
-    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell.
-    let (from, to) = window(t, &samples, crossings, 2.0);
-    Frame { samples: from..to, crossings, exposure }
+    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell; but a tail does not
+    // end there.
+    let (from, mut to) = window(t, &samples, crossings, 2.0);
+    let rise = t.partition_point(|t| *t < crossings[0]).max(from);
+    let mut pulses = 2.0;
+    while to < samples.end && still_falls(&trace.values, from..rise, to, samples.end, light) {
+        pulses *= 2.0;
+        let further = window(t, &samples, crossings, pulses).1;
+        if further == to {
+            break;
+        }
+        to = further;
+    }
+    let is_cut = to == samples.end || t[to] - t[to - 1] > 4.0 * usual;
+    Frame { samples: from..to, is_cut, crossings, exposure }
+}
+
+/// Is the level before a sample higher than behind it, by more than noise and a drift as in the dark before make it?
+fn still_falls(values: &[f64], before: Range<usize>, at: usize, end: usize, light: f64) -> bool {
+    let few = (end - at).min(before.len()) / 2;
+    if few < FEWEST_LIT {
+        return false;
+    }
+    let mean = |from: usize| values[from..from + few].iter().sum::<f64>() / few as f64;
+    let (early, late) = (mean(at - few), mean(end - few));
+    let drift = (mean(before.start) - mean(before.start + few)).abs();
+    // By what neighbours differ by in the dark before, a mean's standard deviation.
+    let differ = values[before].windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum::<f64>();
+    let error = 0.5 * differ.sqrt() / few as f64;
+    early - late > (TAIL * light).max(STRAY * error) + 2.0 * (drift - STRAY * error).max(0.0)
 }
 
 /// When the pulse reaches each quarter of the light and leaves it, seen from its inside.

@@ -296,6 +296,14 @@ pub enum Warning {
         percent(.left)
     )]
     CutTail { left: f64 },
+    /// The signal sinks slowly to the dark behind the pulse.
+    #[error(
+        "a tail that begins with {} of the light follows the pulse: it is taken for the sensor's lag, and left out; if it is the \
+         light's own, the exposure is {}; a faster sensor tells",
+        percent(.share),
+        unit::Unit::fit(*with).show(*with)
+    )]
+    SlowTail { share: f64, with: f64 },
     /// The lamp's light goes up and down, which is taken out.
     #[error(
         "the lamp flickers at {} Hz by {} of its light, which is fitted and taken out; a steady lamp is better",

@@ -1,0 +1,36 @@
+//! `shutter fit` of several sensors of one record, as behind a curtain shutter: each one's exposure, and how long the curtains travel
+//! between them.
+
+use shutter_fit::Measured;
+use shutter_fit::unit::{Unit, plus_minus, stops};
+
+use super::fit_many::Speed;
+use crate::speeds::columns;
+
+/// A row for each sensor, compared with the first.
+pub fn table(sensors: &[Speed]) -> String {
+    let header = ["sensor", "exposure", "stops", "opens later by", "closes later by", "model"];
+    let mut rows = vec![header.map(String::from)];
+    let first = &sensors[0].fit;
+    for (k, Speed { name, fit, .. }) in sensors.iter().enumerate() {
+        let later = |place: usize| {
+            let ends =
+                [0, fit.triggers.len() - 1].map(|k| [first, fit].map(|fit| fit.triggers[k].error));
+            let [from, to] = [first, fit].map(|fit| fit.half_light()[place]);
+            let error = ends[place][0].hypot(ends[place][1]);
+            let unit = Unit::fit((to - from).abs().max(error));
+            if k == 0 {
+                "-".into()
+            } else {
+                plus_minus(unit.of(to - from), unit.of(error), unit.name())
+            }
+        };
+        let (unit, Measured { value, error }) = (fit.unit(), fit.exposure);
+        let more = if k == 0 { "-".into() } else { stops((value / first.exposure.value).log2()) };
+        let exposure = plus_minus(unit.of(value), unit.of(error), unit.name());
+        rows.push([name.clone(), exposure, more, later(0), later(1), fit.chosen.title().into()]);
+    }
+    columns(&rows)
+        + "stops: how much more light the sensor gets than the first one; opens, closes later by: the travel of the first and of the\n\
+           second curtain from the first sensor to this one, at half light\n"
+}
