@@ -11,7 +11,7 @@ use crate::scene::{Fault, Number, seconds};
 pub struct Delay {
     /// In seconds.
     pub seconds: f64,
-    /// In ticks of the scene's timer, rounded to the nearest.
+    /// In ticks of the scene's timer, less the lamp's lag, rounded to the nearest.
     pub ticks: u32,
     /// Its standard deviation from shot to shot, in seconds, if the scene tells.
     pub spread: Option<f64>,
@@ -19,27 +19,37 @@ pub struct Delay {
     pub falls: Option<bool>,
 }
 
-/// What a scene has of a sync.
+/// How late a lamp shines after its trigger, which comes so much earlier.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lag {
+    /// In seconds.
+    pub seconds: f64,
+    /// By so many ticks it is longer than the delay, or than 0 where there is none: they are taken off each trigger.
+    pub ticks: u32,
+}
+
+/// What a scene has of a sync and a lamp.
 pub(crate) struct Sync<'a> {
     pub delay: Option<&'a Spanned<Number>>,
     pub spread: Option<&'a Spanned<Number>>,
     pub falls: Option<&'a Spanned<bool>>,
+    pub lag: Option<&'a Spanned<Number>>,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
 pub(crate) const LAST: f64 = (1u32 << 31) as f64;
 
 impl Delay {
-    /// The delay that a scene has in this unit, if it has one, where the frame ends so many ticks after the shutter opens.
+    /// The delay and the lamp's lag that a scene has in this unit, where the frame ends so many ticks after the shutter opens.
     ///
     /// # Errors
-    /// A delay below 0, and one after which the frame ends too late; a spread below 0, or what goes with a delay without one.
+    /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a delay without one.
     pub(crate) fn new(
-        &Sync { delay, spread, falls }: &Sync,
+        &Sync { delay, spread, falls, lag }: &Sync,
         unit: Unit,
         timer_hz: u32,
         end: f64,
-    ) -> Result<Option<Self>, Fault> {
+    ) -> Result<(Option<Self>, Option<Lag>), Fault> {
         let of_spread = |place| Ok((place, seconds(unit, "delay_spread", place)?));
         let spread = spread.map(of_spread).transpose()?;
         if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
@@ -48,14 +58,23 @@ impl Delay {
         if let (None, Some(place)) = (delay, falls) {
             return Err(Fault::at(place, "sync_falls: it goes with a delay"));
         }
-        let Some(place) = delay else { return Ok(None) };
+        let lag = lag.map(|place| Ok((place, seconds(unit, "lamp_lag", place)?))).transpose()?;
+        if let Some((place, _)) = lag.filter(|(_, lag)| *lag < 0.0) {
+            return Err(Fault::at(place, "lamp_lag: 0 or more is required"));
+        }
+        let lag = lag.map(|(_, lag)| lag);
+        let count = |seconds: f64| (seconds.max(0.0) * f64::from(timer_hz)).round();
+        // The cast saturates; what is so long is refused later.
+        let beyond =
+            |delay: f64| lag.map(|lag| Lag { seconds: lag, ticks: count(lag - delay) as u32 });
+        let Some(place) = delay else { return Ok((None, beyond(0.0))) };
         let seconds = seconds(unit, "delay", place)?;
         if seconds < 0.0 {
             let reason =
                 "delay: 0 or more is required; an edge cannot trigger what comes before it";
             return Err(Fault::at(place, reason));
         }
-        let ticks = (seconds * f64::from(timer_hz)).round();
+        let ticks = count(seconds - lag.unwrap_or_default());
         let most = LAST - end;
         if ticks > most {
             let reason = format!(
@@ -66,6 +85,35 @@ impl Delay {
         // Neither is -0.
         let spread = spread.map(|(_, spread)| spread);
         let falls = falls.map(|falls| *falls.get_ref());
-        Ok(Some(Self { seconds: seconds + 0.0, ticks: ticks as u32, spread, falls }))
+        let delay = Self { seconds: seconds + 0.0, ticks: ticks as u32, spread, falls };
+        Ok((Some(delay), beyond(seconds)))
+    }
+}
+
+impl Lag {
+    /// Can the first trigger, or pulse, after so many ticks come that much earlier?
+    ///
+    /// # Errors
+    /// By how much it would come before the edge; without a delay, before the start of opening.
+    pub(crate) fn checked(
+        lag: Option<Self>,
+        first: u32,
+        sync: &Sync,
+        unit: Unit,
+        hz: u32,
+    ) -> Result<(), Fault> {
+        let (Some(lag), Some(place)) = (lag, sync.lag) else { return Ok(()) };
+        let Some(by) = lag.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
+        let by = f64::from(by) / f64::from(hz);
+        let from = match sync.delay {
+            Some(_) => "the edge of the sync",
+            None => "the start of opening, from where ticks count without a delay",
+        };
+        let reason = format!(
+            "lamp_lag: the first trigger would come {} before {from}; a lag of {} is the most",
+            unit.show(by),
+            unit.show(lag.seconds - by)
+        );
+        Err(Fault::at(place, reason))
     }
 }

@@ -13,6 +13,7 @@ pub use name::{identifier, module};
 use crate::facts;
 use crate::lamp::Lamp;
 use crate::planned::Planned;
+use crate::set_up::SetUp;
 
 /// A form that a plan can be emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,10 +91,46 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
     if curve && plan.plan().is_none() {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
-    if plan.delay().is_some_and(|delay| delay.falls.is_none()) {
-        return Err("it has a delay, and does not say from which edge of the sync: `sync_falls = true`, or `false` if it rises".into());
+    let mut lacks = Vec::new();
+    if plan.set_up().is_none() {
+        lacks.extend(set_ups(plan));
     }
-    Ok(())
+    if !plan.timer().is_given {
+        lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
+    }
+    if plan.delay().is_some_and(|delay| delay.falls.is_none()) {
+        lacks.push(
+            "sync_falls = ...     # true, or false if the delay counts from an edge that rises"
+                .into(),
+        );
+    }
+    if lacks.is_empty() {
+        return Ok(());
+    }
+    let lines: String = lacks.iter().map(|line| format!("\n  {line}")).collect();
+    Err(format!(
+        "hardware needs what only you know; write it into the scene, or say --set-up, --timer-hz, --sync-falls:{lines}"
+    ))
+}
+
+/// The lines by which a scene can tell its set-up, and what comes of each.
+fn set_ups(planned: &Planned) -> Vec<String> {
+    let emulated = "set_up = \"emulated\"  # the camera's own shutter stays open";
+    let in_path = "set_up = \"in_path\"   # this shutter is in the light's path";
+    let Some(plan) = planned.plan() else { return vec![emulated.into()] };
+    match plan.lamp {
+        Lamp::Doses { .. } => vec![format!("{in_path}; duty is for that alone")],
+        Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
+        Lamp::Triggered | Lamp::Equal { .. } => {
+            let [equal, dimmed] =
+                [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&it.doses(plan)));
+            vec![
+                format!("{emulated}: the first, the middle and the last flash give {equal}"),
+                format!("{in_path}, and dims them to {dimmed}; all alike"),
+                "                     # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)".into(),
+            ]
+        }
+    }
 }
 
 /// What an array's elements must have in common: the timer, what they tell, and names of their own.
@@ -164,7 +201,7 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 }
 
 fn has_pulses(plan: &Planned) -> bool {
-    plan.plan().is_some_and(|plan| plan.lamp != Lamp::Triggered)
+    plan.plan().is_some_and(|plan| plan.lamp.has_pulses())
 }
 
 fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
@@ -173,4 +210,9 @@ fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
 
 fn pulses(plan: &Planned) -> impl Iterator<Item = (u32, u32)> {
     plan.rows().into_iter().filter_map(|row| row.on_ticks.zip(row.off_ticks))
+}
+
+/// Fowler, Noll and Vo's hash (FNV-1a).
+pub(crate) fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
+    bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }

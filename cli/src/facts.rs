@@ -3,10 +3,11 @@
 use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{Unit, count, short, stops};
 
-use crate::delay::Delay;
-use crate::lamp::Lamp;
+use crate::delay::{Delay, Lag};
+use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::Plan;
 use crate::planned::Planned;
+use crate::set_up::SetUp;
 use crate::times::Times;
 
 /// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
@@ -115,13 +116,16 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         ("exposure", format!("TV {}, fully open for as much light", unit.show(facts.exposure))),
         ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
     ];
+    lines.extend(plan.fitted.iter().cloned());
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
     lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length()))));
     lines.push(("delay", delay(plan.delay, unit)));
+    lines.extend(lag(plan.lag, unit));
     lines.push(("gap", gap(plan)));
-    lines.extend(lamp(plan));
+    lines.extend(pulses(plan).map(|pulses| ("pulses", pulses)));
+    lines.push(("set-up", set_up(plan)));
     let keep = if plan.most == 1 {
         "1 keeps the gap".into()
     } else {
@@ -146,6 +150,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
         ("shutter", "no curve: trigger times as measured".into()),
         ("opens", format!("at {}, from where ticks count", unit.show(times.open_start))),
     ];
+    lines.extend(times.fitted.iter().cloned());
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
     let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer.hz));
@@ -153,9 +158,10 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
         ("timer", times.timer.told(from_edge(times.delay, times.length()))),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
-        ("set-up", FLASHES.into()),
+        ("set-up", if times.set_up.is_some() { FLASHES } else { "not said" }.into()),
         ("triggers", triggers.len().to_string()),
     ]);
+    lines.extend(lag(times.lag, unit));
     lines
 }
 
@@ -163,7 +169,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
 fn gap(plan: &Plan) -> String {
     let unit = plan.unit();
     let mut gap = format!("at least {}", unit.show(plan.min_gap));
-    if plan.lamp != Lamp::Triggered {
+    if plan.lamp.has_pulses() {
         gap += " of darkness between pulses";
         let edges = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
         let dark = edges.clone().zip(edges.skip(1)).map(|((_, off), (on, _))| on - off);
@@ -187,7 +193,13 @@ const MATTERS: f64 = 0.01;
 /// A trigger's share of the exposure, in seconds of the open shutter; without a curve, the least gap.
 fn share(plan: &Planned) -> Option<f64> {
     match plan {
-        Planned::Curve(plan) => Some(f64::from(plan.curve.exposure()) / plan.triggers.len() as f64),
+        Planned::Curve(plan) => {
+            let all = match plan.lamp {
+                Lamp::FullyOpen => FullyOpen::new(&plan.curve).length(),
+                _ => plan.curve.exposure().into(),
+            };
+            Some(all / plan.triggers.len() as f64)
+        }
         Planned::Times(times) => {
             let gaps = times.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks);
             gaps.min().map(|ticks| f64::from(ticks) / f64::from(times.timer.hz))
@@ -224,6 +236,9 @@ pub fn drift(plan: &Planned) -> Option<String> {
         Planned::Curve(plan) => plan.length(),
         Planned::Times(times) => times.length(),
     };
+    if !plan.timer().is_given {
+        return None;
+    }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
     let ticks = share(plan)? * f64::from(plan.timer().hz);
     let frames = short(MATTERS * ticks / from_edge(Some(plan.delay()?), length), 2);
@@ -248,14 +263,18 @@ fn delay(delay: Option<Delay>, unit: Unit) -> String {
     format!("{} from the sync's {edge} to the start of opening", unit.show(delay.seconds))
 }
 
-/// The set-up of flashes without a length.
-const FLASHES: &str = "emulated: equal flashes while the camera's own shutter stays open";
+/// What is taken off each trigger.
+fn lag(lag: Option<Lag>, unit: Unit) -> Option<(&'static str, String)> {
+    let told =
+        |lag: Lag| format!("{}: the lamp is triggered so much earlier", unit.show(lag.seconds));
+    lag.map(|lag| ("lamp lag", told(lag)))
+}
 
-/// What the lamp does, and for which set-up that is.
-fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
+/// How long the lamp's pulses are, if it has any.
+fn pulses(plan: &Plan) -> Option<String> {
     let unit = plan.unit();
-    let pulses = match plan.lamp {
-        Lamp::Triggered => None,
+    match plan.lamp {
+        Lamp::Triggered | Lamp::FullyOpen => None,
         Lamp::Equal { ticks } => {
             Some(format!("{} each, around the triggers", unit.show(plan.seconds(ticks))))
         }
@@ -268,12 +287,45 @@ fn lamp(plan: &Plan) -> Vec<(&'static str, String)> {
             let duty = short(duty.into(), 6);
             Some(format!("{least} to {}, duty {duty}, of equal doses", unit.show(most)))
         }
-    };
-    let set_up = match plan.lamp {
-        Lamp::Triggered => FLASHES,
-        Lamp::Equal { .. } => "emulated: equal pulses while the camera's own shutter stays open",
-        Lamp::Doses { .. } => "the shutter is in the light's path; a lamp steady while it is on",
-    };
-    let pulses = pulses.map(|pulses| ("pulses", pulses));
-    pulses.into_iter().chain([("set-up", set_up.into())]).collect()
+    }
+}
+
+/// The set-up of flashes without a length.
+const FLASHES: &str = "emulated: equal flashes while the camera's own shutter stays open";
+
+/// How the flashes meet the shutter.
+fn set_up(plan: &Plan) -> String {
+    use Lamp::{Doses, Equal, FullyOpen, Triggered};
+    let dimmed = || few(&SetUp::InPath.doses(plan));
+    match (plan.set_up, plan.lamp) {
+        (Some(SetUp::InPath), Doses { .. }) => {
+            "in the light's path; a lamp steady while it is on".into()
+        }
+        (Some(SetUp::InPath), FullyOpen) => {
+            "in the light's path; one dose each, while it is fully open".into()
+        }
+        (Some(SetUp::InPath), _) => {
+            format!("in the light's path, which dims the flashes to {}", dimmed())
+        }
+        (Some(SetUp::Emulated), Equal { .. }) => {
+            "emulated: equal pulses while the camera's own shutter stays open".into()
+        }
+        (Some(SetUp::Emulated), _) => FLASHES.into(),
+        (None, Doses { .. }) => "not said: duty is for one in the light's path".into(),
+        (None, FullyOpen) => "not said: fully_open is for one in the light's path".into(),
+        (None, Triggered | Equal { .. }) => {
+            format!("not said: emulated, or in the light's path, with {}", dimmed())
+        }
+    }
+}
+
+/// The doses of the first flash, of the middle one and of the last.
+pub fn few(doses: &[f64]) -> String {
+    let mut places = vec![0, doses.len() / 2, doses.len() - 1];
+    places.dedup();
+    let percent: Vec<_> = places.iter().map(|&i| short(100.0 * doses[i], 3)).collect();
+    match percent.split_last() {
+        Some((last, others @ [_, ..])) => format!("{} and {last} %", others.join(", ")),
+        _ => percent.join("") + " %",
+    }
 }

@@ -34,8 +34,6 @@ const ROUNDING: f64 = 1e-6;
 const LEAST: f64 = 1.0 / (1 << 22) as f64;
 /// The digits of a time, counted from the interval's first.
 const DIGITS: i32 = 8;
-/// Between triggers there are at least so many ticks, if a timer of at most 1 GHz can do that.
-const TICKS: f64 = 100.0;
 
 /// The fit as a scene, in this unit or the one that suits it; `name` tells in a comment where it came from. Where the results
 /// are the trace's own, the scene has their trigger times and no curve, unless a model was asked for.
@@ -99,7 +97,7 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
     }
     text += &delay::line(fit.delay.as_ref(), unit, places);
     text += &format!("triggers = {}\n", fit.triggers.len());
-    text + &timer(fit, unit, fit.exposure.value / fit.peak / fit.triggers.len() as f64)
+    text + &asked(fit, unit, true)
 }
 
 /// The trace's own triggers.
@@ -127,8 +125,7 @@ fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
     }
     text += "]\n";
     text += &delay::line(fit.delay.as_ref(), unit, places);
-    let gap = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
-    text + &timer(fit, unit, gap.min(curve.length()))
+    text + &asked(fit, unit, false)
 }
 
 /// What was read, and what came of it.
@@ -156,12 +153,18 @@ fn shown(text: &str) -> String {
     text.replace(|c: char| c.is_control(), "?")
 }
 
-/// The lines that are not measured: what the speed is called, a timer that tells triggers apart that come so close, and a gap.
-fn timer(fit: &Fit, unit: Unit, gap: f64) -> String {
-    let hz = timer_hz(gap, fit.best().signal.curve.length());
+/// What is not measured: the lines that its user has to write, the lamp's gap, and what the speed is called.
+fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
     let nominal = fit.nominal.map(|it| format!("nominal = {}\n", short(unit.of(it), 7)));
+    let in_path = match has_curve {
+        true => {
+            "# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes\n"
+        }
+        false => "",
+    };
     format!(
-        "timer_hz = {hz} # your timer's\n\
+        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter does\n\
+         {in_path}# timer_hz = ... # your timer's rate, in Hz\n\
          min_gap = 0 # {}, what your lamp needs between two flashes\n{}",
         unit.name(),
         nominal.unwrap_or_default()
@@ -188,16 +191,4 @@ fn inner(curve: &Curve) -> [f64; 8] {
     // The closing ramp's are counted back from the end.
     let closing = |x: f64| (length - curve.closing * x) / length;
     [opening(o[0]), o[1], opening(o[2]), o[3], closing(c[2]), c[3], closing(c[0]), c[1]]
-}
-
-/// A timer that tells the triggers apart, without more ticks than `u32` holds.
-fn timer_hz(gap: f64, length: f64) -> u32 {
-    let mut hz: u32 = 1_000_000;
-    while gap * f64::from(hz) < TICKS && hz < 1_000_000_000 {
-        hz *= 10;
-    }
-    while length * f64::from(hz) > f64::from(1u32 << 30) && hz > 1 {
-        hz /= 10;
-    }
-    hz
 }

@@ -1,4 +1,5 @@
-//! What a lamp does in a frame: flashes at the triggers, equal pulses around them, or pulses of equal doses.
+//! What a lamp does in a frame: flashes at the triggers, equal pulses around them, pulses of equal doses, or flashes while the
+//! shutter is fully open.
 
 use shutter_curve::{ScheduleError, ShutterCurve};
 
@@ -19,6 +20,42 @@ pub enum Lamp {
         /// That part.
         duty: f32,
     },
+    /// It is triggered while the shutter, being in the light's path, is fully open: in equal steps, for flashes of one length.
+    FullyOpen,
+}
+
+/// The plateau of a curve, in seconds from the start of opening.
+pub(crate) struct FullyOpen {
+    start: f64,
+    from: f64,
+    to: f64,
+}
+
+impl FullyOpen {
+    pub(crate) fn new(curve: &ShutterCurve) -> Self {
+        let start = f64::from(curve.open_start());
+        let from_start = |t: f32| f64::from(t) - start;
+        Self { start, from: from_start(curve.open_end()), to: from_start(curve.close_start()) }
+    }
+
+    fn after_start(&self, part: f64) -> f64 {
+        self.from + part * (self.to - self.from)
+    }
+
+    /// When such a part of it is over.
+    pub(crate) fn time(&self, part: f64) -> f64 {
+        self.start + self.after_start(part)
+    }
+
+    pub(crate) fn length(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The first tick and the last.
+    pub(crate) fn ticks(&self, timer_hz: u32) -> (i64, i64) {
+        let hz = f64::from(timer_hz);
+        ((self.from * hz).ceil() as i64, (self.to * hz).floor() as i64)
+    }
 }
 
 /// One trigger, in ticks after the shutter starts to open. Without pulses, `on` and `off` are the trigger's own tick.
@@ -31,6 +68,11 @@ pub(crate) struct Flash {
 }
 
 impl Lamp {
+    /// Has it pulses of the scene's own length?
+    pub fn has_pulses(self) -> bool {
+        matches!(self, Self::Equal { .. } | Self::Doses { .. })
+    }
+
     /// A frame of `n` flashes.
     pub(crate) fn frame(
         self,
@@ -42,6 +84,12 @@ impl Lamp {
         let flash = |tick: u32, on: i64, off: i64| Flash { tick, on, off };
         Ok(match self {
             Self::Triggered => ticks.map(|tick| flash(tick, tick.into(), tick.into())).collect(),
+            Self::FullyOpen => {
+                let plateau = FullyOpen::new(curve);
+                let time = |i| plateau.after_start((f64::from(i) + 0.5) / f64::from(n));
+                let tick = |i| (time(i) * f64::from(timer_hz)).round() as u32;
+                (0..n).map(tick).map(|tick| flash(tick, tick.into(), tick.into())).collect()
+            }
             Self::Equal { ticks: length } => ticks
                 .map(|tick| {
                     let on = i64::from(tick) - i64::from(length / 2);

@@ -10,9 +10,9 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
-use shutter_fit::unit::{Unit, short};
+use shutter_fit::unit::{Unit, count, short};
 
-use crate::lamp::Lamp;
+use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
 use drawing::{
@@ -56,6 +56,9 @@ fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
         unit.show(plan.curve.exposure()),
         short(100.0 * f64::from(plan.curve.efficiency()), 4),
         match plan.triggers.len() {
+            n if plan.lamp == Lamp::FullyOpen => {
+                format!("{} in equal steps while it is fully open", count(n as u64, "trigger"))
+            }
             1 => "1 trigger in the middle of the exposure".into(),
             n => format!("{n} triggers, each in the middle of an equal share of the exposure"),
         },
@@ -70,7 +73,7 @@ fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
 fn legend(area: &Area, plan: &Plan) -> Drawn {
     let mut keys = vec![("openness", Key::Line), ("trigger", Key::Dot)];
     match plan.lamp {
-        Lamp::Triggered => (),
+        Lamp::Triggered | Lamp::FullyOpen => (),
         Lamp::Equal { .. } => keys.push(("lamp on", Key::Lamp)),
         Lamp::Doses { .. } => keys.push(("lamp on: equal doses", Key::Lamp)),
     }
@@ -120,7 +123,10 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
     let range = if low < 0.0 { low - room } else { 0.0 }..high + room;
     let mut graph = graph(area, plan, unit, "openness", None, range)?;
     let n = plan.triggers.len();
-    let edge = |i: usize| curve.inverse_cdf(i as f32 / n as f32);
+    let edge = |i: usize| match plan.lamp {
+        Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
+        _ => curve.inverse_cdf(i as f32 / n as f32),
+    };
     let share = |i: usize| {
         Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, unit, at), SHARES[i % 2])
     };

@@ -2,11 +2,12 @@
 
 use shutter_curve::{ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
-use shutter_fit::unit::{Unit, count};
+use shutter_fit::unit::Unit;
 
-use crate::delay::{Delay, Sync};
-use crate::lamp::{Flash, Lamp};
+use crate::delay::{Delay, Lag, Sync};
+use crate::lamp::{Flash, FullyOpen, Lamp};
 use crate::scene::{Fault, Scene, min_gap, positive, whole};
+use crate::set_up::SetUp;
 use crate::shape::Shape;
 use crate::timer::Timer;
 
@@ -34,6 +35,10 @@ pub struct Plan {
     pub timer: Timer,
     /// From the edge of the camera's sync to the start of opening, if the scene tells.
     pub delay: Option<Delay>,
+    /// Of the lamp, if the scene tells.
+    pub lag: Option<Lag>,
+    /// How the flashes meet the shutter, if the scene tells.
+    pub set_up: Option<SetUp>,
     /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
     /// asks.
     pub min_gap: f64,
@@ -45,6 +50,8 @@ pub struct Plan {
     pub most: u32,
     /// In order.
     pub triggers: Vec<Trigger>,
+    /// What the scene's text keeps of the fit that it comes from.
+    pub fitted: Vec<(&'static str, String)>,
     unit: Option<Unit>,
 }
 
@@ -62,7 +69,8 @@ impl Plan {
     /// # Errors
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
-        Self::new(&crate::scene::parse(text)?)
+        let plan = Self::new(&crate::scene::parse(text)?)?;
+        Ok(Self { fitted: crate::scene::fitted(text), ..plan })
     }
 
     /// The plan of a scene.
@@ -71,40 +79,47 @@ impl Plan {
     /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
         let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
-        let timer = Timer::new(&scene.timer_hz, scene.timer_bits.as_ref())?;
-        let timer_hz = timer.hz;
         let (shape, curve) = scene.curve()?;
+        let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let until = scene.delay.as_ref().map_or(0.0, |it| scene.unit().seconds(it.get_ref().get()));
+        let timer = Timer::new(scene.timer_hz.as_ref(), scene.timer_bits.as_ref(), until + length)?;
+        let timer_hz = timer.hz;
         // The rate is checked here, before anything is counted in ticks.
-        Lamp::Triggered
-            .frame(&curve, 0, timer_hz)
-            .map_err(|error| Fault::at(&scene.timer_hz, rate(error)))?;
-        let asked = Asked::new(scene, timer_hz)?;
-        let end = f64::from(curve.close_end()) - f64::from(curve.open_start());
-        let end = (end * f64::from(timer_hz)).round();
+        Lamp::Triggered.frame(&curve, 0, timer_hz).map_err(|error| {
+            Fault::of(scene.timer_hz.as_ref().map(|it| it.span().start), rate(error))
+        })?;
+        let asked = Asked::new(scene, &curve, timer_hz)?;
+        let end = (length * f64::from(timer_hz)).round();
         let sync = Sync {
             delay: scene.delay.as_ref(),
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
+            lag: scene.lamp_lag.as_ref(),
         };
-        let delay = Delay::new(&sync, scene.unit(), timer_hz, end)?;
+        let (delay, lag) = Delay::new(&sync, scene.unit(), timer_hz, end)?;
         timer.holds(
             delay.map_or(0.0, |delay| delay.ticks.into()) + end,
             scene.timer_bits.as_ref(),
         )?;
-        let frames = Frames { curve: &curve, timer_hz, end: end as i64 };
+        let frames = Frames { curve: &curve, timer, unit: scene.unit(), end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
         };
+        let first = frame.first().map_or(0, |first| first.on as u32);
+        Lag::checked(lag, first, &sync, scene.unit(), timer_hz)?;
         let trigger = |(i, flash): (u32, &Flash)| {
             let u = (i as f32 + 0.5) / n as f32;
-            Trigger {
-                u,
-                time: curve.inverse_cdf(u),
-                ticks: flash.tick,
-                pulse: (asked.lamp != Lamp::Triggered)
-                    .then_some((flash.on as u32, flash.off as u32)),
-            }
+            let (u, time) = match asked.lamp {
+                Lamp::FullyOpen => {
+                    let part = (f64::from(i) + 0.5) / f64::from(n);
+                    let time = FullyOpen::new(&curve).time(part) as f32;
+                    (curve.cdf(time), time)
+                }
+                _ => (u, curve.inverse_cdf(u)),
+            };
+            let pulse = asked.lamp.has_pulses().then_some((flash.on as u32, flash.off as u32));
+            Trigger { u, time, ticks: flash.tick, pulse }
         };
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
@@ -113,11 +128,14 @@ impl Plan {
             curve,
             timer,
             delay,
+            lag,
+            set_up: scene.set_up.as_ref().map(|it| *it.get_ref()),
             min_gap: asked.min_gap,
             lamp: asked.lamp,
             nominal: asked.nominal,
             most,
             triggers,
+            fitted: Vec::new(),
             unit: scene.unit,
         })
     }
@@ -155,13 +173,36 @@ struct Asked {
 }
 
 impl Asked {
-    fn new(scene: &Scene, timer_hz: u32) -> Result<Self, Fault> {
+    fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32) -> Result<Self, Fault> {
         let unit = scene.unit();
         let min_gap = min_gap(unit, &scene.min_gap)?;
         let nominal = positive(unit, "nominal", scene.nominal.as_ref())?;
         let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
         let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
+        let fully_open = scene.fully_open.as_ref().filter(|it| *it.get_ref());
+        if let Some(place) = fully_open.filter(|_| scene.pulse.is_some() || scene.duty.is_some()) {
+            let reason = "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses";
+            return Err(Fault::at(place, reason));
+        }
+        if let Some(place) = fully_open.filter(|_| curve.open_end() == curve.close_start()) {
+            let reason = "fully_open: this shutter begins to close as soon as it is open";
+            return Err(Fault::at(place, reason));
+        }
+        if scene.set_up.as_ref().is_some_and(|it| *it.get_ref() == SetUp::Emulated) {
+            let reason = |key, instead| {
+                format!(
+                    "{key}: it is for a shutter in the light's path, and set_up is \"emulated\"; there, {instead}"
+                )
+            };
+            if let Some(place) = &scene.duty {
+                return Err(Fault::at(place, reason("duty", "`pulse` makes equal pulses")));
+            }
+            if let Some(place) = fully_open {
+                return Err(Fault::at(place, reason("fully_open", "flashes come at the triggers")));
+            }
+        }
         let lamp = match (&scene.pulse, &scene.duty) {
+            _ if fully_open.is_some() => Lamp::FullyOpen,
             (Some(_), Some(duty)) => {
                 let reason = "duty and pulse: a scene has one of them (pulse where the curve is \
                               emulated, duty where the shutter is in the light's path)";
@@ -190,10 +231,10 @@ impl Asked {
             return Err(Fault::at(place, reason));
         }
         // A timer fires once a tick; a lamp that shines on needs no gap.
-        let least = u64::from(lamp == Lamp::Triggered);
+        let least = u64::from(!lamp.has_pulses());
         let dark = whole_ticks(min_gap, timer_hz).max(least);
         let lit = match lamp {
-            Lamp::Triggered => 0,
+            Lamp::Triggered | Lamp::FullyOpen => 0,
             Lamp::Equal { .. } => 1,
             Lamp::Doses { .. } => whole_ticks(min_pulse.unwrap_or_default(), timer_hz).max(1),
         };
@@ -204,7 +245,8 @@ impl Asked {
 /// The frames of a shutter, of any number of triggers.
 struct Frames<'a> {
     curve: &'a ShutterCurve,
-    timer_hz: u32,
+    timer: Timer,
+    unit: Unit,
     /// The ticks until the shutter is closed.
     end: i64,
 }
@@ -224,7 +266,7 @@ impl Frames<'_> {
     /// The frame of `n` triggers, if it keeps what is asked for.
     fn checked(&self, asked: &Asked, n: u32) -> Result<Vec<Flash>, Problem> {
         // The rate is known to be good.
-        let frame = asked.lamp.frame(self.curve, n, self.timer_hz).unwrap_or_default();
+        let frame = asked.lamp.frame(self.curve, n, self.timer.hz).unwrap_or_default();
         let less = |ticks: i64, least: u64| i128::from(ticks) < i128::from(least);
         let gap = |pair: &[Flash]| pair[1].on - pair[0].off;
         if let Some(i) = frame.windows(2).position(|pair| less(gap(pair), asked.dark)) {
@@ -234,7 +276,11 @@ impl Frames<'_> {
         if let Some(i) = frame.iter().position(|flash| less(length(flash), asked.lit)) {
             return Err(Problem::Short(i, length(&frame[i])));
         }
-        if frame.iter().any(|flash| flash.on < 0 || flash.off > self.end) {
+        let ends = match asked.lamp {
+            Lamp::FullyOpen => FullyOpen::new(self.curve).ticks(self.timer.hz),
+            _ => (0, self.end),
+        };
+        if frame.iter().any(|flash| flash.on < ends.0 || flash.off > ends.1) {
             return Err(Problem::Outside);
         }
         Ok(frame)
@@ -247,7 +293,7 @@ impl Frames<'_> {
             Lamp::Equal { ticks } => ticks.into(),
             _ => asked.lit,
         };
-        let room = f64::from(self.curve.exposure()) * f64::from(self.timer_hz);
+        let room = f64::from(self.curve.exposure()) * f64::from(self.timer.hz);
         let mut next = (room / asked.dark.saturating_add(lit).max(1) as f64) as u32;
         // Away from there in growing steps, until it lies between two of them.
         let (mut step, mut is_between) = (1, [false; 2]);
@@ -268,7 +314,7 @@ impl Frames<'_> {
 
     /// The longest equal pulse that `n` triggers leave room for, in ticks.
     fn longest(&self, asked: &Asked, n: u32) -> i64 {
-        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer_hz).unwrap_or_default();
+        let ticks = Lamp::Triggered.frame(self.curve, n, self.timer.hz).unwrap_or_default();
         let ticks: Vec<_> = ticks.iter().map(|flash| i64::from(flash.tick)).collect();
         let dark = i64::try_from(asked.dark).unwrap_or(i64::MAX);
         let apart = ticks.windows(2).map(|pair| (pair[1] - pair[0]).saturating_sub(dark));
@@ -288,7 +334,10 @@ impl Problem {
             Some(most) => format!("up to {most} triggers keep that"),
             None => "no number of triggers keeps that".to_string(),
         };
-        let (dark, lit) = (required(asked.dark), required(asked.lit));
+        let (timer, unit) = (frames.timer, frames.unit);
+        let [dark, lit] = [asked.dark, asked.lit].map(|ticks| timer.required(ticks, unit));
+        let ticks = |ticks| timer.ticks(ticks, unit);
+        let apart = |things, i, gap| timer.apart(things, i, gap, unit);
         let reason = match (asked.lamp, *self) {
             (Lamp::Equal { ticks: length }, _) => {
                 let longest = match frames.longest(asked, n) {
@@ -296,7 +345,12 @@ impl Problem {
                     longest => format!("those of up to {} fit", ticks(longest)),
                 };
                 let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
-                let reason = format!("{}; {longest}{many}", self.of_equal(length, &dark));
+                let reason = match *self {
+                    Self::Close(i, gap) => format!("{}, and {dark}", apart("pulses", i, gap)),
+                    _ => "they reach beyond the time that the shutter is open".into(),
+                };
+                let length = ticks(length.into());
+                let reason = format!("pulses of {length}: {reason}; {longest}{many}");
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
                 return Fault::of(Some(place), reason);
             }
@@ -314,35 +368,6 @@ impl Problem {
             _ => format!("the frame does not fit; {many}"),
         };
         Fault::at(&scene.triggers, reason)
-    }
-
-    /// What is wrong with pulses of equal length.
-    fn of_equal(&self, length: u32, dark: &str) -> String {
-        let pulses = format!("pulses of {}", count(length, "tick"));
-        match *self {
-            Self::Close(i, gap) => format!("{pulses}: {}, and {dark}", apart("pulses", i, gap)),
-            _ => format!("{pulses}: they reach beyond the time that the shutter is open"),
-        }
-    }
-}
-
-/// So many ticks, as what is required.
-pub(crate) fn required(ticks: u64) -> String {
-    match ticks {
-        1 => "1 is required".into(),
-        _ => format!("{ticks} are required"),
-    }
-}
-
-fn ticks(ticks: i64) -> String {
-    count(ticks.unsigned_abs(), "tick")
-}
-
-/// How far the thing `i` and the next one are apart.
-pub(crate) fn apart(things: &str, i: usize, gap: i64) -> String {
-    match gap {
-        ..0 => format!("{things} {i} and {} overlap by {}", i + 1, ticks(gap)),
-        _ => format!("{things} {i} and {} come {} apart", i + 1, ticks(gap)),
     }
 }
 

@@ -3,9 +3,10 @@
 use serde::Serialize;
 use shutter_fit::unit::Unit;
 
-use crate::delay::Delay;
+use crate::delay::{Delay, Lag};
 use crate::plan::{Plan, Trigger};
 use crate::scene::{Fault, trigger_times_at};
+use crate::set_up::SetUp;
 use crate::timer::Timer;
 use crate::times::{Given, Times};
 
@@ -43,6 +44,8 @@ pub(crate) struct Row {
     pub from_edge_ticks: Option<u32>,
     pub on_ticks: Option<u32>,
     pub off_ticks: Option<u32>,
+    /// The light of this flash, the greatest being 1, where set-up and curve tell.
+    pub dose: Option<f64>,
 }
 
 impl Planned {
@@ -81,6 +84,31 @@ impl Planned {
         }
     }
 
+    /// Of the lamp, if the scene tells.
+    pub fn lag(&self) -> Option<Lag> {
+        match self {
+            Self::Curve(plan) => plan.lag,
+            Self::Times(times) => times.lag,
+        }
+    }
+
+    /// How the flashes meet the shutter, if the scene tells.
+    pub fn set_up(&self) -> Option<SetUp> {
+        match self {
+            Self::Curve(plan) => plan.set_up,
+            Self::Times(times) => times.set_up,
+        }
+    }
+
+    /// What is doubtful about the fit that the scene comes from.
+    pub fn doubts(&self) -> impl Iterator<Item = &str> {
+        let fitted = match self {
+            Self::Curve(plan) => &plan.fitted,
+            Self::Times(times) => &times.fitted,
+        };
+        fitted.iter().filter(|(what, _)| *what == "doubt").map(|(_, told)| told.as_str())
+    }
+
     /// The exposure that the shutter's maker names, in seconds.
     pub fn nominal(&self) -> Option<f64> {
         match self {
@@ -109,16 +137,20 @@ impl Planned {
     /// The triggers, in order.
     pub(crate) fn rows(&self) -> Vec<Row> {
         let (delay, mut last) = (self.delay(), None);
-        let mut row = |index, u, time_s, ticks, pulse: Option<(u32, u32)>| Row {
+        // Checked when the lag was read: the first trigger comes no earlier.
+        let early = self.lag().map_or(0, |lag| lag.ticks);
+        let doses = self.plan().and_then(|plan| Some(plan.set_up?.doses(plan)));
+        let mut row = |index, u, time_s, ticks: u32, pulse: Option<(u32, u32)>| Row {
             index,
             u,
             time_s,
-            ticks,
+            ticks: ticks.saturating_sub(early),
             gap_ticks: last.replace(ticks).map(|last| ticks - last),
             // Checked when the delay was read: the sum is at most 2³¹.
-            from_edge_ticks: delay.map(|delay| delay.ticks + ticks),
-            on_ticks: pulse.map(|pulse| pulse.0),
-            off_ticks: pulse.map(|pulse| pulse.1),
+            from_edge_ticks: delay.map(|delay| delay.ticks + ticks.saturating_sub(early)),
+            on_ticks: pulse.map(|pulse| pulse.0 - early),
+            off_ticks: pulse.map(|pulse| pulse.1 - early),
+            dose: doses.as_ref().map(|doses| doses[index]),
         };
         match self {
             Self::Curve(plan) => {

@@ -9,8 +9,10 @@ use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::facts;
+use crate::lamp::Lamp;
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
+use crate::set_up::SetUp;
 use crate::times::Times;
 
 /// With more triggers than this, a full line at each would hide the curve.
@@ -106,36 +108,38 @@ fn drawing(plan: &Plan, unit: Unit, cells: usize, f: impl Fn(f32) -> f32) -> Str
     chart.to_string()
 }
 
-fn table(out: &mut String, plan: &Planned) -> fmt::Result {
-    let (unit, rows) = (plan.unit(), plan.rows());
+fn table(out: &mut String, planned: &Planned) -> fmt::Result {
+    let (unit, rows, timer) = (planned.unit(), planned.rows(), planned.timer());
     // A digit more than tells one tick from the next, as far as f32 has them.
-    let tick = unit.of(1.0 / f64::from(plan.timer().hz));
-    let places = decimals(tick, 2).min(decimals(unit.of(plan.length()), 7));
+    let tick = unit.of(1.0 / f64::from(timer.hz));
+    let places = decimals(tick, 2).min(decimals(unit.of(planned.length()), 7));
     let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
-    let pulse = |on: &dyn Display, off: &dyn Display| match has_pulses {
-        true => format!("  {on:>10}  {off:>10}"),
+    let is_dimmed = planned.plan().is_some_and(|plan| {
+        plan.set_up == Some(SetUp::InPath)
+            && matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. })
+    });
+    // Columns that a scene need not have.
+    let column = |is_there: bool, cell: &dyn Display, width: usize| match is_there {
+        true => format!("  {cell:>width$}"),
         false => String::new(),
     };
-    let time = format!("time ({})", unit.name());
-    // By the timer's count at the sync's edge, where that is known.
-    let edge = |ticks: &dyn Display| match plan.delay() {
-        Some(_) => format!("  {ticks:>10}"),
-        None => String::new(),
-    };
-    // What a curve tells.
-    let share = |u: &dyn Display| match plan {
-        Planned::Curve(_) => format!("  {u:>7}"),
-        Planned::Times(_) => String::new(),
+    let (by_curve, has_edge) = (planned.plan().is_some(), planned.delay().is_some());
+    let ticks = |name: &dyn Display, edge: &dyn Display, on: &dyn Display, off: &dyn Display| {
+        // By the timer's count at the sync's edge, where that is known.
+        column(timer.is_given, name, 10)
+            + &column(timer.is_given && has_edge, edge, 10)
+            + &column(has_pulses, on, 10)
+            + &column(has_pulses, off, 10)
     };
     // Between pulses, the gap is darkness.
     let gap = if has_pulses { "apart" } else { "gap" };
-    let gap = format!("{gap} ({})", unit.name());
+    let [time, gap] = ["time", gap].map(|what| format!("{what} ({})", unit.name()));
     writeln!(
         out,
-        "    #{}  {time:>13}       ticks{}{}  {gap:>13}",
-        share(&"u"),
-        edge(&"from edge"),
-        pulse(&"on", &"off")
+        "    #{}  {time:>13}{}{}  {gap:>13}",
+        column(by_curve, &"u", 7),
+        ticks(&"ticks", &"from edge", &"on", &"off"),
+        column(is_dimmed, &"dose (%)", 8),
     )?;
     let hidden = hidden_rows(rows.len());
     let mut last: Option<f64> = None;
@@ -150,11 +154,21 @@ fn table(out: &mut String, plan: &Planned) -> fmt::Result {
         if hidden.contains(&i) {
             continue;
         }
-        let Row { u, ticks, .. } = row;
-        let pulse = pulse(&row.on_ticks.unwrap_or_default(), &row.off_ticks.unwrap_or_default());
-        let edge = edge(&row.from_edge_ticks.unwrap_or_default());
-        let share = share(&format_args!("{:.5}", u.unwrap_or_default()));
-        writeln!(out, "{i:5}{share}  {time:13.places$}  {ticks:10}{edge}{pulse}  {gap:>13}")?;
+        let Row { u, ticks: own, from_edge_ticks, on_ticks, off_ticks, dose, .. } = row;
+        let edges = [on_ticks, off_ticks].map(|ticks| match (planned.plan(), ticks) {
+            (Some(plan), Some(ticks)) if !timer.is_given => {
+                let from = f64::from(plan.curve.open_start());
+                format!("{:.places$}", unit.of(from + plan.seconds(*ticks)))
+            }
+            _ => ticks.unwrap_or_default().to_string(),
+        });
+        writeln!(
+            out,
+            "{i:5}{}  {time:13.places$}{}{}  {gap:>13}",
+            column(by_curve, &format_args!("{:.5}", u.unwrap_or_default()), 7),
+            ticks(own, &from_edge_ticks.unwrap_or_default(), &edges[0], &edges[1]),
+            column(is_dimmed, &short(100.0 * dose.unwrap_or_default(), 3), 8),
+        )?;
     }
     Ok(())
 }

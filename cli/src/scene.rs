@@ -7,6 +7,7 @@ use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::set_up::SetUp;
 use crate::shape::Shape;
 
 /// A scene as it is written; each value knows its place in the text.
@@ -21,7 +22,7 @@ pub struct Scene {
     close_end: Spanned<Number>,
     shutteropening: Option<Spanned<Vec<Number>>>,
     pub(crate) triggers: Spanned<Number>,
-    pub(crate) timer_hz: Spanned<Number>,
+    pub(crate) timer_hz: Option<Spanned<Number>>,
     pub(crate) timer_bits: Option<Spanned<Number>>,
     pub(crate) min_gap: Spanned<Number>,
     pub(crate) nominal: Option<Spanned<Number>>,
@@ -31,6 +32,9 @@ pub struct Scene {
     pub(crate) delay: Option<Spanned<Number>>,
     pub(crate) delay_spread: Option<Spanned<Number>>,
     pub(crate) sync_falls: Option<Spanned<bool>>,
+    pub(crate) lamp_lag: Option<Spanned<Number>>,
+    pub(crate) set_up: Option<Spanned<SetUp>>,
+    pub(crate) fully_open: Option<Spanned<bool>>,
 }
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
@@ -47,7 +51,7 @@ impl Number {
 }
 
 /// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
-pub const KEYS: [&str; 15] = [
+pub const KEYS: [&str; 19] = [
     "open_start",
     "open_end",
     "close_start",
@@ -63,6 +67,10 @@ pub const KEYS: [&str; 15] = [
     "min_pulse",
     "delay",
     "delay_spread",
+    "lamp_lag",
+    "set_up",
+    "sync_falls",
+    "fully_open",
 ];
 
 /// The place of the only key that takes more than one number.
@@ -73,7 +81,7 @@ impl Scene {
     pub const NUMBERS: usize = KEYS.len() + 7;
 
     /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
-    /// ticks need not be whole yet. The place in its faults is the number of a key; [`Fault::key`] tells which.
+    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. The place in its faults is the number of a key; [`Fault::key`] tells which.
     pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
         let number = |key: &str| {
             let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
@@ -81,6 +89,8 @@ impl Scene {
             Spanned::new(place..place, Number::Any(x))
         };
         let optional = |key| Some(number(key)).filter(|x| !x.get_ref().get().is_nan());
+        let choice = |key| optional(key).map(|x| Spanned::new(x.span(), x.get_ref().get() == 1.0));
+        let set_up = |is_in_path| if is_in_path { SetUp::InPath } else { SetUp::Emulated };
         let eight = || numbers[EIGHT..EIGHT + 8].iter().copied().map(Number::Any).collect();
         Self {
             unit: Some(unit),
@@ -90,7 +100,7 @@ impl Scene {
             close_end: number("close_end"),
             shutteropening: optional(KEYS[EIGHT]).map(|first| Spanned::new(first.span(), eight())),
             triggers: number("triggers"),
-            timer_hz: number("timer_hz"),
+            timer_hz: optional("timer_hz"),
             timer_bits: optional("timer_bits"),
             min_gap: number("min_gap"),
             nominal: optional("nominal"),
@@ -99,7 +109,10 @@ impl Scene {
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
             delay_spread: optional("delay_spread"),
-            sync_falls: None,
+            lamp_lag: optional("lamp_lag"),
+            set_up: choice("set_up").map(|it| Spanned::new(it.span(), set_up(*it.get_ref()))),
+            sync_falls: choice("sync_falls"),
+            fully_open: choice("fully_open"),
         }
     }
 }
@@ -160,6 +173,18 @@ pub(crate) fn trigger_times_at(text: &str) -> Option<usize> {
     table.keys().find(|key| key.get_ref() == TRIGGER_TIMES).map(|key| key.span().start)
 }
 
+/// What the head of a text keeps of a fit: what was measured, and what is doubtful about it.
+pub(crate) fn fitted(text: &str) -> Vec<(&'static str, String)> {
+    let kept = |line: &str| {
+        let measured = line.strip_prefix("# Exposure ").map(|it| {
+            let it = it.trim_end_matches(", standard errors behind ±.");
+            ("measured", format!("exposure {it}"))
+        });
+        measured.or(line.strip_prefix("# Warning: ").map(|it| ("doubt", it.into())))
+    };
+    text.lines().take_while(|line| line.starts_with('#')).filter_map(kept).collect()
+}
+
 /// The scene that `text` describes.
 ///
 /// # Errors
@@ -188,7 +213,8 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
             let key = key.get_ref();
             reason = match key.as_ref() {
                 "unit" => "unit: \"s\", \"ms\", \"us\" or \"ns\" is required".into(),
-                key @ "sync_falls" => format!("{key}: true or false is required"),
+                "set_up" => "set_up: \"emulated\" or \"in_path\" is required".into(),
+                key @ ("sync_falls" | "fully_open") => format!("{key}: true or false is required"),
                 _ if reason.contains("a sequence") => {
                     format!("{key}: numbers in brackets are required")
                 }

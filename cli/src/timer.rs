@@ -1,6 +1,6 @@
 //! A scene's timer.
 
-use shutter_fit::unit::short;
+use shutter_fit::unit::{Unit, count, short};
 use toml::Spanned;
 
 use crate::scene::{Fault, Number};
@@ -14,20 +14,27 @@ pub struct Timer {
     pub exact_hz: f64,
     /// The bits of its count: 16 or 32.
     pub bits: u32,
+    /// Does the scene tell the rate? If not, it is a fine one, by which nothing but times is told.
+    pub is_given: bool,
 }
 
 impl Timer {
-    /// The timer that a scene has.
+    /// The timer that a scene has, whose frame ends so many seconds after the edge.
     ///
     /// # Errors
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
-    pub(crate) fn new(hz: &Spanned<Number>, bits: Option<&Spanned<Number>>) -> Result<Self, Fault> {
-        let exact_hz = hz.get_ref().get();
+    pub(crate) fn new(
+        hz: Option<&Spanned<Number>>,
+        bits: Option<&Spanned<Number>>,
+        seconds: f64,
+    ) -> Result<Self, Fault> {
+        let exact_hz = hz.map_or_else(|| fine(seconds), |hz| hz.get_ref().get());
         // From 0.5 on it is 1 when it is rounded.
-        if !(0.5..=f64::from(u32::MAX)).contains(&exact_hz) {
+        if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
             return Err(Fault::at(hz, "timer_hz: a rate from 1 to 4294967295 is required"));
         }
-        let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits };
+        let is_given = hz.is_some();
+        let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits, is_given };
         match bits.map(|bits| (bits, bits.get_ref().get())) {
             None => Ok(timer(32)),
             Some((_, bits)) if bits == 16.0 || bits == 32.0 => Ok(timer(bits as u32)),
@@ -45,7 +52,9 @@ impl Timer {
     /// # Errors
     /// A prescaler with which it has.
     pub(crate) fn holds(&self, ticks: f64, bits: Option<&Spanned<Number>>) -> Result<(), Fault> {
-        let (most, Some(place)) = (self.most(), bits) else { return Ok(()) };
+        let (most, Some(place)) = (self.most(), bits.filter(|_| self.is_given)) else {
+            return Ok(());
+        };
         if ticks <= most {
             return Ok(());
         }
@@ -66,7 +75,10 @@ impl Timer {
 
     /// What is to be said of it, where a delay and a frame last so many seconds.
     pub(crate) fn told(&self, seconds: f64) -> String {
-        let Self { hz, exact_hz, bits } = *self;
+        let Self { hz, exact_hz, bits, is_given } = *self;
+        if !is_given {
+            return "none, so there are times alone; timer_hz gives ticks".into();
+        }
         let rate = match exact_hz == f64::from(hz) {
             true => format!("{hz} Hz"),
             false => format!(
@@ -77,4 +89,36 @@ impl Timer {
         };
         if bits == 32 { rate } else { format!("{rate}; {bits} bits") }
     }
+
+    /// So many ticks, as what is told; without a rate, how long they last.
+    pub(crate) fn ticks(&self, ticks: i64, unit: Unit) -> String {
+        match self.is_given {
+            true => count(ticks.unsigned_abs(), "tick"),
+            false => unit.show(ticks.unsigned_abs() as f64 / f64::from(self.hz)),
+        }
+    }
+
+    /// The same, as what is required.
+    pub(crate) fn required(&self, ticks: u64, unit: Unit) -> String {
+        match (self.is_given, ticks) {
+            (false, _) => format!("{} is required", self.ticks(ticks as i64, unit)),
+            (true, 1) => "1 is required".into(),
+            (true, _) => format!("{ticks} are required"),
+        }
+    }
+
+    /// How far the thing `i` and the next one are apart.
+    pub(crate) fn apart(&self, things: &str, i: usize, gap: i64, unit: Unit) -> String {
+        let (ticks, next) = (self.ticks(gap, unit), i + 1);
+        match gap {
+            ..0 => format!("{things} {i} and {next} overlap by {ticks}"),
+            _ => format!("{things} {i} and {next} come {ticks} apart"),
+        }
+    }
+}
+
+/// The greatest power of ten that counts so many seconds in 31 bits, up to a tick of 1 ns.
+fn fine(seconds: f64) -> f64 {
+    let counts = |hz: &f64| seconds * hz < f64::from(1u32 << 31);
+    (0..10).rev().map(|power| 10f64.powi(power)).find(counts).unwrap_or(1.0)
 }

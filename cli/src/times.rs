@@ -5,9 +5,10 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::delay::{Delay, LAST, Sync};
-use crate::plan::{MOST_TRIGGERS, apart, required, whole_ticks};
+use crate::delay::{Delay, LAST, Lag, Sync};
+use crate::plan::{MOST_TRIGGERS, whole_ticks};
 use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
+use crate::set_up::SetUp;
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
@@ -18,13 +19,15 @@ struct Scene {
     unit: Option<Unit>,
     open_start: Spanned<Number>,
     trigger_times: Spanned<Vec<Spanned<Number>>>,
-    timer_hz: Spanned<Number>,
+    timer_hz: Option<Spanned<Number>>,
     timer_bits: Option<Spanned<Number>>,
     min_gap: Spanned<Number>,
     nominal: Option<Spanned<Number>>,
     delay: Option<Spanned<Number>>,
     delay_spread: Option<Spanned<Number>>,
     sync_falls: Option<Spanned<bool>>,
+    lamp_lag: Option<Spanned<Number>>,
+    set_up: Option<Spanned<SetUp>>,
 }
 
 /// A trigger that was measured.
@@ -45,12 +48,18 @@ pub struct Times {
     pub timer: Timer,
     /// From the edge of the camera's sync to the start of opening, if the scene tells.
     pub delay: Option<Delay>,
+    /// Of the lamp, if the scene tells.
+    pub lag: Option<Lag>,
+    /// The set-up, if the scene tells; it is not in the light's path.
+    pub set_up: Option<SetUp>,
     /// Between two triggers, at least so many seconds, as the scene asks.
     pub min_gap: f64,
     /// The exposure that the shutter's maker names, in seconds.
     pub nominal: Option<f64>,
     /// In order.
     pub triggers: Vec<Given>,
+    /// What the scene's text keeps of the fit that it comes from.
+    pub fitted: Vec<(&'static str, String)>,
     unit: Option<Unit>,
 }
 
@@ -61,6 +70,7 @@ fn of_a_curve(key: &str) -> Option<&'static str> {
             "it is a curve's, and the triggers of this scene are given by their times"
         }
         "triggers" => "their number is that of trigger_times",
+        "fully_open" => "when the shutter is fully open is a curve's, and this scene has none",
         "pulse" | "duty" | "min_pulse" => {
             "pulses are checked against a curve, and a scene with trigger_times has none"
         }
@@ -87,7 +97,8 @@ impl Times {
                 return Err(Fault::at(key, format!("{}: {why}", key.get_ref())));
             }
         }
-        Self::new(&scene::read(text)?)
+        let times = Self::new(&scene::read(text)?)?;
+        Ok(Self { fitted: scene::fitted(text), ..times })
     }
 
     /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
@@ -108,6 +119,8 @@ impl Times {
             delay: scene.delay,
             delay_spread: scene.delay_spread,
             sync_falls: scene.sync_falls,
+            lamp_lag: scene.lamp_lag,
+            set_up: scene.set_up,
         })
     }
 
@@ -115,20 +128,43 @@ impl Times {
         let unit = scene.unit.unwrap_or(Unit::Second);
         let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
         let bits = scene.timer_bits.as_ref();
-        let timer = Timer::new(&scene.timer_hz, bits)?;
+        if let Some(place) = scene.set_up.as_ref().filter(|it| *it.get_ref() == SetUp::InPath) {
+            let reason = "set_up: what a shutter in the light's path leaves of a flash comes from its curve, and this \
+                          scene has none; `shutter fit --model free` writes one";
+            return Err(Fault::at(place, reason));
+        }
+        let last = scene.trigger_times.get_ref().last().map_or(0.0, |it| it.get_ref().get());
+        let delay = scene.delay.as_ref().map_or(0.0, |delay| delay.get_ref().get());
+        let until_end = unit.seconds(last + delay) - open_start;
+        let timer = Timer::new(scene.timer_hz.as_ref(), bits, until_end)?;
         let min_gap = scene::min_gap(unit, &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
         let triggers =
-            triggers(scene, unit, open_start, timer.hz, whole_ticks(min_gap, timer.hz).max(1))?;
+            triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
         let sync = Sync {
             delay: scene.delay.as_ref(),
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
+            lag: scene.lamp_lag.as_ref(),
         };
-        let delay = Delay::new(&sync, unit, timer.hz, end)?;
+        let (delay, lag) = Delay::new(&sync, unit, timer.hz, end)?;
+        let first = triggers.first().map_or(0, |first| first.ticks);
+        Lag::checked(lag, first, &sync, unit, timer.hz)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
-        Ok(Self { open_start, timer, delay, min_gap, nominal, triggers, unit: scene.unit })
+        let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
+        Ok(Self {
+            open_start,
+            timer,
+            delay,
+            lag,
+            set_up,
+            min_gap,
+            nominal,
+            triggers,
+            fitted: Vec::new(),
+            unit: scene.unit,
+        })
     }
 
     /// From the start of opening to the last trigger, in seconds; a tick at least.
@@ -144,8 +180,14 @@ impl Times {
 }
 
 /// The times in ticks, known to be in order and at least so many apart.
-fn triggers(scene: &Scene, unit: Unit, start: f64, hz: u32, gap: u64) -> Result<Vec<Given>, Fault> {
-    let hz = f64::from(hz);
+fn triggers(
+    scene: &Scene,
+    unit: Unit,
+    start: f64,
+    timer: Timer,
+    gap: u64,
+) -> Result<Vec<Given>, Fault> {
+    let hz = f64::from(timer.hz);
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
         let reason = format!("{KEY}: 1 to {MOST_TRIGGERS} can be planned, not {}", times.len());
@@ -170,7 +212,8 @@ fn triggers(scene: &Scene, unit: Unit, start: f64, hz: u32, gap: u64) -> Result<
                 return fault(format!("trigger {i} comes before trigger {}", i - 1));
             }
             if by < i64::try_from(gap).unwrap_or(i64::MAX) {
-                return fault(format!("{}, and {}", apart("triggers", i - 1, by), required(gap)));
+                let apart = timer.apart("triggers", i - 1, by, unit);
+                return fault(format!("{apart}, and {}", timer.required(gap, unit)));
             }
         }
         triggers.push(Given { time, ticks: ticks as u32 });

@@ -268,11 +268,12 @@ fn two_different_headers_of_one_name_do_not_compile() {
 
 /// The speeds of a shutter: three exposures of the same leaves, on one timer.
 fn speeds(lines: &str) -> Vec<(String, Plan)> {
+    let set_up = if lines.contains("duty") { "in_path" } else { "emulated" };
     [("1-500", 2.0), ("box", 4.0), ("slow speed", 16.0)]
         .map(|(name, length)| {
             let text = format!(
                 "unit = 'ms'\nopen_start = 0\nopen_end = 0.5\nclose_start = {}\nclose_end = {}\n\
-                 triggers = {}\ntimer_hz = 1_000_000\nmin_gap = 0\n{lines}",
+                 triggers = {}\ntimer_hz = 1_000_000\nmin_gap = 0\nset_up = '{set_up}'\n{lines}",
                 length - 0.5,
                 length,
                 2.0 * length
@@ -326,8 +327,7 @@ fn speeds_that_do_not_go_together_are_refused() {
         plans[1].1 = Plan::parse(other).unwrap();
         [Form::Rust, Form::C].map(|form| several(form, "camera", &plans).unwrap_err())
     };
-    let one =
-        "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\n";
+    let one = "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\nset_up = 'emulated'\n";
     for (lines, reason) in [
         ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; an array is for one timer"),
         (
@@ -356,7 +356,7 @@ fn speeds_are_rows_and_objects() {
     let plans = speeds("delay = 4.247\nsync_falls = true\n");
     let csv = several(Form::Csv, "camera", &plans).unwrap();
     assert!(
-        csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks\n1-500,0,0.125,"),
+        csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n1-500,0,0.125,"),
         "{csv}"
     );
     assert_eq!(csv.lines().count(), 1 + 4 + 8 + 32);
@@ -367,15 +367,19 @@ fn speeds_are_rows_and_objects() {
     assert_eq!((&json[0]["delay_s"], &json[0]["delay_ticks"]), (&0.004247.into(), &4247.into()));
 }
 
-/// What the boards' projects start from.
+/// What the boards' projects start from, as the program writes it.
 #[test]
 fn the_modules_of_the_boards_are_those_of_the_measured_scene() {
-    for (board, hz) in [("pico", 125_000_000), ("stm32f4", 100_000_000)] {
-        let text = include_str!("../scenes/measured.toml");
-        let text = text.replace("timer_hz = 25000000", &format!("timer_hz = {hz}"));
-        let module = emit(Form::Rust, "leaf", &Plan::parse(&text).unwrap());
-        let file = format!("{CLI}/../boards/{board}/src/leaf.rs");
-        assert_eq!(module, fs::read_to_string(&file).unwrap(), "{file}");
+    for (board, hz) in [("pico", "125MHz"), ("stm32f4", "100MHz")] {
+        let module = folder(board).join("leaf.rs");
+        let scene = format!("{CLI}/scenes/measured.toml");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_shutter"));
+        program.args(["plan", &scene, "--timer-hz", hz, "--emit", "rust", "--to"]).arg(&module);
+        assert!(program.output().unwrap().status.success(), "{board}");
+        let shipped = format!("{CLI}/../boards/{board}/src/leaf.rs");
+        let [made, shipped] =
+            [module, shipped.into()].map(|file| fs::read_to_string(file).unwrap());
+        assert_eq!(made, shipped, "{board}");
     }
 }
 
@@ -383,9 +387,9 @@ fn the_modules_of_the_boards_are_those_of_the_measured_scene() {
 #[test]
 fn flashes_are_counted_from_the_edge_in_rust_and_in_c() {
     let folder = folder("edge");
-    let curve = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nmin_gap = 0\ndelay = 10\nopen_end = 1\nclose_start = 5\n\
+    let curve = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nmin_gap = 0\nset_up = 'emulated'\ndelay = 10\nopen_end = 1\nclose_start = 5\n\
                  close_end = 5\ntriggers = 4\n";
-    let times = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nmin_gap = 0\ndelay = 10\ntrigger_times = [1.5, 2.5, 3.5, 4.5]\n";
+    let times = "unit = 'ms'\nopen_start = 1\ntimer_hz = 1_000_000\nmin_gap = 0\nset_up = 'emulated'\ndelay = 10\ntrigger_times = [1.5, 2.5, 3.5, 4.5]\n";
     let [mut mods, mut includes, mut rust, mut c] = [const { String::new() }; 4];
     for (name, text) in [
         ("even", format!("{curve}timer_bits = 16\nsync_falls = true\n")),
@@ -440,25 +444,44 @@ fn flashes_are_counted_from_the_edge_in_rust_and_in_c() {
     assert_eq!(compiled(&folder, &main).replace(", ]", "]"), expected);
 }
 
-/// Nobody's edge is assumed.
+/// Nobody's set-up, timer or edge is assumed.
 #[test]
-fn a_delay_without_its_edge_is_refused() {
-    let plan = Planned::parse(
-        &include_str!("../scenes/measured.toml").replace("sync_falls = false\n", ""),
-    )
-    .unwrap();
-    for form in [Form::Rust, Form::C, Form::Csv, Form::Json] {
-        let reason = shutter::emit::emit(form, "leaf", &plan, false).unwrap_err();
-        assert!(reason.contains("from which edge"), "{reason}");
-    }
+fn hardware_gets_nothing_that_nobody_gave() {
+    let text = include_str!("../scenes/measured.toml");
+    let without = |keys: &[&str]| {
+        let kept = text.lines().filter(|line| !keys.iter().any(|key| line.starts_with(key)));
+        let plan =
+            Planned::parse(&kept.map(|line| format!("{line}\n")).collect::<String>()).unwrap();
+        let forms = [Form::Rust, Form::C, Form::Csv, Form::Json];
+        let [reason, others @ ..] =
+            forms.map(|form| shutter::emit::emit(form, "leaf", &plan, false).unwrap_err());
+        assert!(others.iter().all(|other| *other == reason), "{others:?}");
+        let several = [("leaf".to_string(), plan)];
+        let told = shutter::emit::several(Form::C, "camera", &several, false).unwrap_err();
+        assert_eq!(told, format!("leaf: {reason}"));
+        reason
+    };
+    let head = "hardware needs what only you know; write it into the scene, or say --set-up, --timer-hz, --sync-falls:";
+    let timer = "\n  timer_hz = ...       # your timer's rate, in Hz";
+    let edge =
+        "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
+    let set_up = "
+  set_up = \"emulated\"  # the camera's own shutter stays open: the first, the middle and the last flash give 100, 100 and 100 %
+  set_up = \"in_path\"   # this shutter is in the light's path, and dims them to 43.5, 100 and 51.2 %; all alike
+                       # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)";
+    assert_eq!(without(&["timer_hz"]), format!("{head}{timer}"));
+    assert_eq!(without(&["sync_falls"]), format!("{head}{edge}"));
+    assert_eq!(without(&["set_up"]), format!("{head}{set_up}"));
+    let all = ["set_up", "timer_hz", "sync_falls"];
+    assert_eq!(without(&all), format!("{head}{set_up}{timer}{edge}"));
 }
 
 /// Trigger times without a curve, with a delay, and a speed that has one.
 fn measured() -> (Planned, Planned) {
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\ntimer_hz = 1_000_000\nmin_gap = 0.1\n\
-                 delay = 4.247\nsync_falls = true\n";
+                 set_up = 'emulated'\ndelay = 4.247\nsync_falls = true\n";
     let curve = "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\n\
-                 timer_hz = 1_000_000\nmin_gap = 0\ndelay = 4\nsync_falls = true\n";
+                 timer_hz = 1_000_000\nmin_gap = 0\nset_up = 'emulated'\ndelay = 4\nsync_falls = true\n";
     (Planned::parse(times).unwrap(), Planned::parse(curve).unwrap())
 }
 
@@ -496,9 +519,9 @@ fn times_without_a_curve_stand_beside_a_curve() {
 fn times_without_a_curve_are_rows_and_objects() {
     let (times, curve) = measured();
     let csv = shutter::emit::emit(Form::Csv, "bounce", &times, false).unwrap();
-    let rows = "scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks\n\
-                bounce,0,,0.0020004,1000,,5247,,\nbounce,1,,0.0025,1500,500,5747,,\n\
-                bounce,2,,0.0031,2100,600,6347,,\n";
+    let rows = "scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n\
+                bounce,0,,0.0020004,1000,,5247,,,\nbounce,1,,0.0025,1500,500,5747,,,\n\
+                bounce,2,,0.0031,2100,600,6347,,,\n";
     assert_eq!(csv, rows);
     let json = shutter::emit::emit(Form::Json, "bounce", &times, false).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -518,7 +541,7 @@ fn times_without_a_curve_are_rows_and_objects() {
     );
     let speeds = [("bounce".to_string(), times), ("good".to_string(), curve)];
     let csv = shutter::emit::several(Form::Csv, "camera", &speeds, false).unwrap();
-    assert!(csv.contains("\nbounce,0,,0.0020004,1000,,5247,,\n"), "{csv}");
+    assert!(csv.contains("\nbounce,0,,0.0020004,1000,,5247,,,\n"), "{csv}");
     assert!(csv.contains("\ngood,0,0.125,"), "{csv}");
 }
 
@@ -610,7 +633,7 @@ fn great_and_small_numbers_round_trip() {
     for (factor, timer_hz) in [(1e-18, u32::MAX), (1e-7, u32::MAX), (7e8, 1)] {
         let text = format!(
             "open_start = -{factor:e}\nopen_end = {factor:e}\nclose_start = {factor:e}\nclose_end = {:e}\n\
-             triggers = 1\ntimer_hz = {timer_hz}\nmin_gap = 0\n",
+             triggers = 1\ntimer_hz = {timer_hz}\nmin_gap = 0\nset_up = 'emulated'\n",
             1.7 * factor
         );
         let plan = Plan::parse(&text).expect(&text);
@@ -629,7 +652,7 @@ fn great_and_small_numbers_round_trip() {
     let plan = Plan::parse(
         "open_start = 1e-9\nopen_end = 0.002512345678\nclose_start = 0.00751234567\nclose_end = 0.0101234567\n\
          shutteropening = [0.0912345678, 1e-9, 0.15123456, 0.987654321, 0.84567891, 0.9999999, 0.9123456, 1e-30]\n\
-         triggers = 3\ntimer_hz = 12_345_678\nmin_gap = 0\n",
+         triggers = 3\ntimer_hz = 12_345_678\nmin_gap = 0\nset_up = 'emulated'\n",
     )
     .unwrap();
     let rust = with_curve("x", &plan);

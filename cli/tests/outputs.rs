@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 const SHUTTER: &str = env!("CARGO_BIN_EXE_shutter");
 const SCENE: &str = "open_start = 0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1\n\
-                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\n";
+                     triggers = 7\ntimer_hz = 1000\nmin_gap = 0.1\nset_up = 'emulated'\n";
 
 /// An empty folder with a scene and a trace of straight ramps, in which the program is run.
 struct Folder(PathBuf);
@@ -212,6 +212,12 @@ fn a_fit_is_not_lost_with_its_files() {
     assert!(code == Some(2) && err.contains("with what it keeps"), "{err}");
     assert!(out.contains("\nexposure     5.00"), "{out}");
     assert_eq!(folder.text("leaf.toml"), text);
+    // Five nanoseconds are too short for sixteen triggers.
+    folder.write("ns.csv", &trace(1.0).replace("time_ms", "time_ns"));
+    let (code, out, err) = folder.run("fit ns.csv --out ns.toml");
+    assert!(code == Some(2) && err.contains("; --triggers says how many"), "{err}");
+    assert!(out.contains("\nexposure     5.00") && !folder.path("ns.toml").exists(), "{out}");
+    assert_eq!(folder.run("fit ns.csv --out ns.toml --triggers 4").0, Some(0));
 }
 
 #[test]
@@ -252,8 +258,9 @@ fn devices_and_pipes_are_written_to() {
         folder.shell("mkfifo pipe.svg; cat pipe.svg & $shutter plan --out pipe.svg > text; wait");
     assert!(code == Some(0) && out.contains("\n<svg ") && out.ends_with("</svg>\n"), "{err}");
     assert!(folder.text("text").contains("exposure"));
-    let (code, out, _) =
-        folder.shell("$shutter fit trace.csv --out - | $shutter plan - --emit csv --to -");
+    let (code, out, _) = folder.shell(
+        "$shutter fit trace.csv --out - | $shutter plan - --set-up emulated --timer-hz 1MHz --emit csv --to -",
+    );
     assert!(code == Some(0) && out.starts_with("scene,index,u,"), "{out}");
     let (code, out, _) = folder.shell("$shutter fit - --report json < trace.csv");
     assert!(code == Some(0) && out.contains("\"trace\": \"standard input\""), "{out}");
@@ -372,10 +379,15 @@ fn what_cannot_be_written_leaves_nothing() {
         "$shutter fit trace.csv --picture ok.svg --out none/leaf.toml",
         "its folder is not there",
     );
-    // A failed plan.
+    // A failed plan, and a form for which the scene lacks something.
     folder.write("leaf.h", "/* old */\n");
     folder
         .refuses("$shutter plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers");
+    folder.write("bare.toml", &SCENE.replace("set_up", "# set_up"));
+    folder.refuses(
+        "$shutter plan bare.toml --out ok.svg --emit c --to leaf.h --force",
+        "bare.toml: hardware needs",
+    );
     // Whoever made it read-only does not want it replaced, and root is no exception.
     fs::set_permissions(folder.path("leaf.h"), PermissionsExt::from_mode(0o444)).unwrap();
     folder.refuses("$shutter plan --emit c --to leaf.h --force", "it is read-only");
@@ -392,7 +404,8 @@ fn what_cannot_be_written_leaves_nothing() {
 #[test]
 fn a_new_fit_keeps_what_a_user_wrote() {
     let folder = Folder::new("kept");
-    let wrote = "wrote leaf.toml\nnext: shutter plan leaf.toml\n";
+    let wrote = "wrote leaf.toml\nnext: write set_up, timer_hz, sync_falls into the scene, then \
+                 shutter plan leaf.toml --emit rust --to leaf.rs\n";
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
     assert_eq!((code, err.as_str()), (Some(0), wrote));
     let first = folder.text("leaf.toml");
@@ -400,7 +413,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
     assert_eq!((code, err.as_str(), folder.text("leaf.toml")), (Some(0), wrote, first.clone()));
     let edited = first
-        .replace("timer_hz = 1000000 # your timer's", "timer_hz = 84_000_000 # TIM2")
+        .replace("# timer_hz = ... # your timer's rate, in Hz", "timer_hz = 84_000_000 # TIM2")
+        .replace("# sync_falls = ... # true, or", "sync_falls = false # not true, nor")
+        .replace("# set_up = \"in_path\" #", "set_up = \"in_path\" #")
         .replace("min_gap = 0 ", "min_gap = 0.1 ")
         .replace("triggers = 16", "# as many as the LED takes\ntriggers = 5")
         .replace("open_start = ", "duty = 0.3\n# by the scope\nopen_start = ")
@@ -409,7 +424,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     folder.write("slow.csv", &trace(2.0));
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/125");
     assert_eq!(code, Some(0), "{err}");
-    for kept in ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "comments"] {
+    for kept in
+        ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "in_path", "comments"]
+    {
         assert!(err.contains(kept), "{kept}: {err}");
     }
     let text = folder.text("leaf.toml");
@@ -428,6 +445,11 @@ fn a_new_fit_keeps_what_a_user_wrote() {
         "{text}"
     );
     assert!(!text.contains("trace.csv") && !text.contains("# delay = ?"), "{text}");
+    // What the user has answered is asked no more, and kept.
+    assert!(text.contains("\nset_up = \"in_path\"") && !text.contains("# set_up"), "{text}");
+    assert!(text.contains("\nsync_falls = false") && !text.contains("# sync_falls"), "{text}");
+    assert!(!text.contains("# timer_hz"), "{text}");
+    assert!(err.ends_with("\nnext: shutter plan leaf.toml --emit rust --to leaf.rs\n"), "{err}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/100 --sync 1ms");
     assert!(code == Some(0) && !err.contains("nominal") && !err.contains("delay"), "{err}");
@@ -443,7 +465,8 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --triggers 6");
     assert_eq!(code, Some(0), "{err}");
     let text = folder.text("leaf.toml");
-    assert!(text.contains("unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 20"), "{text}");
+    assert!(text.contains("unit = 'us'\n# set_up = "), "{text}");
+    assert!(text.contains("min_gap = 200\n# mine\nopen_start = 20"), "{text}");
     assert!(
         text.contains(" # too\n")
             && text.contains(" # gone\n")

@@ -116,7 +116,7 @@ fn a_form_is_all_that_is_printed() {
 }
 
 /// And so they show the crate as it is. They are drawn by
-/// `cargo run -- plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
+/// `shutter plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
 #[test]
 fn the_pictures_of_the_docs_are_as_they_are_drawn() {
     let dir = empty_dir("docs");
@@ -291,9 +291,7 @@ fn the_scene_that_the_bad_ones_are_made_from_is_good() {
 #[test]
 fn a_missing_key_is_named() {
     let dir = empty_dir("missing");
-    for key in
-        ["open_start", "open_end", "close_start", "close_end", "triggers", "timer_hz", "min_gap"]
-    {
+    for key in ["open_start", "open_end", "close_start", "close_end", "triggers", "min_gap"] {
         fails(&dir, &without(key), None, &format!("missing field `{key}`"));
     }
     fails(&dir, "", None, "missing field `open_start`");
@@ -304,7 +302,7 @@ fn an_unknown_key_is_named() {
     let err = error_of(&empty_dir("unknown"), &with("colour", "3"));
     assert!(
         err.contains("bad.toml:9: unknown field `colour`, expected one of `unit`, `open_start`")
-            && err.contains("`sync_falls`, or `trigger_times` in place of a curve\n"),
+            && err.contains("`sync_falls`, `lamp_lag`, `set_up`, `fully_open`, or `trigger_times` in place of a curve\n"),
         "{err}"
     );
 }
@@ -391,7 +389,7 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
     let err = on_timer("timer_hz = 84_000_000\ntimer_bits = 16").err().unwrap();
     let reason = "timer_bits: the frame ends at tick 1088440, and a count of 16 bits tells past from future for 32768; \
                   a prescaler of 35 fits: timer_hz = 2400000\n";
-    assert!(err.contains(&format!("leaf.toml:14: {reason}")), "{err}");
+    assert!(err.contains(&format!("leaf.toml:15: {reason}")), "{err}");
     // A prime has no prescaler that leaves a whole rate.
     let err = on_timer("timer_hz = 83_999_971\ntimer_bits = 16").err().unwrap();
     assert!(err.contains("a prescaler of 34 fits: timer_hz = 2470587.382\n"), "{err}");
@@ -407,7 +405,7 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
         assert!(facts.contains(&("timer", told.into())), "{facts:?}");
     }
     let err = on_timer("timer_hz = 25000000\ntimer_bits = 24").err().unwrap();
-    assert!(err.contains("leaf.toml:14: timer_bits: 16 or 32 is required\n"), "{err}");
+    assert!(err.contains("leaf.toml:15: timer_bits: 16 or 32 is required\n"), "{err}");
     // The last tick that fits, and the next one.
     let times = |last| {
         format!(
@@ -563,7 +561,7 @@ fn a_unit_scales_all_times() {
     let plain = dir.join("good.toml");
     fs::write(
         &plain,
-        format!("{GOOD}nominal = 0.5\nduty = 0.5\nmin_pulse = 0.01\n")
+        format!("{GOOD}nominal = 0.5\nduty = 0.5\nmin_pulse = 0.01\nset_up = 'in_path'\n")
             .replace("min_gap = 0.1", "min_gap = 0.05"),
     )
     .unwrap();
@@ -578,7 +576,8 @@ fn a_unit_scales_all_times() {
     {
         let text = format!(
             "unit = \"{unit}\"\nopen_start = 0\nopen_end = {}\nclose_start = {}\nclose_end = {}\n\
-             triggers = 7\ntimer_hz = 1000\nmin_gap = {}\nnominal = {}\nduty = 0.5\nmin_pulse = {}\n",
+             triggers = 7\ntimer_hz = 1000\nmin_gap = {}\nnominal = {}\nduty = 0.5\nmin_pulse = {}\n\
+             set_up = 'in_path'\n",
             0.25 * factor,
             0.75 * factor,
             factor,
@@ -711,8 +710,16 @@ fn a_delay_that_cannot_be_is_an_error() {
 fn several_scenes_are_a_table_or_one_text() {
     let dir = empty_dir("speeds");
     let [slow, fast] = ["slow", "fast"].map(|name| dir.join(name).with_extension("toml"));
-    fs::write(&slow, format!("{GOOD}nominal = 0.75\ndelay = 0.5\nsync_falls = true\n")).unwrap();
-    fs::write(&fast, format!("{GOOD}nominal = 0.375\ndelay = 0.5\nsync_falls = true\n")).unwrap();
+    fs::write(
+        &slow,
+        format!("{GOOD}nominal = 0.75\nset_up = 'emulated'\ndelay = 0.5\nsync_falls = true\n"),
+    )
+    .unwrap();
+    fs::write(
+        &fast,
+        format!("{GOOD}nominal = 0.375\nset_up = 'emulated'\ndelay = 0.5\nsync_falls = true\n"),
+    )
+    .unwrap();
     let both = run([&slow, &fast]);
     assert_eq!((both.code, both.err.as_str()), (0, ""));
     let expected = "\

@@ -232,9 +232,10 @@ fn the_spread_is_told_and_kept() {
     let written: f64 = written.lines().next().unwrap().parse().unwrap();
     let most = (0.01 * 5.0 / written) as u32;
     assert!(told.contains(&format!("up to {most} trigger")), "{told}");
-    let (_, json, _) = folder.run("plan leaf.toml --emit json");
+    let (_, json, _) = folder.run("plan leaf.toml --emit json --set-up in_path --timer-hz 1MHz");
     let json: Value = serde_json::from_str(&json).unwrap();
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
+    assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
 
     // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml");
@@ -369,8 +370,9 @@ fn a_sync_may_have_a_file_of_its_own() {
     rows.iter_mut().for_each(|row| row[0] += 2.5e-6);
     folder.write("later.csv", channel("CH2", 2, &rows));
     let other = folder.0.join("2.csv");
-    let [one, two] = ["both.csv --sync CH2".into(), format!("1.csv --sync {}", other.display())]
-        .map(|args| folder.json(&args));
+    let [one, two] =
+        ["both.csv --sync CH2".into(), format!("1.csv --columns CH1 --sync {}", other.display())]
+            .map(|args| folder.json(&args));
     for key in ["delay_s", "delay_spread_s", "exposure_s", "sync_threshold"] {
         assert!((number(&one, key) - number(&two, key)).abs() < 1e-3 * number(&one, key), "{key}");
     }
@@ -432,7 +434,7 @@ fn what_is_no_sync_is_refused() {
     folder.refuses("a.csv --sync 1", "column 1, \"Time (s)\" holds times");
     folder.refuses("a.csv --sync CH1 --columns 1,2", "column 2, \"CH1\" is the signal's");
     // Then the sync is taken for the light.
-    folder.refuses("a.csv --sync CH1", "as slowly as light does; is it the light's?");
+    folder.refuses("a.csv --sync CH1 --light down", "as slowly as light does; is it the light's?");
     write(&Record { lost: vec![0, 1, 2], ..Record::new(3, 1) });
     folder.refuses("a.csv --sync CH2", "never switches: its levels are 1.");
     write(&Record { lost: vec![0, 1, 2], noise: 0.0, ..Record::new(3, 1) });

@@ -6,6 +6,7 @@
 // half open    TE 6.2364 ms, between the half openings
 // exposure     TV 6.2541 ms, fully open for as much light
 // efficiency   71.8 %
+// measured     exposure 6.2541 ± 0.0015 ms, efficiency at most 74.6 %
 // timer        25000000 Hz
 // delay        4.247 ms from the sync's rising edge to the start of opening
 // gap          at least 0.1 ms; the closest two come 0.39088 ms apart

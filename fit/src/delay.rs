@@ -23,6 +23,13 @@ pub enum Sync {
     Channel(Trace),
 }
 
+impl Switch {
+    /// Does it fall in a shot?
+    pub fn falls(&self) -> bool {
+        self.levels[1] < self.levels[0]
+    }
+}
+
 /// The delays of the shots of one speed.
 #[derive(Clone, Debug)]
 pub struct Delay {
@@ -275,8 +282,9 @@ pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
 }
 
 /// What a sync does, for a report.
-pub fn switch(Switch { levels: [rest, on], threshold }: &Switch) -> String {
-    let way = if on < rest { "falls" } else { "rises" };
+pub fn switch(switch: &Switch) -> String {
+    let Switch { levels: [rest, on], threshold } = switch;
+    let way = if switch.falls() { "falls" } else { "rises" };
     let places = decimals(on - rest, 3);
     let [rest, on, threshold] = [rest, on, threshold].map(|level| trimmed(*level, places));
     format!("{way} from {rest} to {on}; an edge counts at {threshold}")
@@ -295,7 +303,11 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
     let (error, trigger) = (digits(delay.error()), digits(delay.trigger_error()));
     let text = format!("# {WHAT}, ± {error}; from the edge to any trigger, ± {trigger}");
     let value = trimmed(unit.of(mean), places);
-    match (delay.spread(), delay.worst()) {
+    let edge = match delay.switch {
+        Some(switch) => format!("sync_falls = {}\n", switch.falls()),
+        None => "# sync_falls = ... # true, or false if that edge rises\n".into(),
+    };
+    let lines = match (delay.spread(), delay.worst()) {
         (Some(spread), Some(worst)) => format!(
             "{text}; of {} shots the worst is {} off\ndelay = {value}\ndelay_spread = {}\n",
             delay.shots.len(),
@@ -303,7 +315,8 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
             digits(spread),
         ),
         _ => format!("{text}; one shot tells no spread\ndelay = {value}\n"),
-    }
+    };
+    lines + &edge
 }
 
 /// A time in the unit that suits it.

@@ -34,7 +34,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "delay_trigger_error_s": of_delay(Delay::trigger_error),
         "delay_spread_s": fit.delay.as_ref().and_then(Delay::spread),
         "delay_worst_s": fit.delay.as_ref().and_then(Delay::worst),
-        "sync_falls": switch.map(|switch| switch.levels[1] < switch.levels[0]),
+        "sync_falls": switch.map(|switch| switch.falls()),
         "sync_threshold": switch.map(|switch| switch.threshold),
         "delay_shots": fit.delay.as_ref().map(|delay| delay.shots.len()),
         "opens_s": fit.opens,

@@ -1,11 +1,13 @@
+// Checksum 132ac16e of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
-// scene        leaf
+// scene        measured
 // shutter      opens from 4.247 to 6.8739, closes from 10.959 to 12.958 ms
 // times        T1 2.6269 ms opening, T2 4.0849 ms fully open, T3 1.9988 ms closing
 // half open    TE 6.2364 ms, between the half openings
 // exposure     TV 6.2541 ms, fully open for as much light
 // efficiency   71.8 %
+// measured     exposure 6.2541 ± 0.0015 ms, efficiency at most 74.6 %
 // timer        100000000 Hz
 // delay        4.247 ms from the sync's rising edge to the start of opening
 // gap          at least 0.1 ms; the closest two come 0.39088 ms apart

@@ -22,6 +22,13 @@ const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
 const NEXT: [&str; 6] =
     ["# This curve does not", "# `--model ", "# Read: ", "# Sync: ", "# Exposure ", "# Warning: "];
 const ABOVE: [&str; 2] = ["# The ramps' inner control points ", NO_DELAY];
+/// The lines of what no fit measures, which stand there until their user writes the key.
+const ASKED: [(&str, &str); 4] = [
+    ("set_up", "# set_up = \"emulated\" # the "),
+    ("set_up", "# set_up = \"in_path\" # this "),
+    ("timer_hz", "# timer_hz = ... # "),
+    ("sync_falls", "# sync_falls = ... # "),
+];
 const NO_DELAY: &str = "# delay = ? # ";
 /// Above a delay, which may outlive a fit that measures none.
 const ABOVE_DELAY: &str = "# From the edge of the camera's sync ";
@@ -63,10 +70,17 @@ impl Old {
             // Above the unit is the head.
             if let Some((key, _)) = fresh.as_ref().filter(|_| name != "unit") {
                 let lines = prefix(key.leaf_decor()).split_inclusive('\n');
-                above.extend(lines.filter(|line| !(keeps_delay && line.starts_with(NO_DELAY))));
+                let is_answered = |line: &&str| {
+                    keeps_delay && line.starts_with(NO_DELAY)
+                        || ASKED
+                            .iter()
+                            .any(|(key, start)| line.starts_with(start) && self.0.contains_key(key))
+                };
+                above.extend(lines.filter(|line| !is_answered(line)));
             }
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
-            let is_asked = ["delay", "delay_spread", "nominal"].contains(&name) && fresh.is_some();
+            let is_asked = ["delay", "delay_spread", "sync_falls", "nominal"].contains(&name)
+                && fresh.is_some();
             let is_measured = MEASURED.contains(&name) || is_asked;
             let item = match fresh {
                 Some((_, mut fresh)) if is_measured => {
@@ -114,14 +128,20 @@ fn of_user(lines: &str, keeps_delay: bool) -> String {
     let mut is_head = false;
     let is_own = |line: &&str| {
         is_head = begins(line, &FIRST) || is_head && begins(line, &NEXT);
-        !(is_head || begins(line, &ABOVE) || !keeps_delay && line.starts_with(ABOVE_DELAY))
+        let is_asked = ASKED.iter().any(|(_, start)| line.starts_with(start));
+        !(is_head
+            || is_asked
+            || begins(line, &ABOVE)
+            || !keeps_delay && line.starts_with(ABOVE_DELAY))
     };
     lines.split_inclusive('\n').filter(is_own).collect()
 }
 
 /// A value as it is written, without a comment.
 fn value(item: &Item) -> String {
-    item.to_string().split('#').next().unwrap_or_default().trim().replace('_', "")
+    let text = item.to_string();
+    let text = text.split('#').next().unwrap_or_default().trim();
+    if item.is_str() { text.into() } else { text.replace('_', "") }
 }
 
 fn prefix(decor: &Decor) -> &str {

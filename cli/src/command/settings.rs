@@ -5,6 +5,7 @@ use toml_edit::{DocumentMut, Item, value};
 
 use super::fit::trigger_count;
 use super::quantity::{self, time, whole_rate};
+use crate::set_up::SetUp;
 
 /// The settings of a frame. They count in place of the scene's.
 #[derive(clap::Args, Default)]
@@ -21,6 +22,15 @@ pub struct Settings {
     /// The part of each share of the exposure in which the lamp is on, above 0 and at most 1
     #[arg(long, value_name = "PART")]
     duty: Option<f64>,
+    /// Flashes of one length in equal steps while the shutter is fully open
+    #[arg(long, conflicts_with = "duty")]
+    fully_open: bool,
+    /// How the flashes meet the shutter
+    #[arg(long)]
+    set_up: Option<SetUp>,
+    /// Does the delay count from the falling edge of the sync?
+    #[arg(long, value_name = "true|false")]
+    sync_falls: Option<bool>,
 }
 
 impl Settings {
@@ -36,15 +46,23 @@ impl Settings {
             ("timer_hz", self.timer_hz.map(|hz| value(i64::from(hz)))),
             ("min_gap", gap.map(value)),
             ("duty", self.duty.map(value)),
+            ("fully_open", self.fully_open.then(|| value(true))),
+            ("set_up", self.set_up.map(|it| value(it.name()))),
+            ("sync_falls", self.sync_falls.map(value)),
         ];
         for (key, item) in set {
             if let Some(item) = item {
                 scene[key] = item;
             }
         }
-        // A scene has one of the two.
-        if self.duty.is_some() {
-            scene.remove("pulse");
+        // A scene has one of them.
+        let others: &[_] = match (self.duty.is_some(), self.fully_open) {
+            (true, _) => &["pulse", "fully_open"],
+            (_, true) => &["pulse", "duty", "min_pulse"],
+            _ => &[],
+        };
+        for key in others {
+            scene.remove(key);
         }
         scene.to_string()
     }

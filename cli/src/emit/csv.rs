@@ -3,7 +3,7 @@
 use crate::planned::Planned;
 
 /// The scene's name, and the keys of a row.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     "scene",
     "index",
     "u",
@@ -13,6 +13,7 @@ const NAMES: [&str; 9] = [
     "from_edge_ticks",
     "on_ticks",
     "off_ticks",
+    "dose",
 ];
 
 /// The rows of plans; what one of them does not have is empty.

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::facts::Facts;
 use crate::planned::{Planned, Row};
+use crate::set_up::SetUp;
 
 /// A plan's object.
 pub fn object(scene: &str, plan: &Planned) -> String {
@@ -22,11 +23,14 @@ fn text(json: &impl Serialize) -> String {
 #[derive(Serialize)]
 struct Document<'a> {
     scene: &'a str,
+    set_up: Option<SetUp>,
     timer_hz: u32,
     nominal_s: Option<f64>,
     delay_s: Option<f64>,
     delay_ticks: Option<u32>,
     delay_spread_s: Option<f64>,
+    sync_falls: Option<bool>,
+    lamp_lag_s: Option<f64>,
     opening_s: Option<f32>,
     open_s: Option<f32>,
     closing_s: Option<f32>,
@@ -35,20 +39,25 @@ struct Document<'a> {
     efficiency: Option<f32>,
     direct_triggers: Option<u32>,
     delta_ev: Option<f32>,
+    /// What is doubtful about the fit.
+    doubts: Vec<&'a str>,
     triggers: Vec<Row>,
 }
 
 impl<'a> Document<'a> {
-    fn new(scene: &'a str, plan: &Planned) -> Self {
+    fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
         let fact = |of: fn(&Facts) -> f64| facts.as_ref().map(|facts| of(facts) as f32);
         Self {
             scene,
+            set_up: plan.set_up(),
             timer_hz: plan.timer().hz,
             nominal_s: plan.nominal(),
             delay_s: plan.delay().map(|delay| delay.seconds),
             delay_ticks: plan.delay().map(|delay| delay.ticks),
             delay_spread_s: plan.delay().and_then(|delay| delay.spread),
+            sync_falls: plan.delay().and_then(|delay| delay.falls),
+            lamp_lag_s: plan.lag().map(|lag| lag.seconds),
             opening_s: fact(|it| it.opening),
             open_s: fact(|it| it.open),
             closing_s: fact(|it| it.closing),
@@ -57,6 +66,7 @@ impl<'a> Document<'a> {
             efficiency: curve.map(|curve| curve.efficiency()),
             direct_triggers: facts.as_ref().map(|it| it.direct_triggers),
             delta_ev: facts.as_ref().and_then(|it| it.delta_ev).map(|delta| delta as f32),
+            doubts: plan.doubts().collect(),
             triggers: plan.rows(),
         }
     }

@@ -30,7 +30,8 @@ pub fn module(name: &str) -> String {
 
 /// A text of any characters, so that it neither ends a comment nor turns the line around.
 pub fn shown(text: &str) -> String {
-    let is_shown = |c: char| c.is_alphanumeric() || c == ' ' || c.is_ascii_graphic() && c != '/';
+    let is_shown =
+        |c: char| c.is_alphanumeric() || matches!(c, ' ' | '±') || c.is_ascii_graphic() && c != '/';
     text.chars().map(|c| if is_shown(c) { c } else { '_' }).collect()
 }
 

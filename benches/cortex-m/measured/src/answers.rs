@@ -176,7 +176,12 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             }
         }
         let mut pulses = [Pulse::default(); 9];
-        hash.made(curve.pulses_into(&mut pulses, 0.3, hz, PulseLimits { min_pulse: 3, min_gap: 7 }));
+        hash.made(curve.pulses_into(
+            &mut pulses,
+            0.3,
+            hz,
+            PulseLimits { min_pulse: 3, min_gap: 7 },
+        ));
         hash.add(pulses);
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {
