@@ -137,6 +137,9 @@ fn what_is_for_the_other_set_up_is_refused() {
     let reason = |keys: &str| Planned::parse(&format!("{times}{keys}")).err().unwrap().reason;
     assert!(reason("set_up = 'in_path'\n").contains("comes from its curve"));
     assert!(reason("fully_open = true\n").contains("this scene has none"));
+    // Nobody is left with the one set-up that is offered.
+    let asked = emit(Form::C, "times", &Planned::parse(times).unwrap(), false).unwrap_err();
+    assert!(asked.contains("in the light's path it needs a curve"), "{asked}");
 }
 
 /// A lamp that shines late is triggered as much earlier: from the edge as from the opening.
