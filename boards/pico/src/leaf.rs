@@ -1,6 +1,7 @@
+// Checksum acb485f1 of the lines below: `shutter` replaces them while it holds
 // Made by `shutter plan` 0.2.0.
 //
-// scene        leaf
+// scene        measured
 // shutter      opens from 4.247 to 6.8739, closes from 10.959 to 12.958 ms
 // times        T1 2.6269 ms opening, T2 4.0849 ms fully open, T3 1.9988 ms closing
 // half open    TE 6.2364 ms, between the half openings

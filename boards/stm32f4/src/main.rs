@@ -19,8 +19,10 @@ const TICK_HZ: u32 = 100_000_000;
 const PULSE: u32 = 200;
 /// What the DMA has, at least, from one edge of the lamp's line to the next: 0.5 µs.
 const DMA_TIME: u32 = 50;
-/// What the processor has, at least, to arm a frame before its first flash: 20 µs, and 0.4 µs a flash.
-const ARMING: u32 = 2_000 + 40 * N as u32;
+/// What the processor has, at least, from the sync's edge to the first flash: 0.4 µs for each flash, to count from
+/// that edge, and 20 µs to arm.
+const COUNTING: u32 = 40 * N as u32;
+const ARMING: u32 = 2_000;
 
 const N: usize = leaf::COUNT;
 const _: () = {
@@ -29,7 +31,7 @@ const _: () = {
         "leaf.rs is of another timer: plan it with timer_hz = 100_000_000"
     );
     assert!(0 < N && N <= 8_192, "the memory has room for 1 to 8192 flashes");
-    let (mut i, mut ready) = (0, ARMING);
+    let (mut i, mut ready) = (0, COUNTING + ARMING);
     while i < N {
         let (on, off) = leaf::on_off(i, PULSE);
         assert!(
