@@ -205,6 +205,16 @@ fn rows(items: impl Iterator<Item = String>) -> String {
     if row.is_empty() { text } else { text + &format!("   {row}\n") }
 }
 
+/// What the delay is, as a module or a header says it.
+fn delay(plan: &Planned) -> &'static str {
+    match plan.lag() {
+        Some(_) => {
+            "From the edge of the camera's sync to the start of opening, less the lamp's lag."
+        }
+        None => "From the edge of the camera's sync to the start of opening.",
+    }
+}
+
 fn has_pulses(plan: &Planned) -> bool {
     plan.plan().is_some_and(|plan| plan.lamp.has_pulses())
 }

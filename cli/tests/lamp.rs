@@ -168,6 +168,11 @@ fn a_lamps_lag_is_taken_off() {
         text.contains("lamp lag     0.7 ms: the lamp is triggered so much earlier\n"),
         "{text}"
     );
+    let late = format!("{HARDWARE}triggers = 4\n{delay}lamp_lag = 0.7\n");
+    for form in [Form::Rust, Form::C] {
+        let text = emit(form, "scene", &planned(&late), false).unwrap();
+        assert!(text.contains(" to the start of opening, less the lamp's lag."), "{text}");
+    }
     // Pulses, and below times without a curve.
     let keys = "triggers = 1\nlamp_lag = 1\npulse = 1\n";
     let pulse = json(&planned(&format!("{HARDWARE}{keys}")));
