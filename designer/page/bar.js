@@ -5,9 +5,9 @@ import { $, watch, write } from './dom.js';
 import { helps } from './export.js';
 import { go, tell } from './model.js';
 import { inWords, remedies } from './remedies.js';
-import { INNER, NUMBERS } from './scene.js';
+import { FIELDS, INNER } from './scene.js';
 
-const MORE = [...INNER, 'timer_bits', 'delay_spread', 'min_pulse'];
+const MORE = [...INNER, 'timer_bits', 'delay_spread', 'min_pulse', 'lamp_lag'];
 const isNewWrong = watch(), isNewBusy = watch();
 
 /** Draws it. */
@@ -16,7 +16,7 @@ export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   if (isNewWrong(wrong, note, pending, view)) {
     const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
     const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
-    const buttons = wrong?.isLink ? button('Go on without it', () => go(-1)) : wrong ? (view && !wrong.id ? helps(remedies(scene)) : [])
+    const buttons = wrong?.isLink ? button('Go on without it', () => go(-1)) : wrong ? helps(remedies(wrong))
       : note ? [note.act ? button(...note.act) : [], pending ? button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' })) : [], button('Close', () => tell({ note: null }))] : [];
     $('problem').hidden = !words;
     $('problem').classList.toggle('wrong', Boolean(wrong || note?.isWrong));
@@ -28,7 +28,7 @@ export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   }
   const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
   if (at.some((id) => MORE.includes(id))) $('inner').open = true;
-  for (const id of NUMBERS) {
+  for (const id of FIELDS) {
     const isWrong = at.includes(id);
     if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
     for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {

@@ -60,7 +60,7 @@ export function drawExport({ now: { scene }, view, wrong }) {
   if (!isNewForm(scene, chosen, wrong)) return;
   say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: view && !wrong.id ? remedies(scene) : [] }) : written(scene, chosen));
+  const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: remedies(wrong) }) : written(scene, chosen));
   $('code').classList.add('waits');
   if (wrong) offerCopy(false);
   of.then((it) => of === made && showForm(it));
@@ -70,6 +70,8 @@ const offerCopy = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disable
 
 async function written(scene, form) {
   if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
+  const lacks = lacking(scene);
+  if (form !== 'toml' && lacks.length) return { reason: `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`, remedies: lacks.flatMap(([, ...remedies]) => remedies) };
   if (form === 'toml') return { text: toml(scene), file: `${plain(scene.name)}.toml` };
   const answer = await emitForm(scene, form);
   // Overtaken by a newer question: that one's text is it.
@@ -78,11 +80,21 @@ async function written(scene, form) {
   return { reason: inWords(answer.Err.reason, scene) };
 }
 
+// What nobody has said yet, each with what would say it.
+function lacking({ set_up, timer_hz, delay, sync_falls }) {
+  const found = [];
+  if (set_up === null) found.push(['the set-up', ['The camera’s own shutter stays open: emulated', { set_up: 'emulated' }], ['This shutter dims the lamp: in the path', { set_up: 'in_path' }]]);
+  if (timer_hz === null) found.push(['the timer’s rate', ['Give the timer’s rate', 'timer_hz']]);
+  if (delay !== null && sync_falls === null) found.push(['which way the sync goes', ['The sync falls', { sync_falls: true }], ['The sync rises', { sync_falls: false }]]);
+  return found;
+}
+
 // A plan with what is doubtful about it, in the form's own way.
 function withDoubts(text, form, doubts) {
+  doubts = doubts.filter((it) => !text.includes(it.text));
   if (!doubts.length) return text;
   if (form === 'json') return text.replace('{', () => `{\n  "doubts": ${JSON.stringify(doubts.map((it) => it.text))},`);
-  return doubts.map((it) => `${form === 'csv' ? '#' : '//'} Doubtful: ${it.text.replace(/\s+/g, ' ')}\n`).join('') + text;
+  return doubts.map((it) => `${form === 'csv' ? '#' : '//'} Warning: ${it.text.replace(/\s+/g, ' ')}\n`).join('') + text;
 }
 
 function showForm({ text, reason, remedies = [] }) {

@@ -58,15 +58,17 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
   else if (!scene.measured) line('Times', `T1 ${short((b - a) * per)}, T2 ${short((c - b) * per)}, T3 ${short((d - c) * per)}${plan ? `; TE ${short(plan.half_open * per)}` : ''}; TOT ${of(d - a)}`, 'times');
   if (exposure !== null) line('Efficiency', fit ? fit.efficiency : `${short(100 * last.efficiency, 4)} %`, 'efficiency');
   if (fit) line('Test', fit.own ? 'no curve explains the trace: the flashes are at the trace’s own times' : !fit.explained ? 'no curve explains the trace' : fit.tested ? 'the curve explains the trace' : 'untested', 'test');
-  line('Sync', fit?.delay ?? (scene.delay === null ? 'no delay known' : `${short(scene.delay, 7)} ${scene.unit} before it opens${plan ? `: ${plan.delay} ticks` : ''}`), 'delay');
-  line('Timer', rate(scene.timer_hz));
+  line('Sync', fit?.delay ?? (scene.delay === null ? 'no delay known' : `${short(scene.delay, 7)} ${scene.unit} before it opens${plan && scene.timer_hz !== null ? `: ${plan.delay} ticks` : ''}`), 'delay');
+  line('Set-up', { emulated: 'emulated: the camera’s own shutter stays open', in_path: 'in the path: this shutter dims the lamp' }[scene.set_up] ?? 'not said yet');
+  line('Timer', scene.timer_hz === null ? 'not given: times alone' : rate(scene.timer_hz));
   line('Flashes', !plan ? `${scene.triggers}, not planned` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`);
+  if (plan?.doses) line('Light', html`<span class="doubt">${plan.doses} from the first, the middle and the last flash: this shutter dims them</span>`);
   const isHand = trace && !isFitted;
   const changed = isHand && samples ? html`<p id="by-hand">Changed by hand since the fit: the curve now misses the trace by ${short(100 * rms(samples), 3)} % of the light, the fit by ${short(100 * trace.fit.rms, 3)} %.
     <button type="button" @click=${backToFit}>Back to the fit</button></p>` : nothing;
   render(html`${trace ? html`<h3>${trace.name}</h3>` : nothing}<dl>${lines}</dl>${changed}${gap(plan, of)}
     ${plan?.drift ? html`<p class="note" id="drift">${plan.drift[0].toUpperCase()}${plan.drift.slice(1)}.</p>` : nothing}`, $('facts'));
-  write($('speed'), exposure === null ? `${scene.triggers} measured times` : `${dial(exposure)} s`);
+  write($('speed'), exposure === null ? `${scene.triggers} measured times` : `${dial(exposure)} s${scene.doubts.some(({ about }) => about === 'exposure') ? ', doubtful' : ''}`);
 }
 
 // The closest gap beside what is required of it.

@@ -3,7 +3,7 @@
 import { $, watch, write } from './dom.js';
 import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
-import { INNER, LAMP, NUMBERS, SPANS, STOPS, TIMES, inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes } from './scene.js';
+import { CHOICES, FIELDS, INNER, LAMP, SPANS, STOPS, TIMES, inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes } from './scene.js';
 import { readTrace } from './trace.js';
 
 const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
@@ -76,7 +76,7 @@ function straight(scene, isStraight) {
 function withLamp(scene, kind, length) {
   const { pulse, duty, min_pulse } = scene;
   const spare = { ...scene.spare, ...(pulse !== null && { pulse }), ...(duty !== null && { duty, min_pulse }) };
-  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null };
+  const next = { ...scene, spare, pulse: null, duty: null, min_pulse: null, fully_open: kind === 'full' || null };
   if (kind === 'pulse') next.pulse = spare.pulse ?? length;
   if (kind === 'duty') [next.duty, next.min_pulse] = [spare.duty ?? 0.3, spare.min_pulse ?? null];
   return next;
@@ -89,7 +89,8 @@ function onInput({ target }) {
   if (id === 'unit') return give(inUnit(scene, target.value), [id]);
   if (id === 'straight') return give(straight(scene, target.checked), []);
   if (id === 'lamp') return give(withLamp(scene, target.value, tidy(((model.view?.exposure ?? 0) * perSecond(scene.unit)) / scene.triggers / 4, 2) || 1), [id]);
-  if (!NUMBERS.includes(id)) return;
+  if (CHOICES[id]) return give({ [id]: CHOICES[id].find((it) => String(it) === target.value) ?? null });
+  if (!FIELDS.includes(id)) return;
   let value;
   try {
     value = readField(id, scene.unit);
@@ -117,13 +118,14 @@ function valueOf(scene, id) {
 const isNewField = watch();
 export function drawForm({ now: { scene }, wrong }) {
   if (!isNewField(scene, wrong, document.activeElement)) return;
-  for (const id of NUMBERS) {
+  for (const id of FIELDS) {
     const value = valueOf(scene, id);
     const words = value === null ? '' : Number.isFinite(value) && INNER.includes(id) ? String(tidy(value, 7)) : String(value);
     if (wrong?.id !== id && $(id).value !== words && !tells(id, value, scene.unit)) $(id).value = words;
   }
   if (document.activeElement !== $('name') || ($('name').value.trim() || 'shutter') !== scene.name) $('name').value = scene.name;
   $('unit').value = scene.unit;
+  for (const id of ['set_up', 'sync_falls']) $(id).value = String(scene[id] ?? '');
   $('straight').checked = !scene.inner;
   const lamp = lampOf(scene);
   $('lamp').value = lamp;

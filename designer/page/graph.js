@@ -163,7 +163,7 @@ export class Graph {
     const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
     const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(Math.round(1e4 * openness(view, s)) / 100, 3)} % open`, `${part} collected`];
     const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
-    if (view.plan.Ok) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
+    if (view.plan.Ok && scene.timer_hz !== null) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
     return parts.join(' · ');
   }
 
@@ -282,7 +282,7 @@ export class Graph {
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
     set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`);
 
-    const tick = (ticks) => f(X(view.times[0] + ticks / this.scene.timer_hz));
+    const tick = (ticks) => f(X(view.times[0] + ticks / view.plan.Ok.timer_hz));
     const pulses = view.plan.Ok?.pulses ?? [];
     const high = f(this.y(1));
     set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));

@@ -64,7 +64,7 @@ const OFFERED = presets.map(({ name, scene: it }) => {
 function drawPresets({ now, last }) {
   const at = hash({ scene: now.scene });
   const choose = ({ name, scene }) => (TITLES[name] ? change({ scene, trace: null, speeds: null }) : document.dispatchEvent(new Event('example')));
-  const isPressed = (it) => Boolean(last) && it.address === at;
+  const isPressed = (it) => Boolean(last) && !now.speeds && it.address === at;
   const stop = OFFERED.find(isPressed) ?? OFFERED[0];
   render(OFFERED.map((it) => html`<button type="button" data-name=${it.name} aria-pressed=${TITLES[it.name] ? isPressed(it) : nothing} tabindex=${it === stop ? 0 : -1} @click=${() => choose(it)}>
     <svg viewBox="0 0 60 24" aria-hidden="true"><path d=${it.path} /></svg><b>${TITLES[it.name] ?? 'A measured example'}</b></button>`), $('presets'));
@@ -79,6 +79,8 @@ function listen() {
     event.preventDefault();
     all.at(to % all.length).focus();
   };
+  // A file that comes before later.js does not replace the page.
+  for (const type of ['dragover', 'drop']) addEventListener(type, (event) => event.preventDefault());
   $('play').onclick = play;
   // Behind '#' there is the curve: what is skipped to has no address.
   document.querySelector('.skip').onclick = (event) => {

@@ -18,9 +18,9 @@ const SHADES = new Uint32Array(new Uint8ClampedArray(Array.from({ length: 1025 }
 const HALVES = Array.from({ length: RADIUS }, (_, y) => Math.round(FINE * Math.sqrt(RADIUS ** 2 - (y + 0.5) ** 2)));
 
 /** When each flash begins and ends. */
-function flashed({ timer_hz }, { times, marks, plan }) {
+function flashed({ times, marks, plan }) {
   if (!plan.Ok?.pulses.length) return marks.map(([t]) => [t, t]);
-  return plan.Ok.pulses.map((pulse) => pulse.map((ticks) => times[0] + ticks / timer_hz));
+  return plan.Ok.pulses.map((pulse) => pulse.map((ticks) => times[0] + ticks / plan.Ok.timer_hz));
 }
 
 // The light that has come where the ball's middle has got to, in so many steps of the way.
@@ -51,7 +51,7 @@ let list, flashes, pictures;
 // Both pictures, of the light until a time.
 function develop(scene, view, until) {
   list = collected({ scene, view });
-  flashes = flashed(scene, view);
+  flashes = flashed(view);
   const [start, end] = [list[0][0], list.at(-1)[0]];
   const n = flashes.length;
   const ideal = along(start, end, (t) => shareAt(list, Math.min(t, until)));

@@ -30,9 +30,7 @@ export function startTraces() {
   const shows = (by) => ($('drop').hidden = (depth = Math.max(0, depth + by)) === 0);
   addEventListener('dragenter', () => shows(1));
   addEventListener('dragleave', () => shows(-1));
-  addEventListener('dragover', (event) => event.preventDefault());
   addEventListener('drop', (event) => {
-    event.preventDefault();
     depth = 0;
     shows(0);
     bring(event.dataTransfer.files);
@@ -118,13 +116,13 @@ function withFit(scene, name, fit, isSame) {
   const unit = given.includes('unit') ? scene.unit : found.unit;
   const [old, fresh] = [inUnit(scene, unit), inUnit(found, unit)];
   const isSynced = fresh.delay !== null;
-  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', ...(isSame ? ['nominal', 'name', ...(isSynced ? [] : ['delay', 'delay_spread'])] : [])].filter((key) => given.includes(key));
+  const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'set_up', 'lamp_lag', ...(isSame ? ['nominal', 'name', ...(isSynced ? [] : ['delay', 'delay_spread', 'sync_falls'])] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
   Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'], doubts: doubtsOf(fit) });
   if (!fit.own) return fit.explained ? fresh : { ...fresh, untold: 'no curve explains this trace, and its own triggers could not be told' };
   const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
   if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
-  return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null };
+  return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null, fully_open: null };
 }
 
 // Measures the speeds of several traces, one after the other.

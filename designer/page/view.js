@@ -1,7 +1,7 @@
 // The crate as WebAssembly, for what follows the mouse.
 
 import { UNITS } from './presets.js';
-import { INNER, NUMBERS, TIMES } from './scene.js';
+import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
 
 const decoder = new TextDecoder();
 const folder = document.currentScript.src;
@@ -23,6 +23,7 @@ async function instantiate() {
 // A scene's number by its key; NaN for none.
 function numberOf(scene, key) {
   const i = TIMES.indexOf(key), k = INNER.indexOf(key);
+  if (CHOICES[key]) return scene[key] === null ? NaN : CHOICES[key].indexOf(scene[key]);
   return i >= 0 ? scene.times[i] : k >= 0 ? (scene.inner?.[k] ?? NaN) : (scene[key] ?? NaN);
 }
 
@@ -33,14 +34,14 @@ function ask(scene) {
   question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
 }
 
-/** How good a scene is: 2 with a plan, 1 with a curve alone, 0 without; only what is `isDeep` is planned. */
-export function allowed(scene, isDeep) {
+/** Has a scene a curve? */
+export function allowed(scene) {
   try {
     ask(scene);
-    return exports.allowed(isDeep);
+    return Boolean(exports.allowed());
   } catch {
     instantiate();
-    return 0;
+    return false;
   }
 }
 

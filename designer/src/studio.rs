@@ -174,6 +174,7 @@ fn measured(
         columns,
         rate: asked.rate,
         sync: asked.sync.map(Column::Number),
+        ..Default::default()
     };
     let recording = trace::open(&bytes, &options);
     drop(bytes);

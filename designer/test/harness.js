@@ -53,7 +53,7 @@ export function setUp(name = 'chrome') {
 }
 
 /** The scene that most tests begin with. */
-export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0&triggers=12&timer_hz=1000000&min_gap=0.4';
+export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
 
 /** Opens the page. Tall, so that all panels are seen, and written. */
 export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {
