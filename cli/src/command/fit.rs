@@ -321,14 +321,8 @@ fn write(
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit)).map_err(
-            |refusal| match refusal {
-                Refusal::NoScene { reason } if reason.starts_with("triggers ") => {
-                    format!("{name}: {reason}; --triggers says how many")
-                }
-                _ => format!("{name}: {refusal}"),
-            },
-        )?;
+        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
+            .map_err(|refusal| format!("{name}: {refusal}"))?;
         let Some(file) = files.get(i) else {
             said.scene = scene.text;
             continue;
