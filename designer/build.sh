@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the curve designer into designer/dist, plain files for any web server: `cargo run -- design` serves them here.
+# Builds the curve designer into designer/dist, plain files for any web server: `shutter design` serves them here.
 #
 # It needs Rust with the target wasm32-unknown-unknown, and adds it by rustup where it is missing.
 set -euo pipefail
@@ -23,16 +23,39 @@ if [ ! -d "$(rustc --print target-libdir --target "$target")" ] &&
 fi
 
 echo "designer: building the page, in two parts, a minute or two the first time ..." >&2
-rm -rf dist.files
-mkdir dist.files
-cp page/* ../cli/traces/leaf.csv dist.files
-cargo run --quiet --package designer --bin presets >dist.files/presets.js
+rm -rf dist.new
+mkdir dist.new
+files=dist.new/files
+mkdir $files
+cp page/style.css page/icon.svg page/worker.js ../cli/traces/leaf.csv $files
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.
 "${build[@]}"
-cp "$built" dist.files/engine.wasm
+cp "$built" $files/engine.wasm
 "${build[@]}" --features studio
-cp "$built" dist.files/studio.wasm
-./pack.sh dist.files dist
-rm -rf dist.files
+cp "$built" $files/studio.wasm
+
+# Two scripts, of the first screen and of what comes after it: the modules one after the other, whose names differ; the
+# renderer, which has its own names, within a function.
+joined() {
+    for module; do sed -E '/^import .* from /d; /^ *\/\//d; s/^export //' "page/$module.js"; done |
+        awk '/^ *\/\*\*/ { inside = 1 } !inside { sub(/^ +/, ""); print } /\*\/ *$/ { inside = 0 }'
+}
+{
+    cargo run --quiet --package designer --bin presets | sed 's/^export default /const presets = /; s/^export //'
+    echo 'const { html, nothing, render } = (() => {'
+    sed 's/export{.*b as html.*A as nothing.*D as render.*};/return { html: b, nothing: A, render: D };/' page/lit-html.js
+    echo '})();'
+    joined dom scene view model toml graph handles photo play facts main
+} >$files/page.js
+joined numbers studio remedies form trace speeds export bar ticks later >$files/later.js
+
+# All but the page itself stands in a folder that is called by its content: what an old index.html names is never a new file,
+# however long a host lets browsers keep either.
+sum() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 256; fi; }
+version=$(cat page/index.html $files/* | sum | cut -c 1-12)
+sed "s|@version@|$version|g" page/index.html >dist.new/index.html
+mv $files dist.new/"$version"
+rm -rf dist
+mv dist.new dist
 echo "designer: built designer/dist" >&2

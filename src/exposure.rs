@@ -14,6 +14,7 @@ use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
+#[cfg(feature = "measure")]
 use crate::search::Found;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
@@ -106,6 +107,7 @@ impl Exposure {
     }
 
     /// The evaluations of the mass that a search for the moment of a fraction takes.
+    #[cfg(feature = "measure")]
     pub(crate) const fn evaluations(&self, fraction: Fraction) -> u32 {
         match self.sought(fraction) {
             Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {

@@ -1,8 +1,8 @@
-//! A camera shutter's openness over time as a probability density, and its exact inverse CDF: when has a given fraction
-//! of the exposure been collected? In `f32`, without `std`, allocation or dependencies.
+//! Tells when a camera's shutter has collected any fraction of its exposure, so that firmware can fire flashes with
+//! equal shares of it. In `f32`, without `std`, allocation or dependencies.
 //!
-//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. Firmware fires
-//! strobes or pulses at its ticks, so that each gets an equal share of the light.
+//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. Its openness over
+//! time is taken as a probability density, and the integral of that is inverted.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, valid};
@@ -39,12 +39,12 @@
 //! # From a measured shutter
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
-//! crate's repository fits the trace and prints a module for the firmware, with the curve as a `static`, the ticks of a
-//! frame, and the delay from the camera's sync:
+//! crate's repository fits the trace and prints a module for the firmware, with the ticks of a frame, the delay from the
+//! camera's sync, and the curve as a `static`. First it asks for what no trace tells: set-up, edge and timer.
 //!
 //! ```text
-//! cargo run -- fit trace.csv --sync 0 --out leaf.toml
-//! cargo run -- plan leaf.toml --emit rust --to leaf.rs
+//! shutter fit trace.csv --sync 0 --out leaf.toml
+//! shutter plan leaf.toml --emit rust --curve --to leaf.rs
 //! ```
 //!
 //! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count
@@ -66,8 +66,8 @@
 //!
 //! # Features and minimum Rust
 //!
-//! Both features are off by default: `heapless-v0_9` for a schedule in a `heapless::Vec`, `defmt` for `Format` of the
-//! public types. The crate needs Rust 1.88; a higher minimum is a new minor version.
+//! Both features are off by default: `heapless-v0_9` for a frame in a `heapless::Vec`, `defmt` for `Format` of the
+//! public types. The crate needs Rust 1.88; raising the minimum bumps the minor version.
 //!
 //! [`new`]: ShutterCurve::new
 //! [`linear`]: ShutterCurve::linear
@@ -128,7 +128,7 @@ mod trigger;
 
 pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
-#[doc(hidden)]
+#[cfg(feature = "measure")]
 pub use search::MAX_EVALUATIONS;
 pub use shutter::{ShutterCurve, valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};

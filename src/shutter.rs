@@ -583,14 +583,14 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 
     /// Does [`inverse_cdf`](Self::inverse_cdf) answer `u` without a search?
-    #[doc(hidden)]
+    #[cfg(feature = "measure")]
     #[must_use]
     pub fn is_direct(&self, u: f32) -> bool {
         self.inverse.evaluations(u).is_none()
     }
 
     /// How often [`inverse_cdf`](Self::inverse_cdf) evaluates the mass to answer `u`.
-    #[doc(hidden)]
+    #[cfg(feature = "measure")]
     #[must_use]
     pub fn evaluations(&self, u: f32) -> u32 {
         self.inverse.evaluations(u).unwrap_or(0)

@@ -211,3 +211,8 @@ fn ticks(plan: &Planned) -> impl ExactSizeIterator<Item = String> {
 fn pulses(plan: &Planned) -> impl Iterator<Item = (u32, u32)> {
     plan.rows().into_iter().filter_map(|row| row.on_ticks.zip(row.off_ticks))
 }
+
+/// Fowler, Noll and Vo's hash (FNV-1a).
+pub(crate) fn fnv(bytes: impl Iterator<Item = u8>) -> u32 {
+    bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}

@@ -320,7 +320,7 @@ fn set_up(plan: &Plan) -> String {
 }
 
 /// The doses of the first flash, of the middle one and of the last.
-pub(crate) fn few(doses: &[f64]) -> String {
+pub fn few(doses: &[f64]) -> String {
     let mut places = vec![0, doses.len() / 2, doses.len() - 1];
     places.dedup();
     let percent: Vec<_> = places.iter().map(|&i| short(100.0 * doses[i], 3)).collect();

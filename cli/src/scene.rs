@@ -51,7 +51,7 @@ impl Number {
 }
 
 /// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
-pub const KEYS: [&str; 15] = [
+pub const KEYS: [&str; 19] = [
     "open_start",
     "open_end",
     "close_start",
@@ -67,6 +67,10 @@ pub const KEYS: [&str; 15] = [
     "min_pulse",
     "delay",
     "delay_spread",
+    "lamp_lag",
+    "set_up",
+    "sync_falls",
+    "fully_open",
 ];
 
 /// The place of the only key that takes more than one number.
@@ -77,7 +81,7 @@ impl Scene {
     pub const NUMBERS: usize = KEYS.len() + 7;
 
     /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
-    /// ticks need not be whole yet. The place in its faults is the number of a key; [`Fault::key`] tells which.
+    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. The place in its faults is the number of a key; [`Fault::key`] tells which.
     pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
         let number = |key: &str| {
             let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
@@ -85,6 +89,8 @@ impl Scene {
             Spanned::new(place..place, Number::Any(x))
         };
         let optional = |key| Some(number(key)).filter(|x| !x.get_ref().get().is_nan());
+        let choice = |key| optional(key).map(|x| Spanned::new(x.span(), x.get_ref().get() == 1.0));
+        let set_up = |is_in_path| if is_in_path { SetUp::InPath } else { SetUp::Emulated };
         let eight = || numbers[EIGHT..EIGHT + 8].iter().copied().map(Number::Any).collect();
         Self {
             unit: Some(unit),
@@ -103,10 +109,10 @@ impl Scene {
             min_pulse: optional("min_pulse"),
             delay: optional("delay"),
             delay_spread: optional("delay_spread"),
-            sync_falls: None,
-            lamp_lag: None,
-            set_up: None,
-            fully_open: None,
+            lamp_lag: optional("lamp_lag"),
+            set_up: choice("set_up").map(|it| Spanned::new(it.span(), set_up(*it.get_ref()))),
+            sync_falls: choice("sync_falls"),
+            fully_open: choice("fully_open"),
         }
     }
 }

@@ -676,10 +676,9 @@ fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
     let [toml, svg] =
         ["leaf.toml", "leaf.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
     let run = run(&[&csv, "--out", &toml, "--picture", &svg, "--triggers", "5", "--zero", "open"]);
-    assert_eq!(
-        (run.code, run.err),
-        (0, format!("wrote {toml}\nwrote {svg}\nnext: shutter plan {toml}\n"))
-    );
+    let told =
+        format!("wrote {toml}\nwrote {svg}\nnext: write set_up, timer_hz into the scene, then ");
+    assert!(run.code == 0 && run.err.starts_with(&told), "{}", run.err);
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
     assert!(run.out.contains("* straight ramps") && run.out.contains("exposure     5.00"));
     let scene = fs::read_to_string(&toml).unwrap();
@@ -700,6 +699,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
     let good = written(&dir, "good.csv", &text);
     let cut = written(&dir, "cut.csv", &text[..text.len() / 2]);
     let values = written(&dir, "values.csv", &rows(&trace, |_, v| format!("{v}")));
+    let scene = written(&dir, "scene.toml", include_str!("../scenes/soft.toml"));
+    let json = written(&dir, "trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
     let missing = dir.join("missing.csv").to_str().unwrap().to_string();
     let [toml, svg] =
         ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
@@ -709,6 +710,8 @@ fn what_the_program_refuses_leaves_nothing_behind() {
         (vec![&values], "--rate"),
         (vec![&missing], "missing.csv: "),
         (vec![dir.to_str().unwrap()], ": "),
+        (vec![&scene], "this is a scene, and no trace; `shutter plan "),
+        (vec![&json], "this is JSON; a trace is a table"),
         (vec![&good, "--columns", "time_s,w"], "no column 'w'; there are 2: time_s, v"),
         (vec![&good, "--frame", "3"], "no frame 3; the trace has 1 whole frame"),
         (vec![&good, "--full", "-3"], "--full -3"),
@@ -867,12 +870,15 @@ fn several_traces_are_a_table() {
     for (args, reason) in [
         (
             vec![&*slow, &fast, "--nominal", "10ms"],
-            "--nominal: one speed: the exposures differ by 100 %",
+            "--nominal: give a speed for each trace; the exposures differ by 100 %",
         ),
         (vec![&slow, &fast, "--nominal", "1ms,2ms,3ms"], "--nominal: 3 for 2 traces"),
-        (vec![&slow, &fast, "--out", "no.toml"], "--out: one scene; name a folder"),
+        (vec![&slow, &fast, "--out", "no.toml"], "--out: name a folder for a scene of each trace"),
         (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
-        (vec![&slow, &fast, "--picture", "no.svg"], "--picture: one picture: the exposures differ"),
+        (
+            vec![&slow, &fast, "--picture", "no.svg"],
+            "--picture: it is of one setting; the exposures",
+        ),
         (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {

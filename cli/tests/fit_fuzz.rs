@@ -164,8 +164,8 @@ fn judged(seed: u64, path: &Path) -> Result<u8, String> {
     match ended {
         Err(_) => Err("a panic".into()),
         Ok(code) if code != 0 && code != 2 => Err(format!("exit code {code}")),
-        Ok(0) if words.any(|word| is_no_number(&word)) => Err(format!("no number:\n{text}")),
-        Ok(2) if err.is_empty() || !out.is_empty() => Err("refused without a word".into()),
+        Ok(_) if words.any(|word| is_no_number(&word)) => Err(format!("no number:\n{text}")),
+        Ok(2) if err.is_empty() => Err("refused without a word".into()),
         Ok(_) if took > PATIENCE => Err(format!("{took:.0} s")),
         Ok(code) => Ok(code),
     }

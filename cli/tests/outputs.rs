@@ -212,6 +212,12 @@ fn a_fit_is_not_lost_with_its_files() {
     assert!(code == Some(2) && err.contains("with what it keeps"), "{err}");
     assert!(out.contains("\nexposure     5.00"), "{out}");
     assert_eq!(folder.text("leaf.toml"), text);
+    // Five nanoseconds are too short for sixteen triggers.
+    folder.write("ns.csv", &trace(1.0).replace("time_ms", "time_ns"));
+    let (code, out, err) = folder.run("fit ns.csv --out ns.toml");
+    assert!(code == Some(2) && err.contains("; --triggers says how many"), "{err}");
+    assert!(out.contains("\nexposure     5.00") && !folder.path("ns.toml").exists(), "{out}");
+    assert_eq!(folder.run("fit ns.csv --out ns.toml --triggers 4").0, Some(0));
 }
 
 #[test]
@@ -373,7 +379,7 @@ fn what_cannot_be_written_leaves_nothing() {
         "$shutter fit trace.csv --picture ok.svg --out none/leaf.toml",
         "its folder is not there",
     );
-    // A failed plan.
+    // A failed plan, and a form for which the scene lacks something.
     folder.write("leaf.h", "/* old */\n");
     folder
         .refuses("$shutter plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers");
@@ -398,7 +404,8 @@ fn what_cannot_be_written_leaves_nothing() {
 #[test]
 fn a_new_fit_keeps_what_a_user_wrote() {
     let folder = Folder::new("kept");
-    let wrote = "wrote leaf.toml\nnext: shutter plan leaf.toml\n";
+    let wrote = "wrote leaf.toml\nnext: write set_up, timer_hz, sync_falls into the scene, then \
+                 shutter plan leaf.toml --emit rust --to leaf.rs\n";
     let (code, _, err) = folder.run("fit trace.csv --out leaf.toml --sync 0");
     assert_eq!((code, err.as_str()), (Some(0), wrote));
     let first = folder.text("leaf.toml");
@@ -417,7 +424,9 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     folder.write("slow.csv", &trace(2.0));
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/125");
     assert_eq!(code, Some(0), "{err}");
-    for kept in ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "comments"] {
+    for kept in
+        ["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "in_path", "comments"]
+    {
         assert!(err.contains(kept), "{kept}: {err}");
     }
     let text = folder.text("leaf.toml");
@@ -440,6 +449,7 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     assert!(text.contains("\nset_up = \"in_path\"") && !text.contains("# set_up"), "{text}");
     assert!(text.contains("\nsync_falls = false") && !text.contains("# sync_falls"), "{text}");
     assert!(!text.contains("# timer_hz"), "{text}");
+    assert!(err.ends_with("\nnext: shutter plan leaf.toml --emit rust --to leaf.rs\n"), "{err}");
     assert!(text.contains("\nopen_start = 4.0") && text.contains("± "), "{text}");
     let (code, _, err) = folder.run("fit slow.csv --out leaf.toml --nominal 1/100 --sync 1ms");
     assert!(code == Some(0) && !err.contains("nominal") && !err.contains("delay"), "{err}");

@@ -116,7 +116,7 @@ fn a_form_is_all_that_is_printed() {
 }
 
 /// And so they show the crate as it is. They are drawn by
-/// `cargo run -- plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
+/// `shutter plan --force --out docs/curve.svg --set-ups docs/set-ups.svg`.
 #[test]
 fn the_pictures_of_the_docs_are_as_they_are_drawn() {
     let dir = empty_dir("docs");

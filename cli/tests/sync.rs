@@ -370,8 +370,9 @@ fn a_sync_may_have_a_file_of_its_own() {
     rows.iter_mut().for_each(|row| row[0] += 2.5e-6);
     folder.write("later.csv", channel("CH2", 2, &rows));
     let other = folder.0.join("2.csv");
-    let [one, two] = ["both.csv --sync CH2".into(), format!("1.csv --sync {}", other.display())]
-        .map(|args| folder.json(&args));
+    let [one, two] =
+        ["both.csv --sync CH2".into(), format!("1.csv --columns CH1 --sync {}", other.display())]
+            .map(|args| folder.json(&args));
     for key in ["delay_s", "delay_spread_s", "exposure_s", "sync_threshold"] {
         assert!((number(&one, key) - number(&two, key)).abs() < 1e-3 * number(&one, key), "{key}");
     }
@@ -433,7 +434,7 @@ fn what_is_no_sync_is_refused() {
     folder.refuses("a.csv --sync 1", "column 1, \"Time (s)\" holds times");
     folder.refuses("a.csv --sync CH1 --columns 1,2", "column 2, \"CH1\" is the signal's");
     // Then the sync is taken for the light.
-    folder.refuses("a.csv --sync CH1", "as slowly as light does; is it the light's?");
+    folder.refuses("a.csv --sync CH1 --light down", "as slowly as light does; is it the light's?");
     write(&Record { lost: vec![0, 1, 2], ..Record::new(3, 1) });
     folder.refuses("a.csv --sync CH2", "never switches: its levels are 1.");
     write(&Record { lost: vec![0, 1, 2], noise: 0.0, ..Record::new(3, 1) });

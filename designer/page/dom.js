@@ -1,22 +1,8 @@
-// Elements of the page, made once and then only written.
+// Elements of the page.
 
 const NS = 'http://www.w3.org/2000/svg';
 
 export const $ = (id) => document.getElementById(id);
-
-export function element(tag, text, attributes = {}) {
-  const made = document.createElement(tag);
-  if (text !== undefined) made.textContent = text;
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  return made;
-}
-
-/** A button that does something. */
-export function button(text, act, attributes = {}) {
-  const made = element('button', text, { type: 'button', ...attributes });
-  made.onclick = act;
-  return made;
-}
 
 /** An element of a picture. */
 export function svg(tag, attributes = {}, parent) {
@@ -24,13 +10,6 @@ export function svg(tag, attributes = {}, parent) {
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   parent?.append(made);
   return made;
-}
-
-/** The lines of `parent`, as many as are asked for. */
-export function rows(parent, count, make) {
-  while (parent.children.length > count) parent.lastChild.remove();
-  while (parent.children.length < count) parent.append(make());
-  return parent.children;
 }
 
 export function write(element, text) {

@@ -1,114 +1,151 @@
-// The plan in the forms that a firmware or a script takes: shown, copied, saved; or why there is none, and what would help.
+// What is taken away: the plan in the forms that a firmware or a script takes, a link, a picture.
 
-import { $, button, element, watch } from './dom.js';
+import { html, nothing, render } from './lit-html.js';
+import { $, watch } from './dom.js';
+import { give } from './form.js';
 import { model } from './model.js';
 import { inWords, remedies } from './remedies.js';
-import { copy, plain, save, told } from './save.js';
-import * as studio from './studio.js';
+import { hash } from './scene.js';
+import { emitForm } from './studio.js';
 import { toml } from './toml.js';
-import { give } from './typing.js';
 
-const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON'], ['pico', 'Pico']];
+const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];
 
-let form = 'rust';
-// { text, file } or { reason, scene } of the form and the scene; a promise while it is computed.
+let chosen = 'rust';
+// { text, file } or { reason, remedies } of the form and the scene, as a promise.
 let made = null;
+// Is the panel in sight? Before it is, nothing is written.
+let isSeen = false;
 
-export function start() {
-  const tabs = FORMS.map(([name, title]) => button(title, () => choose(name), { id: `form-${name}`, role: 'tab', 'aria-controls': 'code' }));
-  $('forms').append(...tabs);
-  $('forms').onkeydown = (event) => {
-    const i = FORMS.findIndex(([name]) => name === form);
-    const to = { ArrowLeft: i - 1, ArrowRight: i + 1, Home: 0, End: FORMS.length - 1 }[event.key];
-    if (to === undefined) return;
-    event.preventDefault();
-    const at = (to + FORMS.length) % FORMS.length;
-    choose(FORMS[at][0]);
-    tabs[at].focus();
-  };
+export function startExport() {
   const whole = async (act) => {
+    showExport();
     const { text, file } = await made;
     if (text) act(text, file);
   };
-  $('copy').onclick = () => whole((text) => copy(text, `Copied: ${FORMS.find(([name]) => name === form)[1]}`));
+  $('copy').onclick = () => whole((text) => copy(text, `Copied: ${FORMS.find(([name]) => name === chosen)[1]}`));
   $('save').onclick = () => whole((text, file) => save(new Blob([text], { type: 'text/plain' }), file));
-  for (const id of ['link', 'svg', 'png', 'frame', 'compare']) {
-    $(id).onclick = async () => {
-      // What is on the screen now, though the module may still be under way.
-      const { now } = model;
-      (await import('./share.js'))[id](now);
-    };
-  }
-  choose(form);
+  $('link').onclick = () => copyLink(model.now);
+  $('svg').onclick = async () => save(new Blob([await picture(model.now)], { type: 'image/svg+xml' }), `${plain(model.now.scene.name)}.svg`);
+  $('forms').onkeydown = (event) => {
+    const i = FORMS.findIndex(([name]) => name === chosen);
+    const to = { ArrowLeft: i - 1, ArrowRight: i + 1, Home: 0, End: FORMS.length - 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    choose(FORMS.at(to % FORMS.length)[0]);
+    $(`form-${chosen}`).focus();
+  };
+  tabs();
 }
+
+/** The panel is in sight, or asked for: from now on it is written. */
+export function showExport() {
+  isSeen = true;
+  drawExport(model);
+}
+
+const tabs = () => render(FORMS.map(([name, title]) => html`<button type="button" id="form-${name}" role="tab" aria-controls="code" aria-selected=${name === chosen} tabindex=${name === chosen ? 0 : -1} @click=${() => choose(name)}>${title}</button>`), $('forms'));
 
 function choose(name) {
-  form = name;
-  for (const [name] of FORMS) {
-    const isChosen = name === form;
-    $(`form-${name}`).setAttribute('aria-selected', isChosen);
-    $(`form-${name}`).tabIndex = isChosen ? 0 : -1;
-  }
-  if (model.now) draw(model);
+  chosen = name;
+  tabs();
+  drawExport(model);
 }
 
-const isNew = watch();
+const isNewForm = watch();
 
-export function draw({ now: { scene, other }, view, wrong }) {
-  for (const id of ['link', 'svg', 'png', 'frame', 'compare']) $(id).disabled = !view || Boolean(wrong?.id || scene.untold);
-  $('compare').textContent = other ? 'End the comparison' : 'Compare';
-  if (!isNew(scene, form, wrong)) return;
-  told('');
+export function drawExport({ now: { scene }, view, wrong }) {
+  for (const id of ['link', 'svg']) $(id).disabled = !view || Boolean(wrong?.id || scene.untold);
+  if (!isSeen) return offerCopy(Boolean(view && !wrong && !scene.untold));
+  if (!isNewForm(scene, chosen, wrong)) return;
+  say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: view && !wrong.id ? remedies(scene) : [] }) : written(scene, form));
+  const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: remedies(wrong) }) : written(scene, chosen));
   $('code').classList.add('waits');
-  if (wrong) offer(false);
-  of.then((it) => of === made && show(it));
+  if (wrong) offerCopy(false);
+  of.then((it) => of === made && showForm(it));
 }
 
-const offer = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disabled = !isOffered));
+const offerCopy = (isOffered) => ['copy', 'save'].forEach((id) => ($(id).disabled = !isOffered));
 
 async function written(scene, form) {
   if (scene.untold) return { reason: scene.untold, remedies: [['Use the curve all the same', { untold: null }]] };
+  const lacks = lacking(scene);
+  if (form !== 'toml' && lacks.length) return { reason: `hardware needs what only you know: ${lacks.map(([what]) => what).join('; ')}`, remedies: lacks.flatMap(([, ...remedies]) => remedies) };
   if (form === 'toml') return { text: toml(scene), file: `${plain(scene.name)}.toml` };
-  const answer = await studio.emit(scene, form);
+  const answer = await emitForm(scene, form);
   // Overtaken by a newer question: that one's text is it.
   if (!answer) return made;
   if (answer.Ok) return { ...answer.Ok, text: withDoubts(answer.Ok.text, form, scene.doubts) };
-  const { reason } = answer.Err;
-  const most = Number(/up to (\d+) pulses/.exec(reason)?.[1]);
-  const helps = most && !scene.measured ? [[`Use ${most} flashes`, { triggers: most }]]
-    : /no\s+delay/.test(reason) ? [['Give the sync’s delay', 'delay'], ['The sync is the opening: delay 0', { delay: 0 }]] : [];
-  return { reason: inWords(reason, scene), remedies: helps };
+  return { reason: inWords(answer.Err.reason, scene) };
+}
+
+// What nobody has said yet, each with what would say it.
+function lacking({ set_up, timer_hz, delay, sync_falls }) {
+  const found = [];
+  if (set_up === null) found.push(['the set-up', ['The camera’s own shutter stays open: emulated', { set_up: 'emulated' }], ['This shutter dims the lamp: in the path', { set_up: 'in_path' }]]);
+  if (timer_hz === null) found.push(['the timer’s rate', ['Give the timer’s rate', 'timer_hz']]);
+  if (delay !== null && sync_falls === null) found.push(['which way the sync goes', ['The sync falls', { sync_falls: true }], ['The sync rises', { sync_falls: false }]]);
+  return found;
 }
 
 // A plan with what is doubtful about it, in the form's own way.
 function withDoubts(text, form, doubts) {
+  doubts = doubts.filter((it) => !text.includes(it.text));
   if (!doubts.length) return text;
-  if (form === 'json') return text.replace('{', () => `{\n  "doubts": ${JSON.stringify(doubts)},`);
-  return doubts.map((words) => `${form === 'csv' ? '#' : '//'} Doubtful: ${words.replace(/\s+/g, ' ')}\n`).join('') + text;
+  if (form === 'json') return text.replace('{', () => `{\n  "doubts": ${JSON.stringify(doubts.map((it) => it.text))},`);
+  return doubts.map((it) => `${form === 'csv' ? '#' : '//'} Warning: ${it.text.replace(/\s+/g, ' ')}\n`).join('') + text;
 }
 
-function show({ text, reason, remedies = [] }) {
-  offer(Boolean(text));
+function showForm({ text, reason, remedies = [] }) {
+  offerCopy(Boolean(text));
   $('code').classList.remove('waits');
   $('code').scrollTop = 0;
-  if (!text) {
-    const helps = remedies.map(([words, changes]) => button(words, () => mend(changes)));
-    const p = element('p', `There is nothing to copy yet: ${reason}${/[.?]$/.test(reason) ? '' : '.'}`);
-    return $('code').replaceChildren(p, ...helps);
-  }
+  if (!text) return render(html`<p>There is nothing to copy yet: ${reason}${/[.?]$/.test(reason) ? '' : '.'}</p>${helps(remedies)}`, $('code'));
   // What is told of a plan in comments comes after what a firmware reads.
   const [head] = /^(?:(?:\/\/|#(?!\[)|\/?\*| \*).*\n|\n)*/.exec(text);
   const lines = head.trim().split('\n').length;
-  if (lines < 3) return $('code').replaceChildren(text);
-  const fold = element('details');
-  fold.append(element('summary', `${lines} lines of comments, copied as well`), head.trimEnd());
-  $('code').replaceChildren(fold, text.slice(head.length));
+  render(lines < 3 ? text : html`<details><summary>${lines} lines of comments, copied as well</summary>${head.trimEnd()}</details>${text.slice(head.length)}`, $('code'));
 }
 
-/** Changes a scene as a remedy says, or leads to the field that does. */
-export function mend(changes, scene) {
-  if (typeof changes === 'string') $(changes).focus();
-  else give(changes, undefined, undefined, scene);
+/** Remedies as buttons. */
+export const helps = (remedies) => remedies.map(([words, changes]) => html`<button type="button" @click=${() => (typeof changes === 'string' ? $(changes).focus() : give(changes))}>${words}</button>`);
+
+const say = (words) => [$('told'), $('speeds-told')].forEach((it) => it && (it.textContent = words));
+
+/** Copies words, and tells of it. */
+async function copy(words, done) {
+  try {
+    await navigator.clipboard.writeText(words);
+    say(done);
+  } catch {
+    // Without the permission: what is chosen can be copied by hand.
+    getSelection().selectAllChildren($('code'));
+    say('This browser does not let a page copy: press Ctrl+C.');
+  }
+}
+
+export const copyLink = (now) => copy(location.origin + location.pathname + hash(now), now.speeds ? 'Copied: a link to this table' : 'Copied: a link to this curve');
+
+function save(blob, name) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  say(`Saved: ${name}`);
+}
+
+// A scene's name as that of a file.
+const plain = (name) => name.replace(/[^\w-]+/g, '-') || 'shutter';
+
+// The graph as it is seen, but for the handles, and with what is doubtful: as text, since this page takes no styles but from its sheet.
+async function picture({ scene }) {
+  const sheet = await (await fetch(document.querySelector('link[rel=stylesheet]').href)).text();
+  const graph = $('graph').querySelector('svg').cloneNode(true);
+  for (const part of graph.querySelectorAll('.handle, .arms, .cross, .fired')) part.remove();
+  for (const part of [graph, ...graph.querySelectorAll('*')]) part.removeAttribute('aria-hidden');
+  graph.setAttribute('role', 'img');
+  graph.setAttribute('aria-label', [`Openness and exposure of the shutter ${scene.name} over time, with its flashes`, ...scene.doubts.map(({ text }) => `doubtful: ${text}`)].join('; '));
+  return new XMLSerializer().serializeToString(graph).replace('>', () => `><style>${sheet}:root { background: var(--card); }</style>`);
 }

@@ -1,10 +1,10 @@
-// The curve with the equal shares and the triggers, a trace, another curve beside it; below it the share of the exposure.
+// The curve with the equal shares and the flashes, and a trace; below it the share of the exposure.
 
-import { $, element, svg, watch, write } from './dom.js';
+import { $, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
 import { model, tell } from './model.js';
 import { isSameShape, perSecond, short, tidy } from './scene.js';
-import { view as viewOf } from './view.js';
+import { viewOf } from './view.js';
 
 const LEFT = 44, RIGHT = 16, TOP = 18, BETWEEN = 34, BOTTOM = 44, RESIDUAL = 64;
 /** More triggers than this have no dots, and more than that no shares. */
@@ -63,11 +63,14 @@ function left({ samples }, fitted, view) {
 /** The root of the mean square of what is left. */
 export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum + r * r, 0) / samples.length);
 
+// A place as a picture takes it, however far outside it is.
+const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
+
 /** The graph in `box`. */
 export class Graph {
   constructor(box) {
     this.box = box;
-    this.isNew = { all: watch(), cursor: watch(), other: watch(), trace: watch() };
+    this.isNew = { all: watch(), cursor: watch(), trace: watch() };
     const root = (this.root = svg('svg', { role: 'group', 'aria-label': 'Openness over time, with handles; below it the share of the exposure collected' }));
     const defs = svg('defs', {}, root);
     this.clip = svg('path', {}, svg('clipPath', { id: 'below' }, defs));
@@ -76,12 +79,12 @@ export class Graph {
     const inside = svg('g', { 'clip-path': 'url(#plot)', 'aria-hidden': true }, root);
     const layer = (name, clip) => svg('path', { class: name, ...(clip && { 'clip-path': 'url(#below)' }) }, inside);
     this.paths = {
-      even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'), other: layer('other'),
+      even: layer('share even', true), odd: layer('share odd', true), lamp: layer('lamp'), stems: layer('stems'),
       curve: layer('curve'), trace: layer('trace'), errors: layer('errors'), dots: layer('dots'),
       residual: layer('residual'), cdfStems: layer('stems cdf'), cdf: layer('curve'), cdfDots: layer('dots'), cross: layer('cross'), fired: layer('fired'), arms: layer('arms'),
     };
     this.handles = new Handles(this);
-    box.append(root, element('div', undefined, { id: 'hold', role: 'status', hidden: '' }));
+    box.append(root);
     this.room = box.clientWidth;
     new ResizeObserver(([{ contentRect }]) => {
       this.room = contentRect.width;
@@ -131,12 +134,11 @@ export class Graph {
   }
 
   /** Draws the model; what has no curve of its own keeps the last one, which is marked. */
-  show({ now: { scene, other, trace }, last, cursor, isPlaying }) {
+  show({ now: { scene, trace }, last, cursor, isPlaying }) {
     if (!last) return;
     Object.assign(this, { scene, view: last });
-    if (this.isNew.other(other)) this.other = other && viewOf(other).Ok;
     if (this.isNew.trace(trace)) this.fitted = trace?.fit && viewOf(trace.scene).Ok;
-    if (this.isNew.all(scene, last, other, trace, this.dragged)) this.draw();
+    if (this.isNew.all(scene, last, trace, this.dragged)) this.draw();
     if (this.isNew.cursor(last, cursor, scene.unit, isPlaying, this.size)) this.point(cursor, isPlaying);
   }
 
@@ -144,15 +146,16 @@ export class Graph {
   point(cursor, isPlaying) {
     const per = this.perUnit;
     const isRead = cursor !== null;
-    this.paths.cross.setAttribute('d', isRead ? `M${this.x(cursor * per).toFixed(1)} ${TOP}V${this.cdfBottom}` : '');
+    this.paths.cross.setAttribute('d', isRead ? `M${atMost(this.x(cursor * per))} ${TOP}V${this.cdfBottom}` : '');
     const recent = isPlaying ? 0.02 * (this.view.times[3] - this.view.times[0]) : 0;
     const fired = isPlaying ? this.view.marks.filter(([t]) => t <= cursor && t > cursor - recent) : [];
-    this.paths.fired.setAttribute('d', fired.map(([t, o]) => `M${this.x(t * per).toFixed(1)} ${this.y(o).toFixed(1)}h0`).join(''));
+    this.paths.fired.setAttribute('d', fired.map(([t, o]) => `M${atMost(this.x(t * per))} ${atMost(this.y(o))}h0`).join(''));
     write($('readout'), isRead && !isPlaying ? this.words(cursor, per) : '');
   }
 
   words(s, per) {
     const { view, scene } = this;
+    if (!view.marks.length) return '';
     const u = shareAt(collected(this), s);
     const [[first], [last]] = [view.marks[0], view.marks.at(-1)];
     const isKnown = !scene.measured || (s >= first && s <= last);
@@ -160,7 +163,7 @@ export class Graph {
     const places = Math.max(0, Math.ceil(-Math.log10(this.perPixel)));
     const parts = [`${(s * per).toFixed(Math.min(places, 9))} ${scene.unit}`, `${short(Math.round(1e4 * openness(view, s)) / 100, 3)} % open`, `${part} collected`];
     const near = view.marks.reduce((best, [t], i) => (Math.abs(t - s) < Math.abs((view.marks[best]?.[0] ?? Infinity) - s) ? i : best), 0);
-    if (view.plan.Ok) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
+    if (view.plan.Ok && scene.timer_hz !== null) parts.push(`flash ${near}: tick ${view.plan.Ok.ticks[near]}`);
     return parts.join(' · ');
   }
 
@@ -173,7 +176,7 @@ export class Graph {
     this.cdfBottom = height - BOTTOM;
     this.cdfHeight = this.cdfBottom - this.bottom - BETWEEN - strip;
     const per = this.perUnit;
-    const ends = [this.view, ...(this.other ? [this.other] : [])].flatMap(({ times }) => [times[0], times[3]]);
+    const ends = [this.view.times[0], this.view.times[3]];
     // A trace is seen whole, as far as there is light.
     const light = this.samples?.filter(([, o]) => o > 0.05) ?? [];
     const lit = light.length ? [light[0], light.at(-1)] : [];
@@ -236,7 +239,7 @@ export class Graph {
     this.samples = isFitted ? fit.samples : fit && this.fitted ? left(fit, this.fitted, view) : null;
     this.fit();
     const per = this.perUnit;
-    const f = (x) => x.toFixed(1);
+    const f = atMost;
     const X = (seconds) => this.x(seconds * per);
     const [zero, bottom] = [f(this.y(0)), f(this.u(0))];
     const set = (path, d) => path.getAttribute('d') !== d && path.setAttribute('d', d);
@@ -249,7 +252,6 @@ export class Graph {
     const line = (view) => `M${LEFT} ${zero}H${f(X(view.times[0]))}${outline(view)}L${f(X(view.times[3]))} ${zero}H${LEFT + this.width}`;
     const [start, end] = [f(X(view.times[0])), f(X(view.times[3]))];
     set(paths.curve, line(view));
-    set(paths.other, this.other ? line(this.other) : '');
     this.clip.setAttribute('d', `M${start} ${zero}${outline(view)}L${end} ${zero}Z`);
 
     const top = f(this.y(this.high));
@@ -280,14 +282,14 @@ export class Graph {
     const come = collected(this).map(([t, u]) => `${f(X(t))} ${f(this.u(u))}`);
     set(paths.cdf, this.scene.measured ? `M${come.slice(1, -1).join('L')}` : `M${LEFT} ${bottom}L${come.join('L')}H${LEFT + this.width}`);
 
-    const tick = (ticks) => f(X(view.times[0] + ticks / this.scene.timer_hz));
+    const tick = (ticks) => f(X(view.times[0] + ticks / view.plan.Ok.timer_hz));
     const pulses = view.plan.Ok?.pulses ?? [];
     const high = f(this.y(1));
     set(paths.lamp, pulses.map(([on, off]) => `M${tick(on)} ${zero}V${high}H${tick(off)}V${zero}Z`).join(''));
     if (this.scene.duty !== null) paths.lamp.setAttribute('clip-path', 'url(#below)');
     else paths.lamp.removeAttribute('clip-path');
     const { samples } = this;
-    const keys = { lamp: pulses.length, trace: samples, other: this.other, share: shares[1] };
+    const keys = { lamp: pulses.length, trace: samples, share: shares[1] };
     for (const [name, isThere] of Object.entries(keys)) document.querySelector(`.${name}-key`).hidden = !isThere;
     const points = (y) => (samples ? 'M' + samples.map((sample) => `${f(X(sample[0]))} ${f(y(sample))}`).join('L') : '');
     set(paths.trace, points(([, o]) => this.y(o)));

@@ -1,15 +1,51 @@
-// The handles of the graph: moved by mouse, finger and keys, never beyond what is allowed.
+// The handles of the graph: moved by mouse, finger and keys, each in its box.
 
-import { HANDLES, limits, moved, placeOf, slide } from './edge.js';
 import { svg } from './dom.js';
-import { change, model, tell } from './model.js';
-import { INNER, innerOf, short, tidy } from './scene.js';
+import { change, model } from './model.js';
+import { INNER, TIMES, innerOf, short, tidy, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
+
+/** The handles: the four times, then the four inner control points. */
+const HANDLES = [...TIMES, 't1', 't2', 't5', 't6'];
+/** The first control point may pass the second by so much of the ramp. */
+const CROSS = 15 / 16;
 
 /** Within so many pixels of a round place, a handle snaps to it; handles that are nearer than that are in one place. */
 const MAGNET = 8, SAME = 4;
 const NAMES = ['starts to open', 'is open', 'starts to close', 'is closed',
   'opening ramp, first control point', 'opening ramp, second control point', 'closing ramp, first control point', 'closing ramp, second control point'];
+
+/** Where a handle is: [time in the scene's unit, openness]. */
+function placeOf(scene, i) {
+  if (i < 4) return [scene.times[i], [0, 1, 1, 0][i]];
+  const inner = innerOf(scene), at = INNER.indexOf(HANDLES[i]);
+  return [scene.times[0] + inner[at] * (scene.times[3] - scene.times[0]), inner[at + 1]];
+}
+
+/** Between which times a handle can be moved. */
+function limits(scene, i) {
+  const { times } = scene, length = times[3] - times[0];
+  if (i < 4) return [i ? times[i - 1] : times[0] - length, i < 3 ? times[i + 1] : times[3] + length];
+  const [from, to] = i < 6 ? times : times.slice(2);
+  // Rounded, it still is within.
+  const room = (CROSS - 1e-6) * (to - from);
+  return i % 2 ? [Math.max(from, placeOf(scene, i - 1)[0] - room), to] : [from, Math.min(to, placeOf(scene, i + 1)[0] + room)];
+}
+
+/** The scene with a handle as near to a place as its box lets it. */
+function moved(scene, i, [t, y]) {
+  const [start, , , end] = scene.times;
+  const [least, most] = limits(scene, i);
+  t = Math.min(Math.max(t, i ? least : -Infinity), i === 3 ? Infinity : most);
+  if (i < 4) return kept(scene, withTimes(scene, scene.times.with(i, t)));
+  const inner = [...innerOf(scene)], at = INNER.indexOf(HANDLES[i]);
+  inner[at] = tidy((t - start) / (end - start), 9);
+  inner[at + 1] = Math.min(Math.max(y, 0), 1);
+  return kept(scene, withInner(scene, inner));
+}
+
+// What the crate refuses all the same, as a ramp too short to be told from none, is not taken.
+const kept = (scene, next) => (allowed(next) || !allowed(scene) ? next : scene);
 
 export class Handles {
   constructor(graph) {
@@ -34,33 +70,6 @@ export class Handles {
     return group;
   }
 
-  // The scene with a handle as near to a place as is allowed, planned if it was before. `tried` is what was asked for, if
-  // that is not it.
-  slid(scene, i, place) {
-    const { graph } = this;
-    const fine = 10 ** Math.floor(Math.log10(graph.perPixel / 20));
-    const next = slide(scene, i, place, fine, (scene) => allowed(scene, false) > 0);
-    const asked = moved(scene, i, ...place);
-    const isShort = String(placeOf(next, i)) !== String(placeOf(asked, i));
-    if (scene.measured || allowed(next, true) > 1 || allowed(scene, true) < 2) return { next, tried: isShort ? asked : null };
-    // The triggers come too close: so far on the way there as they do not, at a round place.
-    const [from, to] = [placeOf(scene, i), placeOf(next, i)];
-    let good = scene, [low, high] = [0, 1];
-    for (let k = 0; k < 7; k++) {
-      const part = 0.5 * (low + high);
-      const [t, y] = from.map((x, axis) => tidy(Math.round((x + part * (to[axis] - x)) / [fine, 1e-4][axis]) * [fine, 1e-4][axis], 9));
-      const tried = moved(scene, i, t, i < 4 ? from[1] : y);
-      if (allowed(tried, true) > 1) [good, low] = [tried, part];
-      else high = part;
-    }
-    return { next: good, tried: next };
-  }
-
-  told(i, { next, tried }) {
-    const [t, o] = placeOf(next, i);
-    return { hold: tried && { i, t, o, tried }, ...this.graph.cursorAt(t) };
-  }
-
   key(event, i) {
     const { graph: { scene } } = this;
     const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1], PageUp: [10, 0], PageDown: [-10, 0] }[event.key];
@@ -76,9 +85,9 @@ export class Handles {
     else if (i < 4) t = stepped(t, by[0] || by[1], 10 ** Math.floor(Math.log10(length * step) + 0.31));
     else if (by[1]) y = stepped(y, by[1], step);
     else t = scene.times[0] + length * stepped(innerOf(scene)[INNER.indexOf(HANDLES[i])], by[0], step);
-    const slid = this.slid(scene, i, [t, y]);
+    const next = moved(scene, i, [t, y]);
     // A key that is held is one step.
-    change({ scene: slid.next }, { key: event.repeat ? `held ${i}` : undefined, told: this.told(i, slid) });
+    change({ scene: next }, { key: event.repeat ? `held ${i}` : undefined, told: this.graph.cursorAt(placeOf(next, i)[0]) });
   }
 
   grab(event) {
@@ -118,7 +127,7 @@ export class Handles {
         const [x, y] = graph.pointer(event);
         if (Math.hypot(x - start[0], y - start[1]) < SAME) return;
         const miss = (i) => {
-          const [t, o] = placeOf(this.slid(first, i, to(i, event)).next, i);
+          const [t, o] = placeOf(moved(first, i, to(i, event)), i);
           return Math.hypot(map.x(t) - pixels(i)[0] - x + start[0], map.y(o) - pixels(i)[1] - y + start[1]);
         };
         const misses = new Map(together.map((i) => [i, miss(i)]));
@@ -127,19 +136,17 @@ export class Handles {
       // Somebody undid meanwhile, or chose another curve: that one stays.
       if (model.now.scene !== last) return end();
       // A time is moved from where it was at first: on each way its ramp's shape is rounded.
-      const slid = this.slid(i < 4 ? first : last, i, to(i, event));
-      last = slid.next;
-      change({ scene: last }, { isDraft: true, told: this.told(i, slid) });
+      last = moved(i < 4 ? first : last, i, to(i, event));
+      change({ scene: last }, { isDraft: true, told: graph.cursorAt(placeOf(last, i)[0]) });
     };
     const end = (event) => {
       for (const [name, listener] of listeners) holder.removeEventListener(name, listener);
       removeEventListener('keydown', escape, true);
       graph.dragged = null;
-      const { hold } = model;
       if (model.now.scene === last && event) change({ scene: event.type === 'pointerup' ? last : first });
       if (i === undefined) take(nearest);
       for (const group of this.groups) group.classList.remove('dragged');
-      tell({ hold: event?.type === 'pointerup' ? hold : null });
+      graph.show(model);
     };
     const escape = (event) => event.key === 'Escape' && end(event);
     const listeners = [['pointermove', move], ['pointerup', end], ['pointercancel', end]];

@@ -4,14 +4,14 @@
 // The browser's entries are counted, no more: so many back is so many steps undone.
 
 import { fromAddress, hash } from './scene.js';
-import { view } from './view.js';
+import { viewOf } from './view.js';
 
 /** A browser takes so many changes of its entries in ten seconds: steps that come faster share an entry. */
 const PAUSE = 120;
 const KEPT = 'steps', MOST_KEPT = 300;
 
 export const model = {
-  /** { scene, other, trace, speeds }: a step, or the draft of one. */
+  /** { scene, trace, speeds }: a step, or the draft of one. */
   now: null,
   /** What the engine tells of the scene; null where it has no curve. And the last scene that had one, with its view. */
   view: null, last: null, good: null,
@@ -23,8 +23,6 @@ export const model = {
   busy: null, note: null,
   /** A trace that was refused as it is read: { file, name, asked, measured, words, mend }. */
   pending: null,
-  /** A handle that does not follow: { i, t, o, tried }, of which the last is the scene that was asked for. */
-  hold: null,
   get isDraft() { return now() !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
   get canUndo() { return at > 0 || model.isDraft; },
   get canRedo() { return at < steps.length - 1; },
@@ -34,12 +32,12 @@ const now = () => model.now;
 let steps = [], at = -1;
 // The browser's entry and the tab's visit, and whether a step waits for an entry.
 let entry = 0, visit = null, waits = false;
-let draw, isFrame;
-let last = -Infinity, timer;
+let draw;
+let mirrored = -Infinity, timer;
 
-/** Begins with what the address or the last visit says, else with `first`. `render` draws the model. */
-export function start(first, render, options) {
-  [draw, isFrame] = [render, options.isFrame];
+/** Begins with what the address or the last visit says, else with `first`. `drawAll` draws the model. */
+export function startModel(first, drawAll) {
+  draw = drawAll;
   const kept = recall();
   visit = kept?.visit ?? String(Math.random());
   if (kept) ({ steps, at, entry } = kept);
@@ -52,14 +50,13 @@ export function start(first, render, options) {
 
 // Shows a state, whatever is computed of it.
 function set(next) {
-  const { Ok, Err } = next.scene === model.now?.scene && model.view ? { Ok: model.view } : view(next.scene);
+  const { Ok, Err } = next.scene === model.now?.scene && model.view ? { Ok: model.view } : viewOf(next.scene);
   // What was said of a file is said of what was there.
   if (next.scene !== model.now?.scene && !model.note?.act) model.note = null;
   model.now = next;
   model.view = Ok ?? null;
   if (Ok) [model.last, model.good] = [Ok, next.scene];
   model.wrong = Err ?? Ok.plan.Err ?? null;
-  model.hold = null;
 }
 
 /**
@@ -128,16 +125,16 @@ export function go(by) {
 
 function mirror() {
   clearTimeout(timer);
-  const wait = last + PAUSE - performance.now();
-  if (wait > 0) timer = setTimeout(write, wait);
-  else write();
+  const wait = mirrored + PAUSE - performance.now();
+  if (wait > 0) timer = setTimeout(writeEntry, wait);
+  else writeEntry();
 }
 
-// The browser's entry becomes that of the step. A frame leaves the entries to the page around it.
-function write() {
+// The browser's entry becomes that of the step.
+function writeEntry() {
   clearTimeout(timer);
-  last = performance.now();
-  const how = waits && !isFrame ? 'pushState' : 'replaceState';
+  mirrored = performance.now();
+  const how = waits ? 'pushState' : 'replaceState';
   if (how === 'pushState') entry++;
   waits = false;
   history[how]({ entry, visit }, '', hash(steps[at].state));
@@ -163,7 +160,7 @@ function arrived(first) {
   try {
     change({ ...fromAddress(location.hash), trace: null });
     waits = false;
-    if (model.view) return write();
+    if (model.view) return writeEntry();
   } catch (error) {
     const reason = `The link holds no curve: ${error.message}.`;
     model.now ??= first;

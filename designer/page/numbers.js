@@ -4,7 +4,7 @@
 import { perSecond, tidy } from './scene.js';
 
 const RATES = { hz: 1, khz: 1e3, mhz: 1e6, ghz: 1e9 };
-const TIMES = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
+const SPAN_UNITS = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
 
 /**
  * The number in `text`; NaN for no text. It is of a `kind`: a `time` in the scene's `unit`, a `rate` in Hz, a `count`, or a
@@ -31,7 +31,7 @@ export function parse(text, kind = 'part', unit = 's') {
   if (kind === 'count' && !Number.isInteger(number)) refuse('is no whole number');
   const name = suffix.toLowerCase().replace(/[µμ]/, 'u');
   // A fraction without a unit is a speed, as a dial has it: of a second.
-  if (kind === 'time' && (name || parts.length === 2)) return tidy(number * (TIMES[name || 's'] ?? refuse('has an unknown unit: s, ms, µs or ns')) * perSecond(unit));
+  if (kind === 'time' && (name || parts.length === 2)) return tidy(number * (SPAN_UNITS[name || 's'] ?? refuse('has an unknown unit: s, ms, µs or ns')) * perSecond(unit));
   if (kind === 'rate' && name) return tidy(number * (RATES[name] ?? refuse('has an unknown unit: Hz, kHz, MHz or GHz')));
   if (kind === 'part' && name === '%') return tidy(number / 100);
   if (name) refuse('is no number');

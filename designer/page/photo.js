@@ -3,7 +3,7 @@
 
 import { $, watch, write } from './dom.js';
 import { collected, shareAt } from './graph.js';
-import { short } from './scene.js';
+import { STOPS } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, ROOM = 10, FINE = 2;
 const TRAVEL = WIDTH - HEIGHT;
@@ -18,9 +18,9 @@ const SHADES = new Uint32Array(new Uint8ClampedArray(Array.from({ length: 1025 }
 const HALVES = Array.from({ length: RADIUS }, (_, y) => Math.round(FINE * Math.sqrt(RADIUS ** 2 - (y + 0.5) ** 2)));
 
 /** When each flash begins and ends. */
-function flashed({ timer_hz }, { times, marks, plan }) {
+function flashed({ times, marks, plan }) {
   if (!plan.Ok?.pulses.length) return marks.map(([t]) => [t, t]);
-  return plan.Ok.pulses.map((pulse) => pulse.map((ticks) => times[0] + ticks / timer_hz));
+  return plan.Ok.pulses.map((pulse) => pulse.map((ticks) => times[0] + ticks / plan.Ok.timer_hz));
 }
 
 // The light that has come where the ball's middle has got to, in so many steps of the way.
@@ -45,13 +45,13 @@ function expose(light, most) {
   return image;
 }
 
-const isNew = watch(), isSeen = watch();
+const isDeveloped = watch(), isShown = watch();
 let list, flashes, pictures;
 
 // Both pictures, of the light until a time.
 function develop(scene, view, until) {
   list = collected({ scene, view });
-  flashes = flashed(scene, view);
+  flashes = flashed(view);
   const [start, end] = [list[0][0], list.at(-1)[0]];
   const n = flashes.length;
   const ideal = along(start, end, (t) => shareAt(list, Math.min(t, until)));
@@ -70,10 +70,13 @@ function develop(scene, view, until) {
   pictures = [ideal, triggered].map((light) => expose(light, most));
 }
 
-export function draw({ now: { scene }, last: view, cursor, isPlaying }) {
-  if (!view || !isSeen(view, scene.measured, cursor, isPlaying)) return;
+export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
+  $('flashes').value = STOPS.findLastIndex((n) => n <= scene.triggers);
+  $('flashes').setAttribute('aria-valuetext', `${scene.triggers} flashes`);
+  write($('flash-count'), String(scene.triggers));
+  if (!view || !isShown(view, scene.measured, cursor, isPlaying)) return;
   const until = isPlaying ? cursor : Infinity;
-  if (isNew(view, scene.measured, until)) develop(scene, view, until);
+  if (isDeveloped(view, scene.measured, until)) develop(scene, view, until);
   const [start, end] = [list[0][0], list.at(-1)[0]];
   const n = flashes.length;
   pictures.forEach((image, i) => {
@@ -98,10 +101,7 @@ export function draw({ now: { scene }, last: view, cursor, isPlaying }) {
     if (i && n <= 120) for (let k = 1; k < n; k++) context.fillRect((WIDTH * k) / n - 1, HEIGHT + 3, 2, ROOM - 3);
   });
   if (isPlaying) return;
-  const [a, b] = pictures.map(({ data }) => data);
-  let squares = 0;
-  for (let i = 0; i < a.length; i += 4) squares += (a[i] - b[i]) ** 2;
-  const differ = (100 * Math.sqrt((4 * squares) / a.length)) / 255;
   const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${n > 1 ? ' of equal light' : ''}`;
-  write($('flash-caption'), `${what}: ${differ < 2 ? 'hard to tell from the first picture' : `${short(differ, 2)} % off the first picture`}`);
+  write($('flash-caption'), what);
+  write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
 }

@@ -4,30 +4,30 @@ import { collected } from './graph.js';
 import { model, tell } from './model.js';
 
 /** How long an exposure takes here, in milliseconds. */
-const LENGTH = 4000;
+const PLAYED = 4000;
 
-let frame;
+let playing;
 
-function stop() {
-  cancelAnimationFrame(frame);
+function stopPlaying() {
+  cancelAnimationFrame(playing);
   if (model.isPlaying) tell({ cursor: null, isPlaying: false });
 }
 
 export function play() {
-  stop();
+  stopPlaying();
   const { view, now: { scene } } = model;
   if (!view) return;
   const list = collected({ scene, view });
   const [start, end] = [list[0][0], list.at(-1)[0]];
   let first;
-  tell({ hold: null, cursor: start, isPlaying: true });
+  tell({ cursor: start, isPlaying: true });
   const next = (time) => {
     first ??= time;
-    const part = (time - first) / LENGTH;
+    const part = (time - first) / PLAYED;
     // Another curve, or a pointer, ends it.
-    if (part > 1 || model.view !== view || !model.isPlaying) return stop();
+    if (part > 1 || model.view !== view || !model.isPlaying) return stopPlaying();
     tell({ cursor: start + part * (end - start) });
-    frame = requestAnimationFrame(next);
+    playing = requestAnimationFrame(next);
   };
-  frame = requestAnimationFrame(next);
+  playing = requestAnimationFrame(next);
 }

@@ -6,15 +6,19 @@ export const TIMES = ['open_start', 'open_end', 'close_start', 'close_end'];
 export const INNER = ['t1', 'y1', 't2', 'y2', 't5', 'y5', 't6', 'y6'];
 /** The numbers that a person writes, in the order of the engine's question. */
 export const NUMBERS = KEYS.flatMap((key) => (key === 'shutteropening' ? INNER : key));
-export const OPTIONAL = ['timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay', 'delay_spread'];
-export const COUNTS = ['triggers', 'timer_hz', 'min_gap'];
-export const LAMP = ['pulse', 'duty', 'min_pulse'];
+export const OPTIONAL = ['timer_hz', 'timer_bits', 'nominal', 'pulse', 'duty', 'min_pulse', 'delay', 'delay_spread', 'lamp_lag'];
+export const COUNTS = ['triggers', 'min_gap'];
+/** What is one of a few, in the engine's order; null is not said. */
+export const CHOICES = { set_up: ['emulated', 'in_path'], sync_falls: [false, true], fully_open: [false, true] };
+/** The numbers that have a field. */
+export const FIELDS = NUMBERS.filter((key) => !CHOICES[key]);
+export const LAMP = ['pulse', 'duty', 'min_pulse', 'fully_open'];
 /** Those that count something. */
 export const WHOLE = ['triggers', 'timer_bits'];
 /** The numbers that are times, beside those of the curve. */
-export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay', 'delay_spread'];
+export const SPANS = ['min_gap', 'nominal', 'pulse', 'min_pulse', 'delay', 'delay_spread', 'lamp_lag'];
 /** What a person has given who gives a whole scene. */
-export const GIVEN = ['name', 'unit', 'triggers', 'timer_hz', 'timer_bits', 'min_gap', 'lamp'];
+export const GIVEN = ['name', 'unit', 'triggers', 'timer_hz', 'timer_bits', 'min_gap', 'lamp', 'set_up', 'lamp_lag'];
 const STRAIGHT = [1 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3, 2 / 3, 2 / 3, 1 / 3];
 /** A longer part of an address is no link of this page's. */
 const LONGEST = 60_000;
@@ -42,7 +46,7 @@ export function fromScene(name, it) {
   const unit = it.unit ?? 's';
   const scene = { name, unit, times: TIMES.map((key) => it[key]), inner: it.shutteropening ?? null, measured: null, doubts: [], untold: null, spare: {}, given: [] };
   for (const key of COUNTS) scene[key] = it[key];
-  for (const key of OPTIONAL) scene[key] = it[key] ?? null;
+  for (const key of [...OPTIONAL, ...Object.keys(CHOICES)]) scene[key] = it[key] ?? null;
   if (it.unit) return scene;
   // Without a unit, the largest that the interval has at least one of.
   const length = scene.times[3] - scene.times[0];
@@ -75,7 +79,7 @@ export function innerOf(scene) {
 /** The scene with other inner control points. */
 export const withInner = (scene, inner) => ({ ...scene, inner, measured: null, untold: null });
 
-export const lampOf = (scene) => (scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : '');
+export const lampOf = (scene) => (scene.pulse !== null ? 'pulse' : scene.duty !== null ? 'duty' : scene.fully_open ? 'full' : '');
 
 /** The inner control points as parts of their own ramps. */
 function relative(inner, times) {
@@ -104,16 +108,15 @@ export function withTimes(scene, times) {
   return { ...withInner(scene, along(scene.inner)), times, spare: { ...scene.spare, inner: along(scene.spare.inner) } };
 }
 
-/** The scene as the part of an address behind '#', with another one and a table of speeds beside it if there are such. */
-export function hash({ scene, other, speeds }) {
+/** The scene as the part of an address behind '#', with a table of speeds beside it if there is one. */
+export function hash({ scene, speeds }) {
   const part = (key, value) => `${key}=${encodeURIComponent(value)}`;
   const parts = [part('name', scene.name), part('unit', scene.unit === 'µs' ? 'us' : scene.unit), `times=${scene.times}`];
   if (scene.inner) parts.push(`inner=${scene.inner}`);
-  for (const key of [...COUNTS, ...OPTIONAL]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
+  for (const key of [...COUNTS, ...OPTIONAL, ...Object.keys(CHOICES)]) if (scene[key] !== null) parts.push(`${key}=${scene[key]}`);
   if (scene.measured) parts.push(`measured=${scene.measured}`);
-  for (const doubt of scene.doubts) parts.push(part('doubt', doubt));
+  for (const { about, text } of scene.doubts) parts.push(part('doubt', `${about}: ${text}`));
   if (scene.untold) parts.push(part('untold', scene.untold));
-  if (other) parts.push(part('with', hash({ scene: other }).slice(1)));
   if (speeds) parts.push(part('speeds', JSON.stringify(speeds)));
   return '#' + parts.join('&');
 }
@@ -121,14 +124,19 @@ export function hash({ scene, other, speeds }) {
 /** What such a part of an address holds; an error says what is wrong. */
 export function fromAddress(text) {
   const parts = new URLSearchParams(text.replace(/^#/, ''));
-  const other = parts.get('with');
   const speeds = parts.has('speeds') ? JSON.parse(parts.get('speeds')) : null;
   if (speeds && !(Array.isArray(speeds) && speeds.every(isSpeed))) throw new Error('speeds: a name, a kind, doubts and numbers are required in each row');
-  return { scene: fromHash(text), other: other ? fromHash(other) : null, speeds };
+  return { scene: fromHash(text), speeds };
+}
+
+// `exposure: clipped`: what is doubtful, and about which number.
+function fromDoubt(words) {
+  const [, about, text] = /^(?:(\w+): )?(.*)$/s.exec(words);
+  return { about: about ?? 'exposure', text };
 }
 
 const isSpeed = (it) => [it?.name, it?.kind, ...(it?.doubts ?? [null])].every((words) => typeof words === 'string')
-  && [it.exposure, it.error, it.scatter, it.pulses].every(Number.isFinite);
+  && [it.exposure, it.error, it.scatter, it.pulses, it.dial ?? 0].every(Number.isFinite);
 
 function fromHash(text) {
   if (text.length > LONGEST) throw new Error(`it is ${text.length} characters long`);
@@ -142,9 +150,13 @@ function fromHash(text) {
   const unit = (parts.get('unit') ?? 's').replace('us', 'µs');
   if (!UNITS.includes(unit)) throw new Error('unit: s, ms, us or ns is required');
   const name = (parts.get('name') ?? '').slice(0, 60) || 'linked';
-  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubts: parts.getAll('doubt'), untold: parts.get('untold'), spare: {}, given: GIVEN };
+  const scene = { name, unit, times: numbers('times', 4), inner: parts.has('inner') ? numbers('inner', 8) : null, measured: null, doubts: parts.getAll('doubt').map(fromDoubt), untold: parts.get('untold'), spare: {}, given: GIVEN };
   for (const key of COUNTS) [scene[key]] = numbers(key, 1);
   for (const key of OPTIONAL) scene[key] = parts.has(key) ? numbers(key, 1)[0] : null;
+  for (const [key, all] of Object.entries(CHOICES)) {
+    scene[key] = parts.has(key) ? all.find((it) => String(it) === parts.get(key)) : null;
+    if (scene[key] === undefined) throw new Error(`${key}: ${all.join(' or ')} is required`);
+  }
   for (const key of WHOLE) if (scene[key] !== null && !Number.isInteger(scene[key])) throw new Error(`${key}: a whole number is required`);
   if (parts.has('measured')) scene.measured = numbers('measured');
   if (scene.measured && scene.measured.length !== scene.triggers) throw new Error(`measured: ${scene.triggers} times are required, one for each trigger`);

@@ -1,53 +1,60 @@
 // A shutter tester's table: the speeds of several traces.
 
-import { $, button, element, watch } from './dom.js';
+import { html, render } from './lit-html.js';
+import { $, watch } from './dom.js';
+import { copyLink } from './export.js';
+import { doubt, dial, nearest, stops } from './facts.js';
 import { change, model } from './model.js';
-import { dial, nearest } from './panels.js';
+import { parse } from './numbers.js';
 import { short } from './scene.js';
+import { readTrace } from './trace.js';
 
-let loadTraces;
 // The file of each row of this visit: two may have one name.
 const files = new WeakMap();
 export const remember = (rows, list) => rows.forEach((row, i) => files.set(row, list[i]));
 
-const isNew = watch();
+const isNewTable = watch();
 
-export function draw({ now: { speeds } }) {
-  if (!isNew(speeds)) return;
+/** Draws it; while it is there, it is all there is. */
+export function drawSpeeds({ now: { speeds } }) {
+  if (!isNewTable(speeds)) return;
   $('speeds').hidden = !speeds;
+  document.body.classList.toggle('alone', Boolean(speeds));
   if (!speeds) return;
-  const head = element('tr');
-  head.append(...['trace', 'measured', 'nearest full stop', 'spread', 'pulses', 'told by'].map((name) => element('th', name, { scope: 'col' })));
-  const body = element('tbody');
-  body.append(...speeds.toSorted((a, b) => (a.exposure || Infinity) - (b.exposure || Infinity)).map(row));
-  const table = element('table');
-  table.append(element('thead'), body);
-  table.tHead.append(head);
-  $('speeds-table').replaceChildren(table);
+  const rows = speeds.toSorted((a, b) => (a.exposure || Infinity) - (b.exposure || Infinity));
+  render(html`<div class="head"><h2 id="speeds-title">Speeds of this shutter</h2><span class="buttons">
+      <button type="button" id="speeds-link" @click=${() => copyLink({ ...model.now, scene: model.good })}>Copy link</button><button type="button" id="speeds-print" @click=${() => print()}>Print</button><button type="button" id="speeds-close" @click=${() => change({ speeds: null })}>Close</button></span></div>
+    <div class="scroll" tabindex="0" role="region" aria-label="Table of speeds" id="speeds-table"><table>
+      <thead><tr>${['trace', 'measured', 'nearest full stop', 'on the dial', 'off by', 'spread', 'pulses', 'told by'].map((name) => html`<th scope="col">${name}</th>`)}</tr></thead>
+      <tbody>${rows.map((row) => line(row, speeds))}</tbody></table></div>
+    <p id="speeds-told" role="status" class="note"></p>
+    <p class="note">Measured: how long a shutter that is fully open would take for as much light, ± one standard error. Nearest full stop: of 1/125, 1/60, 1/30 and so on; what the dial says is yours to tell. Spread: by how much the pulses of a trace differ.</p>`, $('speeds'));
 }
 
-function row(told) {
-  const { name, kind, exposure, error, scatter, pulses, doubts } = told;
-  const made = element('tr');
-  const title = element('th', undefined, { scope: 'row' });
-  const file = files.get(told);
-  title.append(file ? button(name, async () => (await loadTraces()).bring([file]), { class: 'plain', title: 'Show this trace' }) : name);
+function line(row, speeds) {
+  const { name, kind, exposure, error, scatter, pulses, doubts } = row;
+  const file = files.get(row);
+  const title = html`<th scope="row">${file ? html`<button type="button" class="plain" title="Show this trace" @click=${() => readTrace(file, {})}>${name}</button>` : name}</th>`;
+  if (!exposure) return html`<tr>${title}${Array.from({ length: 6 }, () => html`<td>–</td>`)}<td>${kind}</td></tr>`;
   const speed = nearest(exposure);
   const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
   // The last digit of each is of the same size.
   const off = short(error * by, 1), places = Math.min(9, Math.max(0, -Math.floor(Math.log10(off))));
-  const cells = exposure ? [`${(exposure * by).toFixed(places)} ± ${off} ${unit}`, speed ? dial(speed) : '–',
-    pulses > 1 ? `${short(100 * scatter, 2)} %` : '–', pulses, kind] : ['–', '–', '–', '–', kind];
-  made.append(title, ...cells.map((cell) => element('td', String(cell))));
-  made.children[exposure ? 1 : 0].append(...doubts.map((words) => element('small', words, { class: 'doubt' })));
-  return made;
-}
-
-/** Begins; what fits a trace is loaded when one is shown. */
-export function start(loads) {
-  loadTraces = loads;
-  $('speeds-print').onclick = () => print();
-  $('speeds-close').onclick = () => change({ speeds: null });
-  // Of the table, whatever is typed beside it just now.
-  $('speeds-link').onclick = async () => (await import('./share.js')).link({ ...model.now, scene: model.good });
+  const says = ({ target }) => {
+    let seconds = null;
+    target.setCustomValidity('');
+    try {
+      seconds = parse(target.value, 'time', 's');
+      if (seconds <= 0 || seconds === Infinity) throw new Error('more than 0 is required');
+    } catch (wrong) {
+      target.setCustomValidity(wrong.message);
+      return target.reportValidity();
+    }
+    const told = { ...row, dial: Number.isNaN(seconds) ? null : seconds };
+    if (file) files.set(told, file);
+    change({ speeds: speeds.with(speeds.indexOf(row), told) });
+  };
+  return html`<tr>${title}<td>${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}</td><td>${speed ? dial(speed) : '–'}</td>
+    <td><input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''} @change=${says}></td><td>${row.dial ? stops(exposure, row.dial) : '–'}</td>
+    <td>${pulses > 1 ? `${short(100 * scatter, 2)} %` : '–'}</td><td>${pulses}</td><td>${kind}</td></tr>`;
 }

@@ -1,6 +1,7 @@
 // Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
 
 import { toml } from './toml.js';
+import { fileOf } from './view.js';
 
 const failed = (reason) => ({ Err: { reason, notes: [] } });
 
@@ -18,7 +19,7 @@ class Asked {
     if (this.asked || !this.waiting) return;
     [this.asked, this.waiting] = [this.waiting, null];
     if (!this.worker) {
-      this.worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module' });
+      this.worker = new Worker(fileOf('worker.js'), { type: 'module' });
       this.worker.onmessage = ({ data }) => {
         if ('progress' in data) return this.asked?.progress?.(data.progress);
         // What failed may have left anything behind: the next question gets a new worker.
@@ -49,12 +50,12 @@ class Asked {
 const [forms, scenes, fits] = [new Asked(), new Asked(), new Asked()];
 
 /** The answers are `{ Ok }` or `{ Err }`; nothing if something newer came first. */
-export const emit = (scene, form) => forms.ask({ ask: 'emit', name: scene.name, scene: toml(scene), form });
-export const parse = (name, text) => scenes.ask({ ask: 'scene', name, scene: text });
-export function fit(name, asked, file, progress) {
-  cancel();
+export const emitForm = (scene, form) => forms.ask({ ask: 'emit', name: scene.name, scene: toml(scene), form });
+export const parseScene = (name, text) => scenes.ask({ ask: 'scene', name, scene: text });
+export function fitTrace(name, asked, file, progress) {
+  cancelFit();
   return fits.ask({ ask: 'fit', name, asked }, file, progress);
 }
 
 /** Ends the fit that is computed. */
-export const cancel = () => fits.end(undefined);
+export const cancelFit = () => fits.end(undefined);

@@ -1,24 +1,29 @@
 // The crate as WebAssembly, for what follows the mouse.
 
 import { UNITS } from './presets.js';
-import { INNER, NUMBERS, TIMES } from './scene.js';
+import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
 
 const decoder = new TextDecoder();
-let module;
+const folder = document.currentScript.src;
+/** The address of a file beside this script. */
+export const fileOf = (name) => new URL(name, folder);
+
+let engine;
 let exports;
 
-export async function load() {
-  module = await WebAssembly.compileStreaming(fetch(new URL('engine.wasm', import.meta.url)));
-  await start();
+export async function loadEngine() {
+  engine = await WebAssembly.compileStreaming(fetch(fileOf('engine.wasm')));
+  await instantiate();
 }
 
-async function start() {
-  exports = (await WebAssembly.instantiate(module, {})).exports;
+async function instantiate() {
+  exports = (await WebAssembly.instantiate(engine, {})).exports;
 }
 
 // A scene's number by its key; NaN for none.
 function numberOf(scene, key) {
   const i = TIMES.indexOf(key), k = INNER.indexOf(key);
+  if (CHOICES[key]) return scene[key] === null ? NaN : CHOICES[key].indexOf(scene[key]);
   return i >= 0 ? scene.times[i] : k >= 0 ? (scene.inner?.[k] ?? NaN) : (scene[key] ?? NaN);
 }
 
@@ -29,33 +34,33 @@ function ask(scene) {
   question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
 }
 
-/** How good a scene is: 2 with a plan, 1 with a curve alone, 0 without; only what is `isDeep` is planned. */
-export function allowed(scene, isDeep) {
+/** Has a scene a curve? */
+export function allowed(scene) {
   try {
     ask(scene);
-    return exports.allowed(isDeep);
+    return Boolean(exports.allowed());
   } catch {
-    start();
-    return 0;
+    instantiate();
+    return false;
   }
 }
 
 /** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export function view(scene) {
+export function viewOf(scene) {
   try {
     ask(scene);
     const length = exports.view();
     const answer = JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
-    if (answer.Ok) read(answer.Ok, exports.memory.buffer, exports.numbers());
+    if (answer.Ok) readNumbers(answer.Ok, exports.memory.buffer, exports.numbers());
     return answer;
   } catch (fault) {
-    start();
+    instantiate();
     return { Err: { reason: `this could not be computed (${fault.message})`, notes: [] } };
   }
 }
 
 // Puts the numbers into a view, which only tells where they are.
-function read(view, memory, at) {
+function readNumbers(view, memory, at) {
   const numbers = ([from, to]) => Array.from(new Float64Array(memory, at + 8 * from, to - from));
   const tuples = (part, size) => {
     const all = numbers(part);
@@ -71,5 +76,4 @@ function read(view, memory, at) {
   const plan = view.plan.Ok;
   if (!plan) return;
   [plan.closest, plan.min_gap, plan.half_open] = numbers(plan.seconds);
-  for (const set_up of plan.set_ups) set_up.pulses = tuples(set_up.pulses, 3);
 }

@@ -40,10 +40,10 @@ pub extern "C" fn view() -> usize {
     told(answer)
 }
 
-/// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. With `deep` 0 no plan is asked for.
+/// Has the scene in the question a curve?
 #[unsafe(no_mangle)]
-pub extern "C" fn allowed(deep: u32) -> u32 {
-    QUESTION.with_borrow(|question| crate::allowed(question, deep != 0))
+pub extern "C" fn allowed() -> bool {
+    QUESTION.with_borrow(|question| crate::allowed(question))
 }
 
 /// Answers any other question, with its payload.

@@ -14,18 +14,21 @@ pub struct Wrong {
     /// From where to where among the numbers of `shutteropening`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner: Option<(usize, usize)>,
+    /// What would help, each tried: `triggers` with a number, `min_gap`, `timer_bits` or `lamp` without it.
+    pub remedies: Vec<(&'static str, u32)>,
 }
 
 /// Of a scene of numbers.
 impl From<Fault> for Wrong {
     fn from(fault: Fault) -> Self {
-        Self { key: fault.key(), inner: fault.inner, reason: fault.reason, notes: fault.notes }
+        let (key, Fault { inner, reason, notes, .. }) = (fault.key(), fault);
+        Self { key, inner, notes, ..Self::from(reason) }
     }
 }
 
 impl From<String> for Wrong {
     fn from(reason: String) -> Self {
-        Self { reason, notes: Vec::new(), key: None, inner: None }
+        Self { reason, notes: Vec::new(), key: None, inner: None, remedies: Vec::new() }
     }
 }
 

@@ -6,6 +6,7 @@ use shutter::fitted::{self, Zero};
 use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
+use shutter_fit::delay::{self, Sync};
 use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter_fit::unit::{Unit, plus_minus};
 use shutter_fit::{From, Options, report};
@@ -82,6 +83,8 @@ struct Asked {
     rate: Option<f64>,
     /// The time's and the signal's column, from 1, or the signal's alone.
     columns: Vec<usize>,
+    /// The sync's column, from 1.
+    sync: Option<usize>,
     /// Does light raise the signal?
     rises: Option<bool>,
     /// The signal of full light.
@@ -106,6 +109,7 @@ struct Read {
     columns: usize,
     time: Option<usize>,
     signal: usize,
+    sync: Option<usize>,
     rate: Option<f64>,
 }
 
@@ -120,8 +124,11 @@ struct Fitted {
     report: String,
     kind: &'static str,
     rms: f64,
-    /// The efficiency as the report has it.
+    /// The efficiency, and the times of testers, as the report has them.
     efficiency: String,
+    tester: String,
+    /// From the sync's edge to the opening, where that is known.
+    delay: Option<String>,
     /// Told, and in seconds with its standard error.
     told: String,
     exposure: (f64, f64),
@@ -162,8 +169,13 @@ fn measured(
     }
     let preview = trace::preview(&bytes, ROWS).unwrap_or(Preview { names: vec![], rows: vec![] });
     let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
-    let options =
-        trace::Options { unit: asked.unit, columns, rate: asked.rate, ..Default::default() };
+    let options = trace::Options {
+        unit: asked.unit,
+        columns,
+        rate: asked.rate,
+        sync: asked.sync.map(Column::Number),
+        ..Default::default()
+    };
     let recording = trace::open(&bytes, &options);
     drop(bytes);
     let read = recording.as_ref().ok().map(|recording| Read::new(&recording.reading));
@@ -179,6 +191,7 @@ impl Read {
             columns: reading.columns,
             time: reading.time.as_ref().map(|(number, _)| *number),
             signal: reading.signal.0,
+            sync: reading.sync.as_ref().map(|(number, _)| *number),
             rate: match reading.clock {
                 Clock::Unit(_) => None,
                 Clock::Rate(rate) => Some(rate),
@@ -202,6 +215,7 @@ fn fitted(
             Some(false) => Light::Down,
         },
         triggers: asked.triggers,
+        sync: recording.sync.map(Sync::Channel),
         ..Options::default()
     };
     let mut fit = shutter_fit::fit(&recording.trace, &options, progress)?;
@@ -228,14 +242,21 @@ fn fitted(
     });
     // What the program says of its own arguments is not for a page.
     let report = shutter_fit::text(name, &fit);
-    let report = report.lines().filter(|line| !line.contains("--"));
+    let report: Vec<_> = report.lines().filter(|line| !line.contains("--")).collect();
     Ok(Fitted {
         scene: scene::parse(&text).map_err(no_scene)?,
-        report: report.collect::<Vec<_>>().join("\n"),
+        report: report.join("\n"),
         kind: fit.chosen.title(),
         rms: best.rms,
         exposure: (fit.exposure.value, fit.exposure.error),
         efficiency: report::efficiency(&fit),
+        tester: report
+            .iter()
+            .find_map(|line| line.strip_prefix("tester"))
+            .unwrap_or_default()
+            .trim()
+            .into(),
+        delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
         told: plus_minus(
             fit.unit().of(fit.exposure.value),
             fit.unit().of(fit.exposure.error),

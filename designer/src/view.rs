@@ -1,10 +1,10 @@
 //! All that the page shows of a scene.
 
 use serde::Serialize;
-use shutter::facts::{Facts, drift};
+use shutter::facts::{Facts, drift, few};
+use shutter::lamp::Lamp;
 use shutter::plan::{MOST_TRIGGERS, Plan};
-use shutter::scene::Scene;
-use shutter::set_up::{Row, SetUps};
+use shutter::scene::{KEYS, Scene};
 use shutter::shape::Shape;
 use shutter::times::Times;
 use shutter_curve::CubicBezier;
@@ -14,9 +14,6 @@ use crate::answer::{Wrong, json};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
-
-/// More pulses are not told apart in the pictures of the set-ups.
-const MOST_DOSES: usize = 128;
 
 /// A scene's curve, and its plan where it has one. Times are in seconds.
 #[derive(Serialize)]
@@ -39,23 +36,18 @@ struct View {
 struct Planned {
     ticks: Vec<u32>,
     pulses: Vec<(u32, u32)>,
+    /// The rate of all ticks.
+    timer_hz: u32,
     /// In ticks, from the sync's edge to the start of opening.
     delay: Option<u32>,
     /// So many triggers keep what is asked for; unknown of times that were measured.
     most: Option<u32>,
     /// The least gap between two, or the least darkness, where there are two; what is asked for; how long it is half open.
     seconds: Part,
-    set_ups: Vec<Doses>,
+    /// The light of the first, the middle and the last flash, where the set-up is known and they differ.
+    doses: Option<String>,
     /// When a delay that moves matters, as the program says it.
     drift: Option<String>,
-}
-
-/// One of the set-ups.
-#[derive(Serialize)]
-struct Doses {
-    is_shuttered: bool,
-    /// When the lamp is on and off, and the dose of light, of each pulse.
-    pulses: Part,
 }
 
 /// Where numbers of the answer are, from and to: the page reads them as they are in memory, which is faster than as text and
@@ -75,9 +67,10 @@ impl Numbers {
     }
 }
 
-/// A scene, and the times of its triggers in its unit where a trace tells them.
+/// A scene's unit and numbers, and the times of its triggers in that unit where a trace tells them.
 struct Question {
-    scene: Scene,
+    unit: Unit,
+    numbers: [f64; Scene::NUMBERS],
     measured: Vec<f64>,
 }
 
@@ -90,7 +83,48 @@ impl Question {
         let (unit, numbers) = numbers.split_first().ok_or_else(short)?;
         let (numbers, measured) = numbers.split_first_chunk().ok_or_else(short)?;
         let unit = Unit::ALL.get(*unit as usize).copied().unwrap_or(Unit::Second);
-        Ok(Self { scene: Scene::of_numbers(unit, numbers), measured: measured.to_vec() })
+        Ok(Self { unit, numbers: *numbers, measured: measured.to_vec() })
+    }
+
+    fn scene(&self) -> Scene {
+        Scene::of_numbers(self.unit, &self.numbers)
+    }
+
+    /// Can it be planned with other numbers? NaN is none.
+    fn is_planned(&self, changes: &[(&str, f64)]) -> bool {
+        let mut numbers = self.numbers;
+        for (key, number) in changes {
+            let place = KEYS.iter().position(|known| known == key).unwrap_or_default();
+            let curve = KEYS.iter().position(|known| *known == "shutteropening");
+            // That key has eight numbers.
+            numbers[place + if Some(place) > curve { 7 } else { 0 }] = *number;
+        }
+        let scene = Scene::of_numbers(self.unit, &numbers);
+        match &*self.measured {
+            [] => Plan::new(&scene).is_ok(),
+            times => Times::of_numbers(scene, times).is_ok(),
+        }
+    }
+
+    /// What would help a scene that cannot be planned.
+    fn remedies(&self) -> Vec<(&'static str, u32)> {
+        let with = |n: u32| self.is_planned(&[("triggers", n.into())]);
+        let asked = self.scene().triggers().min(MOST_TRIGGERS + 1);
+        let (mut low, mut high) = (0, if self.measured.is_empty() { asked } else { 0 });
+        while high > low + 1 {
+            let middle = low.midpoint(high);
+            *(if with(middle) { &mut low } else { &mut high }) = middle;
+        }
+        let none = f64::NAN;
+        let lamp = ["pulse", "duty", "min_pulse", "fully_open"].map(|key| (key, none));
+        let others: [(_, &[_]); 3] = [
+            ("min_gap", &[("min_gap", 0.0)]),
+            ("timer_bits", &[("timer_bits", none)]),
+            ("lamp", &lamp),
+        ];
+        let helps = others.into_iter().filter(|(_, changes)| self.is_planned(changes));
+        let fewer = (low > 0).then_some(("triggers", low));
+        fewer.into_iter().chain(helps.map(|(code, _)| (code, 0))).collect()
     }
 }
 
@@ -101,13 +135,9 @@ pub fn view(question: &[u8]) -> (String, Vec<f64>) {
     (json(&view), numbers.0)
 }
 
-/// How good the scene in the question is: 2 with a plan, 1 with a curve alone, 0 without. Only what is `deep` is planned.
-pub fn allowed(question: &[u8], deep: bool) -> u32 {
-    let scene = Question::read(question)
-        .map(|question| question.scene)
-        .ok()
-        .filter(|scene| scene.curve().is_ok());
-    scene.map_or(0, |scene| 1 + u32::from(deep && Plan::new(&scene).is_ok()))
+/// Has the scene in the question a curve?
+pub fn allowed(question: &[u8]) -> bool {
+    Question::read(question).is_ok_and(|question| question.scene().curve().is_ok())
 }
 
 impl View {
@@ -116,7 +146,9 @@ impl View {
     /// # Errors
     /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
     fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
-        let Question { scene, measured } = question;
+        let (scene, measured) = (question.scene(), &question.measured);
+        // What would help is tried where something is wrong.
+        let wrong = |fault| Wrong { remedies: question.remedies(), ..Wrong::from(fault) };
         let (shape, curve) = scene.curve()?;
         let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
         let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
@@ -137,22 +169,30 @@ impl View {
             let times = measured.iter().map(|time| scene.unit().seconds(*time));
             return Ok(Self {
                 marks: numbers.put(times.enumerate().flat_map(mark)),
-                plan: Times::of_numbers(scene, &measured)
+                plan: Times::of_numbers(scene, measured)
                     .map(|times| Planned::of_times(times, numbers))
-                    .map_err(Wrong::from),
+                    .map_err(wrong),
                 ..common
             });
         }
         let n = scene.triggers().min(MOST_TRIGGERS);
         let u = |i: f32| i / n as f32;
+        let plan = Plan::new(&scene);
+        let mark = |t, u| [t, curve.openness(t), u];
+        let marks: Vec<_> = match &plan {
+            Ok(plan) => plan.triggers.iter().map(|it| mark(it.time, it.u)).collect(),
+            Err(_) => {
+                let middles = (0..n).map(|i| u(i as f32 + 0.5));
+                middles.map(|u| mark(curve.inverse_cdf(u), u)).collect()
+            }
+        };
+        // Flashes while the shutter is fully open share out the time, not the exposure.
+        let is_shared = plan.as_ref().is_ok_and(|plan| plan.lamp != Lamp::FullyOpen);
+        let edges = (0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32)));
         Ok(Self {
-            edges: numbers.put((0..=n).map(|i| curve.inverse_cdf(u(i as f32)))),
-            marks: numbers.put((0..n).flat_map(|i| {
-                let u = u(i as f32 + 0.5);
-                let t = curve.inverse_cdf(u);
-                [t, curve.openness(t), u]
-            })),
-            plan: Plan::new(&scene).map(|plan| Planned::new(plan, numbers)).map_err(Wrong::from),
+            edges: numbers.put(edges),
+            marks: numbers.put(marks.into_iter().flatten()),
+            plan: plan.map(|plan| Planned::new(plan, numbers)).map_err(wrong),
             ..common
         })
     }
@@ -164,21 +204,17 @@ impl Planned {
         let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
         let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
         let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
-        let SetUps { length, rows } = SetUps::new(&plan);
-        let rows = if plan.triggers.len() > MOST_DOSES { Vec::new() } else { Vec::from(rows) };
-        let mut doses = |row: &Row| {
-            let dose = |&(on, off): &(f32, f32)| [on, off, row.dose(&plan, length, (on, off))];
-            let pulses = numbers.put(row.pulses.iter().flat_map(dose));
-            Doses { is_shuttered: row.is_shuttered, pulses }
-        };
-        let set_ups = rows.iter().map(&mut doses).collect();
         Self {
             ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
             pulses,
+            timer_hz: plan.timer.hz,
             delay: plan.delay.map(|delay| delay.ticks),
             most: Some(plan.most),
             seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
-            set_ups,
+            doses: plan.set_up.map(|set_up| set_up.doses(&plan)).and_then(|doses| {
+                let is_even = doses.iter().all(|dose| *dose > 0.985);
+                (!is_even).then(|| few(&doses))
+            }),
             drift: drift(&plan.into()),
         }
     }
@@ -190,10 +226,11 @@ impl Planned {
         Self {
             ticks,
             pulses: Vec::new(),
+            timer_hz: times.timer.hz,
             delay: times.delay.map(|delay| delay.ticks),
             most: None,
             seconds: numbers.put([closest, times.min_gap, f64::NAN]),
-            set_ups: Vec::new(),
+            doses: None,
             drift: drift(&times.into()),
         }
     }

@@ -7,9 +7,14 @@ use shutter_fit::trace::{Refusal, Warning};
 #[derive(Serialize)]
 pub struct Told {
     text: String,
-    /// `rate`, `unit`, `signal`, `rises`, `full`, `frame`; another file where none of them helps.
+    /// `rate`, `unit`, `signal`, `rises`, `full`, `frame`, `sync`; another file where none of them helps.
     mend: Option<&'static str>,
+    /// The number that is doubtful: `exposure`, `times`, `delay`, `efficiency`.
+    about: &'static str,
 }
+
+/// What is doubtful about the exposure is so about all.
+const ALL: &str = "exposure";
 
 /// Why there is no fit; was it said which way light moves the signal?
 pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
@@ -17,7 +22,7 @@ pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
     let mend = match refusal {
         R::NoPulse { .. } if has_way => {
             let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
-            return Told { text: text.into(), mend: Some("rises") };
+            return Told { text: text.into(), mend: Some("rises"), about: ALL };
         }
         R::NoTimes { .. } | R::Counter { .. } | R::TwoRates { .. } => Some("rate"),
         R::UnclearUnit { .. } => Some("unit"),
@@ -28,7 +33,7 @@ pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
         R::FullTooLow { .. } => Some("full"),
         _ => None,
     };
-    Told { text: without_arguments(&refusal.to_string()), mend }
+    Told { text: without_arguments(&refusal.to_string()), mend, about: ALL }
 }
 
 /// What is doubtful.
@@ -42,7 +47,15 @@ pub fn warning(warning: &Warning) -> Told {
         W::NoPlateau => Some("full"),
         _ => None,
     };
-    Told { text: without_arguments(&warning.to_string()), mend }
+    let about = match warning {
+        W::SyncBounced { .. }
+        | W::SyncMissing { .. }
+        | W::SyncOthers { .. }
+        | W::SyncLate { .. } => "delay",
+        W::NoiseHidesRamps { .. } | W::SharpEdges { .. } => "times",
+        _ => ALL,
+    };
+    Told { text: without_arguments(&warning.to_string()), mend, about }
 }
 
 /// A message of the program without what it says of its arguments: before the text, in brackets, or behind a semicolon.

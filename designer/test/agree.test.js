@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { ROOT, bouncing, copied, drop, open, page, scratch, setUp, shutter, trace } from './harness.js';
+import { ROOT, bouncing, copied, drop, fitted, open, page, scratch, setUp, shutter, trace } from './harness.js';
 
 setUp();
 
@@ -23,9 +23,9 @@ function scene(i) {
   const inner = [at(times[0], times[1], a), round(between(0, 0.5)), at(times[0], times[1], b), round(between(0.5, 1)), at(times[2], times[3], c), round(between(0.5, 1)), at(times[2], times[3], d), round(between(0, 0.5))];
   const parts = [`name=r${i}`, `unit=${['ms', 'us', 's'][i % 3]}`, `times=${times}`];
   if (i % 4) parts.push(`inner=${inner}`);
-  parts.push(`triggers=${Math.ceil(between(0, 40))}`, `timer_hz=${[1e6, 72e6, 32768, 125e6][Math.floor(between(0, 4))]}`, 'min_gap=0');
+  parts.push(`triggers=${Math.ceil(between(0, 40))}`, `timer_hz=${[1e6, 72e6, 32768, 125e6][Math.floor(between(0, 4))]}`, 'min_gap=0', `set_up=${i % 6 === 1 ? 'in_path' : 'emulated'}`);
   if (i % 5 === 0) parts.push(`nominal=${round(between(1, 9), 3)}`);
-  if (i % 7 === 0) parts.push(`delay=${round(between(0, 9), 4)}`);
+  if (i % 7 === 0) parts.push(`delay=${round(between(0, 9), 4)}`, `sync_falls=${i % 2 === 0}`);
   if (i % 6 === 1) parts.push(`duty=${round(between(0.1, 0.9), 3)}`);
   if (i % 6 === 2) parts.push('pulse=0.001');
   return `#${parts.join('&')}`;
@@ -37,10 +37,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
   for (let i = 0; i < 100; i++) {
     await page.evaluate((hash) => (location.hash = hash), scene(i));
     await page.until((name) => document.getElementById('name').value === name, `r${i}`);
-    const toml = await page.evaluate(async () => {
-      const [{ toml }, { model }] = await Promise.all([part('toml.js'), part('model.js')]);
-      return toml(model.now.scene);
-    });
+    const toml = await page.evaluate(() => designer.toml(designer.model.now.scene));
     const file = join(scratch, `r${i}.toml`);
     writeFileSync(file, toml);
     let program;
@@ -49,7 +46,7 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
     } catch (error) {
       // What the program refuses the page refuses, for the same reason.
       refused++;
-      const reason = await page.evaluate(async () => (await part('model.js')).model.wrong.reason);
+      const reason = await page.evaluate(() => designer.model.wrong?.reason ?? document.getElementById('code').textContent);
       assert.ok(reason.length > 10 && error.stderr.includes(reason), `${toml}${reason}\n${error.stderr}`);
       assert.ok(await page.isDisabled('#copy'));
       continue;
@@ -78,15 +75,18 @@ const TRACES = {
 };
 
 test('12 traces are fitted as the program fits them', { timeout: 600_000 }, async () => {
-  await open();
+  await open('');
+  await page.fill('#set_up', 'emulated');
+  await page.fill('#timer_hz', '1e6');
   const keys = (text) => Object.fromEntries(text.split('\n').map((line) => /^(\w+) = ([^#]*)/.exec(line)).filter(Boolean).map(([, key, value]) => [key, value.trim()]));
   let misfits = 0;
   for (const [name, make] of Object.entries(TRACES)) {
     const [file, out] = [join(scratch, `${name}.csv`), join(scratch, `${name}.toml`)];
     writeFileSync(file, make());
     await drop([`${name}.csv`, make()]);
-    await page.until((name) => document.querySelector('#trace h3')?.textContent === `${name}.csv` && document.getElementById('busy').hidden, name);
-    shutter('fit', file, '--zero', 'open', '--triggers', '12', '--out', out);
+    await fitted(`${name}.csv`);
+    shutter('fit', file, '--zero', 'open', '--triggers', '6', '--out', out, '--force');
+    writeFileSync(out, `${readFileSync(out, 'utf8').replace(/^timer_hz.*/m, '')}\ntimer_hz = 1000000\nset_up = "emulated"\n`);
     const [there, here] = [readFileSync(out, 'utf8').replace(/\[\s+/g, '[').replace(/,\s+(?=[\d\]])/g, ', ').replace(/, \]/g, ']'), await copied('toml')].map(keys);
     if (there.trigger_times) misfits++;
     assert.deepEqual(here, there, name);

@@ -8,7 +8,7 @@ import { ROOT, bouncing, choose, curve, drag, drop, middle, open, page, preset, 
 setUp('firefox');
 
 test('in Firefox a trace is fitted, a handle dragged, and both undone', { timeout: 180_000 }, async () => {
-  await open('', { width: 1280, height: 1500 });
+  await open(undefined, { width: 1280, height: 1500 });
   const first = await values();
   await (await page.$('input[type=file]')).uploadFile(join(ROOT, 'cli', 'traces', 'leaf.csv'));
   await page.says('the curve explains the trace');
@@ -27,7 +27,7 @@ test('in Firefox a trace is fitted, a handle dragged, and both undone', { timeou
 });
 
 test('in Firefox a misfit is exported by its own times, and several traces make a table', { timeout: 180_000 }, async () => {
-  await open('', { width: 1280, height: 2800 });
+  await open(undefined, { width: 1280, height: 2800 });
   await drop(['bounce.csv', bouncing()]);
   await page.says('at the trace’s own times');
   await choose('toml');
@@ -39,7 +39,7 @@ test('in Firefox a misfit is exported by its own times, and several traces make 
 });
 
 test('in Firefox a reload keeps the steps, a drag is undone, and what is refused is mended', { timeout: 180_000 }, async () => {
-  await open('', { width: 1280, height: 2800 });
+  await open(undefined, { width: 1280, height: 2800 });
   await settled();
   await preset('leaf');
   await settled();

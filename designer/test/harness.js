@@ -52,18 +52,19 @@ export function setUp(name = 'chrome') {
   });
 }
 
+/** The scene that most tests begin with. */
+export const SOFT = '#name=soft&unit=ms&times=0,2.5,7.5,10&inner=0.1,0,0.15,1,0.85,1,0.9,0&triggers=12&timer_hz=1000000&min_gap=0.4&set_up=emulated';
+
 /** Opens the page. Tall, so that all panels are seen, and written. */
-export async function open(hash = '', size = { width: 1360, height: 2800 }, search = '') {
+export async function open(hash = SOFT, size = { width: 1360, height: 2800 }) {
   if (page && !page.isClosed()) await page.close();
   page = extend(await browser.newPage());
   [complaints, requests] = [[], []];
   page.on('console', (message) => ['error', 'warn'].includes(message.type()) && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('request', (request) => requests.push(request.url()));
-  // One of the page's modules.
-  await page.evaluateOnNewDocument(() => (globalThis.part = (name) => import(document.querySelector('link[rel=stylesheet]').href.replace('style.css', name))));
   await page.setViewport(size);
-  await page.goto(url + search + hash);
+  await page.goto(url + hash);
   await ready();
   return page;
 }
@@ -81,16 +82,7 @@ export const drawn = (on = page) => on.evaluate(() => new Promise((done) => new 
 export const written = () => page.until(() => !document.getElementById('code').classList.contains('waits'));
 
 /** Until the address is that of what is on the screen: a step that comes sooner shares its entry. */
-export const settled = () => page.until(async () => {
-  const [{ hash }, { model }] = await Promise.all([part('scene.js'), part('model.js')]);
-  return location.hash === hash(model.now);
-});
-
-/** Until it has played, if main.js does so unasked. Of two timers, and of two that load a module, the page’s is the first. */
-export const played = () => page.evaluate(async () => {
-  await new Promise((done) => setTimeout(done, 800));
-  await part('play.js');
-});
+export const settled = () => page.until(() => location.hash === designer.hash(designer.model.now));
 
 /** Fits do not begin until `release()` in the page. */
 export const hold = () => page.evaluate(() => {
@@ -126,8 +118,7 @@ export function extend(page) {
       it.focus();
       if (it.type === 'checkbox') return it.checked === value || it.click();
       it.value = value;
-      it.dispatchEvent(new Event(it.tagName === 'SELECT' ? 'change' : 'input', { bubbles: true }));
-      if (it.tagName === 'SELECT') it.dispatchEvent(new Event('input', { bubbles: true }));
+      for (const type of it.tagName === 'SELECT' ? ['input', 'change'] : ['input']) it.dispatchEvent(new Event(type, { bubbles: true }));
     }, value),
     until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */
@@ -153,6 +144,9 @@ export function extend(page) {
     box: async (sel) => (await page.$(sel)).boundingBox(),
   });
 }
+
+/** Until a trace is read, and nothing more is computed. */
+export const fitted = (name) => page.until((name) => document.querySelector('#facts h3')?.textContent === name && document.getElementById('busy').hidden, name);
 
 export const preset = (name) => page.$eval(`#presets [data-name="${name}"]`, (it) => it.click());
 
@@ -241,3 +235,9 @@ export function trace({ up = 2, open = 4, down = 3, from = 3, step = 0.01, sampl
 
 /** One whose shutter bounces, which no curve explains. */
 export const bouncing = (options = {}) => trace({ noise: 0.002, more: (t) => (t > 9.6 && t < 10.4 ? 0.3 * Math.sin((Math.PI * (t - 9.6)) / 0.8) : t > 3 && t < 4.4 ? -0.12 * Math.sin((Math.PI * (t - 3)) / 1.4) : 0), ...options });
+
+/** One whose amplifier stops at a share of its light. */
+export const clipped = (share = 0.6) => trace({ noise: 0.002 }).replace(/,([\d.]+)$/gm, (_, v) => `,${Math.min(Number(v), 0.1 + 2.4 * share).toFixed(4)}`);
+
+/** What is no trace that can be fitted as it is. */
+export const refused = () => Array.from({ length: 900 }, (_, i) => (i > 300 && i < 600 ? 1 : 0)).join('\n');

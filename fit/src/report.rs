@@ -210,7 +210,10 @@ pub fn because(fit: &Fit) -> String {
         ),
         Reason::Explains => "the simplest that explains the trace".into(),
         Reason::Criterion { effective } => {
-            format!("least BIC, from one shot of {} independent samples", trimmed(effective, 0))
+            format!(
+                "best for its number of parameters (BIC); {} independent samples",
+                trimmed(effective, 0)
+            )
         }
     }
 }

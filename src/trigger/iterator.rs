@@ -49,9 +49,9 @@ pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
+#[cfg(feature = "measure")]
 impl<const OCTAVES: usize> TriggerTicks<'_, OCTAVES> {
     /// Is trigger `i` of the frame placed without a search?
-    #[doc(hidden)]
     #[must_use]
     pub fn is_direct(&self, i: u32) -> bool {
         self.frame.is_direct(i)

@@ -65,6 +65,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     }
 
     /// Does trigger `i` need no search?
+    #[cfg(feature = "measure")]
     pub(crate) const fn is_direct(&self, i: u32) -> bool {
         i < self.n && self.inverse.direct_units(self.fraction(i, 0.0)).is_some()
     }

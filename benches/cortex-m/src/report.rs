@@ -21,8 +21,9 @@ float. *Cycles* are modelled (`benches/cortex-m/src/model.rs`) after the Cortex-
 branches and the fetch. Take them to be within 10 % at zero wait states, probably 1 to 4 % low; two wait states without a cache cost
 up to 1.4 times as much. [tried.md](tried.md) says how the model was chosen and held against boards.
 
-*Worst* is over the hard curves and cases of the tests, each with some 870 hard inputs: ends of sections, powers of two, and those of 20 000 that take most evaluations. Of triggers it is over a frame of 64, step by step and as a whole, and over first
-triggers near a hard input, on intervals of one to two million ticks. A refused frame costs no more.";
+*Worst* is over the hard curves and cases of the tests, each with some 870 hard inputs: ends of sections, powers of two, and those of
+20 000 that take most evaluations. Of triggers it is over a frame of 64, step by step and as a whole, and over first triggers near a hard
+input, on intervals of one to two million ticks. A refused frame costs no more.";
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
 const CALLS: [(&str, Function, usize); 15] = [

@@ -20,6 +20,7 @@ use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
+use crate::emit::module;
 use crate::fitted::{self, Zero};
 use crate::picture;
 use crate::plan::MOST_TRIGGERS;
@@ -179,21 +180,20 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     delay::pool(fits.filter_map(|fit| Some((fit.exposure.value, fit.delay.as_mut()?))));
 
     // What is refused from here on leaves the report.
-    let (mut told, mut shown_scene) = (String::new(), String::new());
-    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut told, &mut shown_scene);
-    let mut warnings = String::new();
+    let mut said = Said::default();
+    let ready = write(args, &mut speeds, &scenes, olds, outputs, &mut said);
+    let mut told = String::new();
     for Speed { name, warnings: of, .. } in &speeds {
         let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
-        warnings.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
+        told.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
     }
+    told += &said.kept;
     let report = match (args.report, speeds.as_slice()) {
         (Report::Json, speeds) => json(speeds),
         (_, [Speed { name, fit, .. }]) => {
             let text = shutter_fit::text(name, fit);
             match scenes.is_empty() {
-                true => {
-                    format!("{text}\nThe scene, which --out SCENE.toml writes:\n\n{shown_scene}")
-                }
+                true => text + "\nThe scene, which --out SCENE.toml writes:\n\n" + &said.scene,
                 false => text,
             }
         }
@@ -204,10 +204,10 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         Err(reason) => print(out, &report).and(Err(reason)),
     };
     if ended.is_ok() {
-        told += &next(&scenes);
+        told += &next(&scenes, &said.lacks);
     }
     // There is no one to tell if standard error cannot be written.
-    let _ = err.write_all((warnings + &told).as_bytes());
+    let _ = err.write_all(told.as_bytes());
     ended
 }
 
@@ -281,12 +281,12 @@ fn is_one_setting(
     let is_one = is_one && args.nominal.len() < n;
     if !is_one {
         let reason = match (&args.nominal[..], scenes, &args.picture) {
-            ([_], ..) => "--nominal: one speed",
-            (_, 1, _) => "--out: one scene; name a folder for one of each trace",
-            (.., Some(_)) => "--picture: one picture",
+            ([_], ..) => "--nominal: give a speed for each trace",
+            (_, 1, _) => "--out: name a folder for a scene of each trace",
+            (.., Some(_)) => "--picture: it is of one setting",
             _ => return Ok(false),
         };
-        return Err(format!("{reason}: the exposures differ by {differ} %"));
+        return Err(format!("{reason}; the exposures differ by {differ} %"));
     }
     if scenes > 1 {
         return Err(format!(
@@ -298,6 +298,17 @@ fn is_one_setting(
     Ok(true)
 }
 
+/// What is said of scenes.
+#[derive(Default)]
+struct Said {
+    /// What they keep of the older ones.
+    kept: String,
+    /// The keys that only their user can write.
+    lacks: Vec<&'static str>,
+    /// The one that goes to no file.
+    scene: String,
+}
+
 /// All that is written: scenes, with what is kept of the older ones, and a picture.
 fn write(
     args: &Args,
@@ -305,16 +316,21 @@ fn write(
     files: &[PathBuf],
     olds: Vec<Option<Old>>,
     mut outputs: Outputs,
-    told: &mut String,
-    shown_scene: &mut String,
+    said: &mut Said,
 ) -> Result<Ready, String> {
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
-            .map_err(|refusal| format!("{name}: {refusal}"))?;
+        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit)).map_err(
+            |refusal| match refusal {
+                Refusal::NoScene { reason } if reason.starts_with("triggers ") => {
+                    format!("{name}: {reason}; --triggers says how many")
+                }
+                _ => format!("{name}: {refusal}"),
+            },
+        )?;
         let Some(file) = files.get(i) else {
-            *shown_scene = scene.text;
+            said.scene = scene.text;
             continue;
         };
         if scene.zero != args.zero {
@@ -325,7 +341,12 @@ fn write(
             None => (scene.text, Vec::new()),
         };
         if !kept.is_empty() {
-            *told += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+            said.kept += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        }
+        for key in ["set_up", "timer_hz", "sync_falls"] {
+            if text.contains(&format!("\n# {key} = ")) && !said.lacks.contains(&key) {
+                said.lacks.push(key);
+            }
         }
         outputs.replace(file, mark::marked(mark::TOML, &text))?;
     }
@@ -337,15 +358,24 @@ fn write(
 }
 
 /// What to do with the scenes.
-fn next(scenes: &[PathBuf]) -> String {
-    let quoted = |path: &PathBuf| match path.display().to_string() {
+fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
+    if scenes.is_empty() || scenes.iter().any(|file| is_stream(file)) {
+        return String::new();
+    }
+    let quoted = |path: &Path| match path.display().to_string() {
         name if name.contains(char::is_whitespace) => format!(" '{name}'"),
         name => format!(" {name}"),
     };
-    match scenes.iter().any(|file| is_stream(file)) || scenes.is_empty() {
-        true => String::new(),
-        false => format!("next: shutter plan{}\n", scenes.iter().map(quoted).collect::<String>()),
-    }
+    let plan: String = scenes.iter().map(|scene| quoted(scene)).collect();
+    let to = match scenes {
+        [one] => quoted(&one.with_file_name(module(&stem(one)) + ".rs")),
+        _ => " shutters.rs".into(),
+    };
+    let first = match lacks {
+        [] => String::new(),
+        lacks => format!("write {} into the scene, then ", lacks.join(", ")),
+    };
+    format!("next: {first}shutter plan{plan} --emit rust --to{to}\n")
 }
 
 /// The scene that a fit wrote there, whatever was changed in it since.

@@ -139,7 +139,9 @@ fn of_user(lines: &str, keeps_delay: bool) -> String {
 
 /// A value as it is written, without a comment.
 fn value(item: &Item) -> String {
-    item.to_string().split('#').next().unwrap_or_default().trim().replace('_', "")
+    let text = item.to_string();
+    let text = text.split('#').next().unwrap_or_default().trim();
+    if item.is_str() { text.into() } else { text.replace('_', "") }
 }
 
 fn prefix(decor: &Decor) -> &str {

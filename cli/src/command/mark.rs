@@ -1,5 +1,7 @@
 //! The first line of a file that the program wrote: a checksum of the lines below, which tells whether anyone has changed them.
 
+use crate::emit::fnv;
+
 /// How a text has a comment on a line of its own: what begins it, and what ends it.
 pub type Comment = [&'static str; 2];
 
@@ -24,10 +26,9 @@ pub fn below(text: &str) -> Option<(&str, bool)> {
     Some((text, u32::from_str_radix(sum, 16) == Ok(checksum(text))))
 }
 
-/// Fowler, Noll and Vo's hash (FNV-1a) of a text, whatever ends its lines.
+/// Whatever ends the lines.
 fn checksum(text: &str) -> u32 {
-    let bytes = text.bytes().filter(|byte| *byte != b'\r');
-    bytes.fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+    fnv(text.bytes().filter(|byte| *byte != b'\r'))
 }
 
 #[cfg(test)]

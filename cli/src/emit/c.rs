@@ -1,6 +1,6 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{MADE_BY, comment, has_pulses, name, pulses, rows, ticks};
+use super::{MADE_BY, comment, fnv, has_pulses, name, pulses, rows, ticks};
 use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
@@ -134,7 +134,7 @@ fn names(scene: &str) -> (String, String) {
 
 /// The body, once; another one of the same name does not compile, rather than being left out in silence.
 fn guarded(upper: &str, lower: &str, body: &str) -> String {
-    let hash = fnv(body);
+    let hash = format!("0x{:08X}U", fnv(body.bytes()));
     format!(
         "#ifndef {upper}_SCHEDULE_H
 #define {upper}_SCHEDULE_H {hash}
@@ -145,10 +145,4 @@ fn guarded(upper: &str, lower: &str, body: &str) -> String {
 #endif
 "
     )
-}
-
-/// Fowler, Noll and Vo's hash (FNV-1a), as a literal of C.
-fn fnv(text: &str) -> String {
-    let step = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(16_777_619);
-    format!("0x{:08X}U", text.bytes().fold(2_166_136_261, step))
 }

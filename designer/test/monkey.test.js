@@ -1,0 +1,126 @@
+// Anything in any order: after each action the screen, the model and the address are of one state, and no doubt is left out.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { clipped, copied, drop, open, page, refused, setUp, settled, trace } from './harness.js';
+
+setUp();
+
+/** In the page: acts so many times, and tells what does not hold after an action. */
+async function play({ seed, count }) {
+  const random = (n) => (seed = (seed * 48271) % 2147483647) % n;
+  const $ = (id) => document.getElementById(id);
+  const pick = (list) => list[random(list.length)];
+  const { model, hash } = designer;
+  const input = (id, value, isLeft = random(2)) => {
+    $(id).closest('details')?.setAttribute('open', '');
+    $(id).focus();
+    $(id).value = value;
+    $(id).dispatchEvent(new Event('input', { bubbles: true }));
+    if (isLeft) $(id).blur();
+  };
+  const handles = () => [...document.querySelectorAll('g.handle')].filter((it) => it.style.display !== 'none');
+  const drag = () => {
+    const handle = pick(handles());
+    handle.setPointerCapture = () => {};
+    const { x, y, width, height } = handle.lastChild.getBoundingClientRect();
+    const send = (type, dx, dy) => handle.dispatchEvent(new PointerEvent(type, { bubbles: true, pointerId: 1, button: 0, clientX: x + width / 2 + dx, clientY: y + height / 2 + dy }));
+    const [dx, dy] = [random(900) - 450, random(600) - 300];
+    send('pointerdown', 0, 0);
+    for (const part of [0.3, 0.7, 1]) send('pointermove', part * dx, part * dy);
+    send(pick(['pointerup', 'pointerup', 'pointercancel']), dx, dy);
+  };
+  const key = (target, name, more) => target.dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, ...more }));
+  const numbers = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'nominal', 'delay', 'delay_spread', 'open_start', 'open_end', 'close_start', 'close_end', 't1', 'y2', 't5', 'y6'];
+  const values = ['1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '12.5', '1e6', '1e300', '1/125', '16', '12 000 us', '32.768 kHz', '0', '40'];
+  const actions = {
+    drag, preset: () => pick([...$('presets').children].slice(0, 4)).click(), unit: () => input('unit', pick(['s', 'ms', 'µs', 'ns'])),
+    lamp: () => $('lamp').disabled || input('lamp', pick(['', 'pulse', 'duty'])), straight: () => $('straight').click(), name: () => input('name', `n${random(1000)}`),
+    arrows: () => key(pick(handles()), pick(['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'Home', 'End', 'PageUp']), { shiftKey: !random(4) }),
+    slider: () => input('flashes', String(random(56))), number: () => input(pick(numbers), pick(values)), another: () => input(pick(numbers), pick(values)),
+    undo: () => key(window, 'z', { ctrlKey: true }), redo: () => key(window, 'y', { ctrlKey: true }),
+    remedy: () => pick([...document.querySelectorAll('#problem button, #by-hand button')])?.click(),
+  };
+  const faults = [], done = {};
+  for (let i = 0; i < count; i++) {
+    const name = pick(Object.keys(actions));
+    done[name] = (done[name] ?? 0) + 1;
+    actions[name]();
+    // Fields are written once the focus is elsewhere.
+    await new Promise((done) => setTimeout(done));
+    const fault = (words) => faults.push(`${i} ${name}: ${words}`);
+    const { now: { scene, trace }, view, last, wrong } = model;
+    const all = { open_start: 0, open_end: 1, close_start: 2, close_end: 3 };
+    for (const id of [...Object.keys(all), 'triggers', 'timer_hz', 'min_gap', 'delay', 'nominal']) {
+      const value = all[id] === undefined ? scene[id] : scene.times[all[id]];
+      if (wrong?.id !== id && document.activeElement !== $(id) && $(id).value !== String(value ?? '')) fault(`${id} shows ${$(id).value}, is ${value}`);
+    }
+    if (Boolean(view) && wrong && $('problem').hidden) fault('what is wrong is not told');
+    if (view) {
+      const told = Number(/^Exposure([\d.e+-]+)/.exec($('facts').querySelector('dl').textContent)?.[1]);
+      const isFitted = trace && told === Number(trace.fit.told.split(' ')[0]);
+      const per = { s: 1, ms: 1e3, µs: 1e6, ns: 1e9 }[scene.unit];
+      if (!isFitted && !scene.measured && !(Math.abs(told / (per * last.exposure) - 1) < 1e-4)) fault(`the facts tell ${told}, it is ${per * last.exposure}`);
+      for (const { text } of scene.doubts) if (!$('facts').textContent.includes(text)) fault(`no doubt: ${text}`);
+      const [a, b, c, d] = last.times;
+      if (!(a <= b && b <= c && c <= d)) fault(`out of order: ${last.times}`);
+      for (const it of handles().filter((it) => it.matches('.control'))) {
+        const [now, least, most] = ['now', 'min', 'max'].map((name) => Number(it.getAttribute(`aria-value${name}`)));
+        if (!(now >= least - 1e-4 * Math.abs(least) - 1e-9 && now <= most + 1e-4 * Math.abs(most) + 1e-9)) fault(`${it.id} is at ${now}, not in ${least} to ${most}`);
+      }
+    }
+    if (wrong && !$('copy').disabled) fault('a plan is offered that there is not');
+    if (i % 10 === 9) {
+      // Undone, what is half typed goes; then the address is that of the screen.
+      while (model.isDraft && !$('undo').disabled) $('undo').click();
+      for (let k = 0; k < 100 && location.hash !== hash(model.now); k++) await new Promise((done) => setTimeout(done, 20));
+      if (location.hash !== hash(model.now)) fault(`the address is ${location.hash}, the screen ${hash(model.now)}`);
+    }
+  }
+  return { faults, done };
+}
+
+/** All that a person sees of the scene, to the bit. */
+const seen = () => page.evaluate(() => ({
+  numbers: [...document.querySelectorAll('#numbers input, #numbers select')].map((it) => [it.id, it.type === 'checkbox' ? it.checked : it.value]),
+  curve: document.querySelector('#graph path.curve').getAttribute('d'),
+  handles: [...document.querySelectorAll('g.handle')].map((it) => it.getAttribute('transform')),
+  pressed: [...document.querySelectorAll('[aria-pressed=true]')].map((it) => it.dataset.name),
+  facts: document.getElementById('facts').textContent, address: designer.hash(designer.model.now),
+}));
+
+/** All steps back or forth. */
+const goAll = (way) => page.evaluate((way) => {
+  let steps = 0;
+  for (const button = document.getElementById(way); !button.disabled && steps < 2000; steps++) button.click();
+  return steps;
+}, way);
+
+for (const seed of [7, 2026]) {
+  test(`anything in any order, from ${seed}`, { timeout: 300_000 }, async () => {
+    await open('');
+    const first = await seen();
+    for (const [round, files] of [[], [['good.csv', trace()]], [['bad.csv', refused()]], [['clipped.csv', clipped()]], [['TEK.csv', trace({ open: 1.5 })], ['TEK.csv', trace({ open: 5.5 })]]].entries()) {
+      if (files.length) {
+        await drop(...files);
+        await page.until(() => !designer.model.busy && (designer.model.note || designer.model.pending || designer.model.now.trace || designer.model.now.speeds));
+      }
+      if (files.length > 1) await page.click('#speeds-close');
+      const { faults, done } = await page.evaluate(play, { seed: seed + round, count: 60 });
+      assert.deepEqual(faults, []);
+      assert.ok(Object.keys(done).length > 10, JSON.stringify(done));
+      if (await page.evaluate(() => Boolean(designer.model.view?.plan.Ok && !designer.model.now.scene.untold))) {
+        const { triggers, doubts = [] } = JSON.parse(await copied('json'));
+        const { ticks, told } = await page.evaluate(() => ({ ticks: designer.model.view.plan.Ok.ticks, told: designer.model.now.scene.doubts.map((it) => it.text) }));
+        assert.deepEqual([triggers.map((it) => it.ticks), doubts], [ticks, told]);
+      }
+    }
+    const last = (await goAll('redo'), await seen());
+    const steps = await goAll('undo');
+    assert.ok(steps > 50, String(steps));
+    assert.deepEqual(await seen(), first);
+    assert.equal(await goAll('redo'), steps);
+    assert.deepEqual(await seen(), last);
+    await settled();
+  });
+}
