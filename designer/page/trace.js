@@ -151,7 +151,7 @@ const isNewTrace = watch();
 /** Draws how the model's trace is read. */
 export function drawTrace({ now: { scene, trace }, pending }) {
   const isHand = trace && !isSameShape(trace.scene, scene);
-  if (isNewTrace(trace, pending, scene.unit, isHand)) render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
+  if (isNewTrace(trace, pending, scene.unit, scene.triggers, isHand)) render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
 }
 
 function panel(shown, trace, pending, isHand, scene) {
@@ -218,10 +218,10 @@ function readingForm({ file, asked, measured: { names, read }, fit }) {
   </fieldset>`;
 }
 
-function details(fit, { unit }) {
+function details(fit, { unit, triggers }) {
   const per = perSecond(unit);
   const lines = fit.triggers.map(([t, error], i) => `${i}  ${short(t * per, 7)} ± ${short(error * per, 2)}`);
-  return html`<details><summary>The ${fit.triggers.length} times by the ${fit.own ? 'trace' : 'curve'}, with their errors</summary>
-      <pre tabindex="0">#  ${unit} after the start of opening, with standard error\n${lines.join('\n')}</pre></details>
-    <details id="report"><summary>The whole report</summary><pre tabindex="0">${fit.report}</pre></details>`;
+  const times = fit.triggers.length !== triggers ? nothing : html`<details><summary>The ${fit.triggers.length} times by the ${fit.own ? 'trace' : 'curve'}, with their errors</summary>
+      <pre tabindex="0">#  ${unit} after the start of opening, with standard error\n${lines.join('\n')}</pre></details>`;
+  return html`${times}<details id="report"><summary>The whole report</summary><pre tabindex="0">${fit.report}</pre></details>`;
 }

@@ -159,7 +159,7 @@ test('what is told goes when its cause goes, and a hand ends no fit', async () =
   await page.fill('#open_end', '2.25');
   assert.equal(await page.text('#told'), '');
   await drop(['diary.csv', 'dear diary\nnothing\n']);
-  await page.says('diary.csv');
+  await page.until(() => designer.model.pending);
   await page.fill('#open_end', '2.5');
   assert.ok(!(await page.isSeen('#problem')));
   await page.fill('#timer_hz', '333333.4');

@@ -156,6 +156,12 @@ test('handles in one place can each be taken, and keys move each within its box'
   assert.equal(await page.value('#open_end'), '50');
   await open();
   const at = (name) => page.evaluate((name) => ['min', 'now', 'max'].map((part) => Number(document.getElementById(`handle-${name}`).getAttribute(`aria-value${part}`))), name);
+  // Pulled out of its box it slides along its side.
+  await drag('t1', 40, 200);
+  await page.mouse.up();
+  assert.equal(await page.value('#y1'), '0');
+  assert.ok(Number(await page.value('#t1')) > 0.13, await page.value('#t1'));
+  await page.click('#undo');
   await page.focus('#handle-open_end');
   for (const [key, now] of [['End', 7.5], ['ArrowRight', 7.5], ['Home', 0], ['PageUp', 1], ['PageDown', 0]]) {
     await page.press(key);
