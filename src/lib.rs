@@ -1,8 +1,8 @@
-//! A camera shutter's openness over time as a probability density, and its exact inverse CDF: when has a given fraction
-//! of the exposure been collected? In `f32`, without `std`, allocation or dependencies.
+//! Tells when a camera's shutter has collected any fraction of its exposure, so that firmware can fire flashes with
+//! equal shares of it. In `f32`, without `std`, allocation or dependencies.
 //!
-//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. Firmware fires
-//! strobes or pulses at its ticks, so that each gets an equal share of the light.
+//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. Its openness over
+//! time is taken as a probability density, and the integral of that is inverted.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, valid};
@@ -66,8 +66,8 @@
 //!
 //! # Features and minimum Rust
 //!
-//! Both features are off by default: `heapless-v0_9` for a schedule in a `heapless::Vec`, `defmt` for `Format` of the
-//! public types. The crate needs Rust 1.88; a higher minimum is a new minor version.
+//! Both features are off by default: `heapless-v0_9` for a frame in a `heapless::Vec`, `defmt` for `Format` of the
+//! public types. The crate needs Rust 1.88; raising the minimum bumps the minor version.
 //!
 //! [`new`]: ShutterCurve::new
 //! [`linear`]: ShutterCurve::linear

@@ -370,8 +370,9 @@ fn a_sync_may_have_a_file_of_its_own() {
     rows.iter_mut().for_each(|row| row[0] += 2.5e-6);
     folder.write("later.csv", channel("CH2", 2, &rows));
     let other = folder.0.join("2.csv");
-    let [one, two] = ["both.csv --sync CH2".into(), format!("1.csv --sync {}", other.display())]
-        .map(|args| folder.json(&args));
+    let [one, two] =
+        ["both.csv --sync CH2".into(), format!("1.csv --columns CH1 --sync {}", other.display())]
+            .map(|args| folder.json(&args));
     for key in ["delay_s", "delay_spread_s", "exposure_s", "sync_threshold"] {
         assert!((number(&one, key) - number(&two, key)).abs() < 1e-3 * number(&one, key), "{key}");
     }

@@ -25,6 +25,7 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
     let step = fits.step * fits.units.pulse();
     // What a capacitor bends may pass for a hum.
     let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
+    let is_pulsed = fit.warnings.iter().any(|w| matches!(w, Warning::Pulsed { .. }));
     let doubts = [
         clipped(fit).or_else(|| saturated(fit, fits)),
         if is_bent { None } else { hum(fit, fits) },
@@ -32,7 +33,7 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
         if frame.is_cut { cut_tail(fit, fits) } else { None },
         slow_tail(fit, fits),
         drift(fit, fits),
-        lost_ramps(fit, fits.correlation, frame, step),
+        if is_pulsed { None } else { lost_ramps(fit, fits.correlation, frame, step) },
         if full_is_given { None } else { no_plateau(fit) },
         misfit(fit),
         wide_error(fit),

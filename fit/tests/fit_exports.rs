@@ -221,7 +221,7 @@ const EXPORTS: &[Export] = &[
     ("Arduino, micros()", "micros()\tanalogRead(A0)\n", "{us}\t{adc}", 2, "in µs, by its name", ""),
     ("Arduino, the time behind", "adc,t_us\n", "{adc},{us}", 1, "in µs, by its name", ""),
     ("Arduino's plotter", "", "Time:{ms},Light:{adc}", 0, "Time:6.0000", ""),
-    ("Teensy, bare", "", "{us} {adc}", 2, "in s, assumed", "unit_assumed"),
+    ("Teensy, bare", "", "{us} {adc}", 0, "counts without a unit", ""),
     ("ESP32", "esp_timer_us;adc_mV\n", "{us};{adc}", 2, "in µs, by its name", ""),
     ("STM32, ticks", "ticks,adc\n", "{us},{adc}", 0, "\"ticks\"", ""),
     ("Octave", "# Created by Octave 8.4\n# name: A\n# type: matrix\n# rows: 1200\n# columns: 2\n", " {T} {e}", 2, "in s, assumed",

@@ -288,6 +288,31 @@ fn segments_whose_times_begin_anew_are_shots() {
     assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
 }
 
+/// A timer of 16 or 32 bits that begins anew goes on; nobody counts seconds by the hundred; a number may be a name.
+#[test]
+fn a_timers_count_and_a_channels_number_are_not_misread() {
+    for (bits, tick) in [(16, 50), (32, 10)] {
+        let first = (1u64 << bits) - 600 * tick;
+        let rows = rows(|i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % (1 << bits)));
+        let (fit, _, codes) = doubted(&format!("micros,adc\n{rows}"), None);
+        let truth = 500e-6 * tick as f64;
+        assert!(
+            codes.is_empty() && (fit.exposure.value / truth - 1.0).abs() < 2e-3,
+            "{codes:?} {:?}",
+            fit.exposure
+        );
+    }
+    let timer = with("time,adc\n", |i, _, v| format!("{},{v:.4}", 212 * i));
+    let said = read(timer.as_bytes(), &trace::Options::default()).unwrap_err();
+    assert!(said.contains("\"time\" counts without a unit"), "{said}");
+    let keysight =
+        with("x-axis,1,2\nsecond,Volt,Volt\n", |_, t, v| format!("{t:.6},{v:.5},{:.2}", gate(t)));
+    for (name, is_read) in [("2", false), ("2 Volt", true), ("3", true)] {
+        let options = trace::Options { sync: Some(Column::parse(name)), ..Default::default() };
+        assert_eq!(open(keysight.as_bytes(), &options).is_ok(), is_read, "{name}");
+    }
+}
+
 #[test]
 fn rounded_times_are_spread_and_doubted() {
     let mut random = Random::new(21);

@@ -58,7 +58,8 @@ impl<'a> Read<'a> {
             _ => None,
         };
         let Recording { trace, timing, sync: channel, mut reading, mut warnings } =
-            open(args, path, column).map_err(|reason| format!("{}: {reason}", shown(path)))?;
+            open(args, path, &args.columns, column)
+                .map_err(|reason| format!("{}: {reason}", shown(path)))?;
         let sync = match sync {
             Some(Asked::Time(_)) if reading.is_counted() => {
                 return Err(format!(
@@ -70,7 +71,11 @@ impl<'a> Read<'a> {
             Some(Asked::Time(time)) => Some(Sync::Edge(*time)),
             Some(Asked::File(file)) => {
                 let told = |reason: String| format!("{}: {reason}", shown(file));
-                let other = open(args, file, None).map_err(told)?;
+                // Its names are its own.
+                let is_number = |column: &String| column.trim().parse::<usize>().is_ok();
+                let columns =
+                    if args.columns.iter().all(is_number) { &args.columns[..] } else { &[] };
+                let other = open(args, file, columns, None).map_err(told)?;
                 same_record(&trace, &other).map_err(told)?;
                 let (number, name) = other.reading.signal;
                 let name = name.map_or(String::new(), |name| format!("{name} of "));
@@ -122,8 +127,13 @@ pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning
     }
 }
 
-fn open(args: &Args, path: &Path, sync: Option<Column>) -> Result<Recording, String> {
-    let columns = args.columns.iter().map(|column| Column::parse(column)).collect();
+fn open(
+    args: &Args,
+    path: &Path,
+    columns: &[String],
+    sync: Option<Column>,
+) -> Result<Recording, String> {
+    let columns = columns.iter().map(|column| Column::parse(column)).collect();
     let options = trace::Options {
         unit: args.unit,
         columns,

@@ -182,11 +182,25 @@ impl Columns<'_> {
         runs(&self.table.spread[k])
     }
 
+    /// The column with a name that is no more than this.
+    fn named_exactly(&self, column: &Column) -> Option<usize> {
+        (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string())
+    }
+
     /// The sync's column, which is not asked for as another.
     fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
         let refused = |reason: String| Err(Refusal::NoDelay { reason });
         match self.table.column(column) {
             Err(refusal) => refused(format!("{refusal}; a time has a unit, as in 1.5ms")),
+            // A number may be a name as well.
+            Ok(k) if self.named_exactly(column).is_some_and(|named| named != k) => {
+                let named =
+                    self.named_exactly(column).map_or(String::new(), |named| self.name(named));
+                refused(format!(
+                    "'{column}' is the number of column {}, and the name of column {named}; give the whole name",
+                    self.name(k)
+                ))
+            }
             Ok(k) if self.runs(k) => refused(format!("column {} holds times", self.name(k))),
             Ok(k) if asked.contains(&k) => {
                 refused(format!("column {} is the signal's", self.name(k)))
@@ -310,7 +324,11 @@ impl Columns<'_> {
         if let (Some((words, unit)), false) = (settings.unit.clone(), self.counts(k)) {
             return Ok((Time::Column(k, unit), Told::Header(words)));
         }
-        if self.counts(k) {
+        // Whole numbers with more than one between them are a timer's, and that hardly counts seconds.
+        let first = &self.table.first[k];
+        let is_timer = first.iter().all(|t| t.fract() == 0.0)
+            && !first.windows(2).any(|pair| (pair[1] - pair[0]).abs() == 1.0);
+        if self.counts(k) || is_timer {
             let quoted = settings.unread.clone();
             return Err(Refusal::Counter { name: self.name(k), quoted });
         }

@@ -153,7 +153,11 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     }
     let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0);
     if longest < FEWEST_LIT {
-        return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT });
+        return Err(Refusal::ShortPulse {
+            samples: longest,
+            required: FEWEST_LIT,
+            pulses: runs.len(),
+        });
     }
     let frames = frames(&trace, &share, &runs, levels, &mut warnings)?;
     if inverted && light == Light::Auto {

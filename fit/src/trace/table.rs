@@ -137,7 +137,8 @@ impl<'a> Table<'a> {
     pub fn new(text: &'a str) -> Result<Self, Refusal> {
         for (i, line) in text.lines().enumerate() {
             if line.len() > LONGEST_LINE {
-                let reason = format!("line {} is {} bytes long", i + 1, line.len());
+                let json = if line.starts_with(['{', '[']) { ", as JSON is" } else { "" };
+                let reason = format!("line {} is {} bytes long{json}", i + 1, line.len());
                 return Err(Refusal::NotCsv { reason });
             }
         }

@@ -4,6 +4,7 @@
 use super::samples::{Trace, median};
 use super::table::Table;
 use super::told::Warning;
+use crate::unit::Unit;
 
 /// A row's sample.
 #[derive(Clone, Copy)]
@@ -41,6 +42,35 @@ const OFTEN: usize = 20;
 const STAYS: usize = 4000;
 const USUAL: f64 = 1000.0;
 
+/// Goes on where a timer of so many bits began anew at 0, if it is no segment that does.
+fn unwrap(rows: &mut [Sample]) {
+    let Some(step) =
+        rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0)
+    else {
+        return;
+    };
+    for whole in [1u64 << 16, 1 << 32]
+        .iter()
+        .flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)))
+    {
+        let wraps = |pair: &[Sample]| {
+            pair[1].time < pair[0].time
+                && (0.0..5.0 * step).contains(&pair[1].time)
+                && (0.0..5.0 * step).contains(&(whole - pair[0].time))
+        };
+        if rows[0].time < 5.0 * step || !rows.windows(2).any(|pair| wraps(pair)) {
+            continue;
+        }
+        let (mut later, mut before) = (0.0, rows[0]);
+        for row in rows.iter_mut() {
+            later += if wraps(&[before, *row]) { whole } else { 0.0 };
+            before = *row;
+            row.time += later;
+        }
+        return;
+    }
+}
+
 /// Puts segments whose times begin anew one after the other, and tells where they are.
 fn apart(rows: &mut [Sample]) -> Vec<(f64, f64)> {
     let (mut starts, mut longest) = (vec![0], 0.0);
@@ -48,8 +78,8 @@ fn apart(rows: &mut [Sample]) -> Vec<(f64, f64)> {
         let start = starts[starts.len() - 1];
         let length = rows[k - 1].time - rows[start].time;
         longest = f64::max(longest, length);
-        let begins =
-            rows[k].time < rows[k - 1].time && rows[k].time <= rows[start].time + 0.1 * length;
+        let begins = rows[k].time < rows[k - 1].time
+            && (-1.0..0.1).contains(&((rows[k].time - rows[start].time) / length));
         if begins && length > 0.0 && k - start >= FEWEST {
             starts.push(k);
         }
@@ -117,6 +147,7 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
 
 /// The samples in order, those of the same time averaged, and what is known of the times.
 pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Timing) {
+    unwrap(&mut rows);
     let mut timing = Timing { segments: apart(&mut rows), ..Timing::default() };
     if let Some(pair) = rows.windows(2).find(|pair| pair[1].time < pair[0].time) {
         warnings.push(Warning::Unsorted { line: pair[1].line });

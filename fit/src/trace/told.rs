@@ -80,10 +80,15 @@ pub enum Refusal {
     NoPulse { contrast: f64 },
     /// The pulse has so few samples that its shape cannot be told.
     #[error(
-        "the pulse has {}, and at least {required} are required to tell its shape; sample faster, or zoom in",
-        counted(.samples, "sample")
+        "the pulse has {}, and at least {required} are required to tell its shape; {}",
+        counted(.samples, "sample"),
+        if *.pulses > 2 {
+            "so many pulses may be those of a lamp that is switched on and off (PWM): use a steady one, or sample faster"
+        } else {
+            "sample faster, or zoom in"
+        }
     )]
-    ShortPulse { samples: usize, required: usize },
+    ShortPulse { samples: usize, required: usize, pulses: usize },
     /// Every pulse is cut off: the first samples or the last ones are not dark.
     #[error(
         "no whole pulse: the trace {} in the pulse; record some of the dark {} it as well ({})",
@@ -125,7 +130,12 @@ pub enum Refusal {
     Undetermined,
     /// No scene can be written that can be planned.
     #[error(
-        "no scene can be made of this: {reason}; look at the trace: is there one rise, one plateau at most, one fall?"
+        "no scene can be made of this: {reason}; {}",
+        if reason.contains("triggers keep") {
+            "--triggers says how many"
+        } else {
+            "look at the trace: is there one rise, one plateau at most, one fall?"
+        }
     )]
     NoScene { reason: String },
 }
@@ -373,11 +383,11 @@ pub enum Warning {
     WideError { share: f64 },
     /// Samples are missing in the pulse or beside it: the longest gap's ends.
     #[error(
-        "samples are missing at {} in the pulse or beside it, the longest gap from {} to {} s: what the shutter did \
+        "samples are missing at {} in the pulse or beside it, the longest from {} to {} s: what the shutter did \
          there is not known; record it again",
         counted(.count, "place"),
-        time(.from),
-        time(.to)
+        short(*.from, 7),
+        short(*.to, 7)
     )]
     Gap { count: usize, from: f64, to: f64 },
     /// So few samples, or so much noise, that the test of the fit is blind for a dip of this share for a fifth of the pulse.
