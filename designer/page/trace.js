@@ -12,7 +12,7 @@ import { cancelFit, fitTrace, parseScene } from './studio.js';
 /** Longer files are not read. */
 const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 /** What the button beside a message says, which leads to the control that mends it. */
-const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose the sync' };
+const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel' };
 
 /** Begins: files are chosen or dropped. */
 export function startTraces() {
@@ -170,8 +170,8 @@ function panel(shown, trace, pending, isHand, scene) {
       ${pending ? html`<button type="button" @click=${() => tell({ note: null, pending: null })}>Close</button>` : nothing}</span>`;
 }
 
-// A button that leads to what mends a doubt.
-const leads = (mend) => mend && html`<button type="button" @click=${() => {
+/** A button that leads to what mends a doubt. */
+export const leads = (mend) => mend && html`<button type="button" @click=${() => {
   $('reading').open = true;
   $('reading').querySelector(`[name=${mend}]`)?.focus();
 }}>${MEND[mend]}</button>`;

@@ -115,6 +115,7 @@ test('what is advised is the number that was meant', async () => {
   for (const [id, text, words] of [
     ['open_end', '12 000 us', 'write 12000 us'], ['open_end', '1 1/2 s', 'write 1.5 s'], ['open_end', '1,500 ms', 'may be 1.5 ms or 1500 ms'], ['open_end', '1/1 000', 'write 1/1000'],
     ['timer_hz', '1.000 Hz', 'may be 1 Hz or 1000 Hz'], ['timer_hz', '1 5', 'is no number'],
+    ['min_gap', '1.000,5', 'write 1000.5'], ['timer_hz', '1\u202f500', 'write 1500'], ['open_end', '1,234.5', 'write 1234.5'], ['open_end', '2 kHz', 'has an unknown unit'],
   ]) {
     await page.fill(`#${id}`, text);
     assert.ok((await page.text('#problem')).includes(words), `${text}: ${await page.text('#problem')}`);
