@@ -701,6 +701,11 @@ test('several traces are a table alone, which prints, and a link that holds it',
   await page.emulateMediaType('print');
   assert.ok((await page.isSeen('#speeds')) && !(await page.isSeen('#begin')) && !(await page.isSeen('#speeds-link')));
   await page.emulateMediaType('screen');
+  // A trace that is refused is told of; closed, the table is there again.
+  await drop(['bad.csv', refused()]);
+  await page.until(() => designer.model.pending);
+  assert.ok(await page.isSeen('#trace .wrong'));
+  await page.$$eval('#trace button', (all) => all.at(-1).click());
   await page.push('125.csv');
   await fitted('125.csv');
   await open(link.slice(url.length));
