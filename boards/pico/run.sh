@@ -8,6 +8,8 @@ cd "$(dirname "$0")"
 
 command -v npm >/dev/null || { echo "pico: missing node and npm, version 18 or later, for the emulator" >&2 && exit 1; }
 echo "pico: building the firmware ..." >&2
+# Else cargo takes for this firmware what a copy of this folder has built in the same target folder.
+touch src/main.rs
 cargo build --quiet --locked --release
 [ emulator/node_modules/.package-lock.json -nt emulator/package-lock.json ] ||
     (cd emulator && npm ci --no-audit --no-fund --loglevel error >&2)

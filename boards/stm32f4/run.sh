@@ -8,6 +8,8 @@ cd "$(dirname "$0")"
 
 folder=$(cargo metadata --no-deps --format-version 1 | sed -n 's/.*"target_directory":"\([^"]*\)".*/\1/p')
 echo "stm32f4: building the firmware ..." >&2
+# Else cargo takes for this firmware what a copy of this folder has built in the same target folder.
+touch src/main.rs
 cargo build --quiet --locked --release
 python=$folder/unicorn/bin/python
 if ! "$python" -c 'import unicorn' 2>/dev/null; then

@@ -117,7 +117,12 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
 fn set_ups(planned: &Planned) -> Vec<String> {
     let emulated = "set_up = \"emulated\"  # the camera's own shutter stays open";
     let in_path = "set_up = \"in_path\"   # this shutter is in the light's path";
-    let Some(plan) = planned.plan() else { return vec![emulated.into()] };
+    let Some(plan) = planned.plan() else {
+        return vec![
+            emulated.into(),
+            "                     # in the light's path it needs a curve: `shutter fit --model free`".into(),
+        ];
+    };
     match plan.lamp {
         Lamp::Doses { .. } => vec![format!("{in_path}; duty is for that alone")],
         Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
@@ -198,6 +203,16 @@ fn rows(items: impl Iterator<Item = String>) -> String {
         row += &format!(" {item},");
     }
     if row.is_empty() { text } else { text + &format!("   {row}\n") }
+}
+
+/// What the delay is, as a module or a header says it.
+fn delay(plan: &Planned) -> &'static str {
+    match plan.lag() {
+        Some(_) => {
+            "From the edge of the camera's sync to the start of opening, less the lamp's lag."
+        }
+        None => "From the edge of the camera's sync to the start of opening.",
+    }
 }
 
 fn has_pulses(plan: &Planned) -> bool {

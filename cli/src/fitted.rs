@@ -158,13 +158,13 @@ fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
     let nominal = fit.nominal.map(|it| format!("nominal = {}\n", short(unit.of(it), 7)));
     let in_path = match has_curve {
         true => {
-            "# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes\n"
+            "\n# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes"
         }
-        false => "",
+        false => "; in the light's path it needs a curve (--model free)",
     };
     format!(
-        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter does\n\
-         {in_path}# timer_hz = ... # your timer's rate, in Hz\n\
+        "# set_up = \"emulated\" # the camera's own shutter stays open, and equal flashes expose as this shutter does{in_path}\n\
+         # timer_hz = ... # your timer's rate, in Hz\n\
          min_gap = 0 # {}, what your lamp needs between two flashes\n{}",
         unit.name(),
         nominal.unwrap_or_default()

@@ -137,6 +137,9 @@ fn what_is_for_the_other_set_up_is_refused() {
     let reason = |keys: &str| Planned::parse(&format!("{times}{keys}")).err().unwrap().reason;
     assert!(reason("set_up = 'in_path'\n").contains("comes from its curve"));
     assert!(reason("fully_open = true\n").contains("this scene has none"));
+    // Nobody is left with the one set-up that is offered.
+    let asked = emit(Form::C, "times", &Planned::parse(times).unwrap(), false).unwrap_err();
+    assert!(asked.contains("in the light's path it needs a curve"), "{asked}");
 }
 
 /// A lamp that shines late is triggered as much earlier: from the edge as from the opening.
@@ -165,6 +168,11 @@ fn a_lamps_lag_is_taken_off() {
         text.contains("lamp lag     0.7 ms: the lamp is triggered so much earlier\n"),
         "{text}"
     );
+    let late = format!("{HARDWARE}triggers = 4\n{delay}lamp_lag = 0.7\n");
+    for form in [Form::Rust, Form::C] {
+        let text = emit(form, "scene", &planned(&late), false).unwrap();
+        assert!(text.contains(" to the start of opening, less the lamp's lag."), "{text}");
+    }
     // Pulses, and below times without a curve.
     let keys = "triggers = 1\nlamp_lag = 1\npulse = 1\n";
     let pulse = json(&planned(&format!("{HARDWARE}{keys}")));

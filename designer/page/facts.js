@@ -4,6 +4,7 @@ import { html, nothing, render } from './lit-html.js';
 import { $, watch, write } from './dom.js';
 import { change, model } from './model.js';
 import { rms } from './graph.js';
+import { leads } from './trace.js';
 import { inUnit, isSameShape, perSecond, short } from './scene.js';
 
 // A speed as a dial has it: from a third of a second on, seconds are what it shows.
@@ -58,7 +59,9 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
   else if (!scene.measured) line('Times', `T1 ${short((b - a) * per)}, T2 ${short((c - b) * per)}, T3 ${short((d - c) * per)}${plan ? `; TE ${short(plan.half_open * per)}` : ''}; TOT ${of(d - a)}`, 'times');
   if (exposure !== null) line('Efficiency', fit ? fit.efficiency : `${short(100 * last.efficiency, 4)} %`, 'efficiency');
   if (fit) line('Test', fit.own ? 'no curve explains the trace: the flashes are at the trace’s own times' : !fit.explained ? 'no curve explains the trace' : fit.tested ? 'the curve explains the trace' : 'untested', 'test');
-  line('Sync', fit?.delay ?? (scene.delay === null ? 'no delay known' : `${short(scene.delay, 7)} ${scene.unit} before it opens${plan && scene.timer_hz !== null ? `: ${plan.delay} ticks` : ''}`), 'delay');
+  // A channel that may be the sync's is asked for.
+  const ask = fit && trace.file && trace.measured.names.length > 2 && !trace.asked.sync ? leads('sync') : nothing;
+  line('Sync', fit?.delay ?? (scene.delay === null ? html`no delay known ${ask}` : `${short(scene.delay, 7)} ${scene.unit} before it opens${plan && scene.timer_hz !== null ? `: ${plan.delay} ticks` : ''}`), 'delay');
   line('Set-up', { emulated: 'emulated: the camera’s own shutter stays open', in_path: 'in the path: this shutter dims the lamp' }[scene.set_up] ?? 'not said yet');
   line('Timer', scene.timer_hz === null ? 'not given: times alone' : rate(scene.timer_hz));
   line('Flashes', !plan ? `${scene.triggers}, not planned` : plan.most ? `${scene.triggers}; up to ${plan.most} fit` : `${scene.triggers}, as measured`);

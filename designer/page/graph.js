@@ -296,7 +296,8 @@ export class Graph {
     const scale = samples ? (this.zoom() * this.height) / (this.high - this.low) : 0;
     const half = 0.5 * (RESIDUAL - 20), middle = this.bottom + 20 + half;
     set(paths.residual, samples ? `${points(([, , r]) => middle - Math.min(Math.max(scale * r, -half), half))}M${LEFT} ${middle}H${LEFT + this.width}` : '');
-    set(paths.errors, (isFitted ? fit.triggers : []).map(([t, error]) => {
+    // Of another number of flashes the fit has not told the errors.
+    set(paths.errors, (isFitted && fit.triggers.length === this.scene.triggers ? fit.triggers : []).map(([t, error]) => {
       const y = f(this.y(openness(view, t)));
       return `M${f(X(t - error))} ${y}H${f(X(t + error))}m0 -5v10M${f(X(t - error))} ${Number(y) - 5}v10`;
     }).join(''));

@@ -41,6 +41,7 @@ function drawState({ now: { scene, trace }, pending, view, last, canUndo, canRed
   document.body.classList.toggle('stale', !view);
   document.body.classList.toggle('unplanned', !view?.plan.Ok);
   document.body.classList.toggle('answered', Boolean(trace || pending));
+  document.body.classList.toggle('refused', Boolean(pending));
   $('undo').disabled = !canUndo;
   $('redo').disabled = !canRedo;
   document.querySelector('h1').dataset.name = scene.name;

@@ -78,7 +78,7 @@ export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
   const until = isPlaying ? cursor : Infinity;
   if (isDeveloped(view, scene.measured, until)) develop(scene, view, until);
   const [start, end] = [list[0][0], list.at(-1)[0]];
-  const n = flashes.length;
+  const n = flashes.length, { plan } = view;
   pictures.forEach((image, i) => {
     const context = $(i ? 'flashed' : 'ideal').getContext('2d');
     context.fillStyle = `rgb(${NIGHT})`;
@@ -101,7 +101,7 @@ export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
     if (i && n <= 120) for (let k = 1; k < n; k++) context.fillRect((WIDTH * k) / n - 1, HEIGHT + 3, 2, ROOM - 3);
   });
   if (isPlaying) return;
-  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${n > 1 ? ' of equal light' : ''}`;
+  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${plan.Ok?.doses ? `, as if of equal light; through this shutter they give ${plan.Ok.doses}` : n > 1 ? ' of equal light' : ''}`;
   write($('flash-caption'), what);
   write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
 }

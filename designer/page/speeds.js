@@ -15,12 +15,13 @@ export const remember = (rows, list) => rows.forEach((row, i) => files.set(row, 
 
 const isNewTable = watch();
 
-/** Draws it; while it is there, it is all there is. */
-export function drawSpeeds({ now: { speeds } }) {
-  if (!isNewTable(speeds)) return;
-  $('speeds').hidden = !speeds;
-  document.body.classList.toggle('alone', Boolean(speeds));
-  if (!speeds) return;
+/** Draws it; while it is there, it is all there is, but for a trace that is refused. */
+export function drawSpeeds({ now: { speeds }, pending }) {
+  const isShown = Boolean(speeds && !pending);
+  if (!isNewTable(speeds, isShown)) return;
+  $('speeds').hidden = !isShown;
+  document.body.classList.toggle('alone', isShown);
+  if (!isShown) return;
   const rows = speeds.toSorted((a, b) => (a.exposure || Infinity) - (b.exposure || Infinity));
   render(html`<div class="head"><h2 id="speeds-title">Speeds of this shutter</h2><span class="buttons">
       <button type="button" id="speeds-link" @click=${() => copyLink({ ...model.now, scene: model.good })}>Copy link</button><button type="button" id="speeds-print" @click=${() => print()}>Print</button><button type="button" id="speeds-close" @click=${() => change({ speeds: null })}>Close</button></span></div>

@@ -12,7 +12,7 @@ import { cancelFit, fitTrace, parseScene } from './studio.js';
 /** Longer files are not read. */
 const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 /** What the button beside a message says, which leads to the control that mends it. */
-const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose the sync' };
+const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel' };
 
 /** Begins: files are chosen or dropped. */
 export function startTraces() {
@@ -151,7 +151,7 @@ const isNewTrace = watch();
 /** Draws how the model's trace is read. */
 export function drawTrace({ now: { scene, trace }, pending }) {
   const isHand = trace && !isSameShape(trace.scene, scene);
-  if (isNewTrace(trace, pending, scene.unit, isHand)) render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
+  if (isNewTrace(trace, pending, scene.unit, scene.triggers, isHand)) render(panel(pending ?? trace, trace, pending, isHand, scene), $('trace'));
 }
 
 function panel(shown, trace, pending, isHand, scene) {
@@ -170,8 +170,8 @@ function panel(shown, trace, pending, isHand, scene) {
       ${pending ? html`<button type="button" @click=${() => tell({ note: null, pending: null })}>Close</button>` : nothing}</span>`;
 }
 
-// A button that leads to what mends a doubt.
-const leads = (mend) => mend && html`<button type="button" @click=${() => {
+/** A button that leads to what mends a doubt. */
+export const leads = (mend) => mend && html`<button type="button" @click=${() => {
   $('reading').open = true;
   $('reading').querySelector(`[name=${mend}]`)?.focus();
 }}>${MEND[mend]}</button>`;
@@ -218,10 +218,10 @@ function readingForm({ file, asked, measured: { names, read }, fit }) {
   </fieldset>`;
 }
 
-function details(fit, { unit }) {
+function details(fit, { unit, triggers }) {
   const per = perSecond(unit);
   const lines = fit.triggers.map(([t, error], i) => `${i}  ${short(t * per, 7)} ± ${short(error * per, 2)}`);
-  return html`<details><summary>The ${fit.triggers.length} times by the ${fit.own ? 'trace' : 'curve'}, with their errors</summary>
-      <pre tabindex="0">#  ${unit} after the start of opening, with standard error\n${lines.join('\n')}</pre></details>
-    <details id="report"><summary>The whole report</summary><pre tabindex="0">${fit.report}</pre></details>`;
+  const times = fit.triggers.length !== triggers ? nothing : html`<details><summary>The ${fit.triggers.length} times by the ${fit.own ? 'trace' : 'curve'}, with their errors</summary>
+      <pre tabindex="0">#  ${unit} after the start of opening, with standard error\n${lines.join('\n')}</pre></details>`;
+  return html`${times}<details id="report"><summary>The whole report</summary><pre tabindex="0">${fit.report}</pre></details>`;
 }

@@ -115,6 +115,7 @@ test('what is advised is the number that was meant', async () => {
   for (const [id, text, words] of [
     ['open_end', '12 000 us', 'write 12000 us'], ['open_end', '1 1/2 s', 'write 1.5 s'], ['open_end', '1,500 ms', 'may be 1.5 ms or 1500 ms'], ['open_end', '1/1 000', 'write 1/1000'],
     ['timer_hz', '1.000 Hz', 'may be 1 Hz or 1000 Hz'], ['timer_hz', '1 5', 'is no number'],
+    ['min_gap', '1.000,5', 'write 1000.5'], ['timer_hz', '1\u202f500', 'write 1500'], ['open_end', '1,234.5', 'write 1234.5'], ['open_end', '2 kHz', 'has an unknown unit'],
   ]) {
     await page.fill(`#${id}`, text);
     assert.ok((await page.text('#problem')).includes(words), `${text}: ${await page.text('#problem')}`);
@@ -159,7 +160,7 @@ test('what is told goes when its cause goes, and a hand ends no fit', async () =
   await page.fill('#open_end', '2.25');
   assert.equal(await page.text('#told'), '');
   await drop(['diary.csv', 'dear diary\nnothing\n']);
-  await page.says('diary.csv');
+  await page.until(() => designer.model.pending);
   await page.fill('#open_end', '2.5');
   assert.ok(!(await page.isSeen('#problem')));
   await page.fill('#timer_hz', '333333.4');

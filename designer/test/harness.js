@@ -111,7 +111,6 @@ export function extend(page) {
     value: (sel) => on(sel, (it) => it.value),
     isSeen: (sel) => page.$$eval(sel, (all) => Boolean(all[0]?.checkVisibility({ visibilityProperty: true }))),
     isDisabled: (sel) => on(sel, (it) => it.disabled),
-    count: (sel) => page.$$eval(sel, (all) => all.length),
     focus: (sel) => on(sel, (it) => it.focus()),
     blur: (sel) => on(sel, (it) => it.blur()),
     fill: (sel, value) => on(sel, (it, value) => {

@@ -77,7 +77,7 @@ pub struct Args {
     /// The signal of a shutter that is fully open, where this one never is
     #[arg(long, value_name = "SIGNAL", allow_negative_numbers = true)]
     pub(super) full: Option<f64>,
-    /// Which pulse, from 1; the one of median exposure if left out
+    /// Which pulse, from 1, of all traces of one setting; the one of median exposure if left out
     #[arg(long, value_name = "NUMBER")]
     pub(super) frame: Option<usize>,
     /// The shutter's model; the simplest that serves if left out
@@ -96,7 +96,7 @@ pub struct Args {
     /// 3, 0, 1.5ms, F0001CH2.CSV; the scene has the delay from the edge to the opening, and how it differs between shots
     #[arg(long, value_name = "COLUMN|TIME|FILE", value_parser = read::sync, allow_hyphen_values = true)]
     sync: Vec<Asked>,
-    /// The report's form; `json` is an object, or an array of those of several traces, whose names stay as they are
+    /// The report's form; `json` is an object, or an array of those of several speeds, whose names stay as they are
     #[arg(long, default_value = "text")]
     report: Report,
     /// Where the scene's time 0 is
@@ -321,14 +321,8 @@ fn write(
     let mut olds = olds.into_iter();
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
-        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit)).map_err(
-            |refusal| match refusal {
-                Refusal::NoScene { reason } if reason.starts_with("triggers ") => {
-                    format!("{name}: {reason}; --triggers says how many")
-                }
-                _ => format!("{name}: {refusal}"),
-            },
-        )?;
+        let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
+            .map_err(|refusal| format!("{name}: {refusal}"))?;
         let Some(file) = files.get(i) else {
             said.scene = scene.text;
             continue;

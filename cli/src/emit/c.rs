@@ -20,7 +20,8 @@ pub fn header(scene: &str, plan: &Planned) -> String {
     if let Some(delay) = plan.delay() {
         body += &edge(&upper, plan);
         body += &format!(
-            "/* From the edge of the camera's sync to the start of opening. */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
+            "/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
+            super::delay(plan),
             delay.ticks
         );
     }
@@ -86,9 +87,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     );
     body += "typedef struct {\n    const char *name;\n    uint32_t count;\n";
     if one.delay().is_some() {
-        body += &format!(
-            "    /* From the edge of the camera's sync to the start of opening. */\n    uint{bits}_t delay_ticks;\n"
-        );
+        body += &format!("    /* See its _DELAY_TICKS. */\n    uint{bits}_t delay_ticks;\n");
     }
     body += "    /* So many as `count`, counted from the start of opening. */\n";
     let arrays: &[_] = if has_pulses(one) { &["on", "off"] } else { &["ticks"] };

@@ -92,7 +92,8 @@ fn items(plan: &Planned, curve: bool) -> String {
     );
     if let Some(delay) = plan.delay() {
         text += &format!(
-            "\n/// From the edge of the camera's sync to the start of opening.\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
+            "\n/// {}\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
+            super::delay(plan),
             grouped(delay.ticks)
         );
     }

@@ -58,7 +58,7 @@ fn unwrap(rows: &mut [Sample]) {
                 && (0.0..5.0 * step).contains(&pair[1].time)
                 && (0.0..5.0 * step).contains(&(whole - pair[0].time))
         };
-        if rows[0].time < 5.0 * step || !rows.windows(2).any(&wraps) {
+        if rows[0].time < 5.0 * step || !rows.windows(2).any(wraps) {
             continue;
         }
         let (mut later, mut before) = (0.0, rows[0]);
@@ -135,7 +135,7 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
     let step = weighted(&|k| off(k) * (rows[k].time - time)) / squares;
     let at = |k: usize| time + step * off(k);
     let is_line = (0..n).all(|k| (rows[k].time - at(k)).abs() <= 0.8 * around[k]);
-    if !is_line || step <= 0.0 {
+    if !is_line || step.is_nan() || step <= 0.0 {
         return None;
     }
     let usual = median(around.clone());

@@ -131,7 +131,7 @@ pub enum Refusal {
     /// No scene can be written that can be planned.
     #[error(
         "no scene can be made of this: {reason}; {}",
-        if reason.contains("ticks apart") {
+        if reason.starts_with("triggers ") {
             "--triggers says how many"
         } else {
             "look at the trace: is there one rise, one plateau at most, one fall?"
