@@ -26,6 +26,8 @@ struct Record {
     /// How long it stays switched, without a gap where its contact bounces.
     length: f64,
     bounces: bool,
+    /// Does it bounce as it opens?
+    reopens: bool,
     /// How long an edge takes; its middle counts.
     slow: f64,
     /// Shots without an edge.
@@ -42,7 +44,8 @@ impl Record {
         let delays = (0..shots).map(|_| 0.003 + 20e-6 * random.normal()).collect();
         let (levels, noise, length) = ([3.3, 0.1], 0.2, 0.004);
         let (hertz, bounces, slow, lost, soft) = (2e5, false, 1e-9, Vec::new(), false);
-        Self { delays, hertz, levels, noise, length, bounces, slow, lost, soft, seed }
+        let reopens = false;
+        Self { delays, hertz, levels, noise, length, bounces, reopens, slow, lost, soft, seed }
     }
 
     fn mean(&self) -> f64 {
@@ -68,7 +71,8 @@ impl Record {
             let since = t - edges[k];
             let open = openness(since - self.delays[k]);
             let open = if self.soft { open * open * (3.0 - 2.0 * open) } else { open };
-            let bounces = self.bounces && (2e-4..5e-4).contains(&since);
+            let bounces = self.bounces && (2e-4..5e-4).contains(&since)
+                || self.reopens && (since + 4e-4..since + 7e-4).contains(&self.length);
             let is_off = bounces || self.lost.contains(&k);
             let on = 0.5 + since.min(self.length - since) / self.slow;
             let on = if is_off { 0.0 } else { on.clamp(0.0, 1.0) };
@@ -169,6 +173,21 @@ fn the_spread_is_what_was_put_in() {
             assert_eq!((json["delay_shots"].as_u64(), codes(&json)), (Some(5), doubts));
             assert_eq!(json["columns"]["sync_name"], "CH2");
         }
+    }
+}
+
+/// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other edge.
+#[test]
+fn a_bounce_is_told_with_its_end() {
+    let folder = Folder::new("bounce");
+    let plain = || Record { length: 0.012, ..Record::new(3, 11) };
+    for (record, last) in [
+        (Record { bounces: true, ..plain() }, "some 500 µs after the first"),
+        (Record { reopens: true, ..plain() }, "some 12 ms after the first"),
+    ] {
+        folder.write("three.csv", record.csv());
+        let (code, _, err) = folder.run("fit three.csv --sync CH2");
+        assert!(code == 0 && err.contains("at 3 of 3 shots") && err.contains(last), "{err}");
     }
 }
 
