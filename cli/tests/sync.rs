@@ -259,6 +259,23 @@ fn the_spread_is_told_and_kept() {
     // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml");
     assert_eq!(scene(), first);
+    // An edge that its user has changed is measured again, and that is said.
+    fs::write(folder.0.join("leaf.toml"), first.replace("sync_falls = true", "sync_falls = false"))
+        .unwrap();
+    let (_, _, err) = folder.run("fit five.csv --sync CH2 --out leaf.toml");
+    assert!(err.contains("leaf.toml: sync_falls was false, and the trace says true\n"), "{err}");
+    assert_eq!(scene(), first);
+    // So is an option that contradicts what was measured.
+    let plan = "plan leaf.toml --timer-hz 1MHz --emit rust";
+    let (code, out, err) = folder.run(&format!("{plan} --set-up emulated --sync-falls false"));
+    assert!(code == 0 && out.contains("pub const SYNC_FALLS: bool = false;"), "{out}");
+    assert!(
+        err.contains("leaf.toml has sync_falls = true, and --sync-falls false counts"),
+        "{err}"
+    );
+    for agrees in ["", " --sync-falls true"] {
+        assert_eq!(folder.run(&format!("{plan} --set-up emulated{agrees}")).2, "");
+    }
     let (_, _, err) = folder.run("fit five.csv --out leaf.toml");
     assert!(err.contains("kept delay = 3.0") && err.contains("delay_spread = 0.0"), "{err}");
     folder.write("one.csv", Record::new(1, 4).csv());

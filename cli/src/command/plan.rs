@@ -58,9 +58,13 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let files: Vec<&Path> =
         [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path).collect();
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
+    let mut told = String::new();
     let plans = match scenes.as_slice() {
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
-        paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
+        paths => paths
+            .iter()
+            .map(|path| read(args, path, &mut told))
+            .collect::<Result<Vec<_>, String>>()?,
     };
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
@@ -94,9 +98,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         }
         None => text,
     };
-    let wrote = outputs.ready()?.finish(out, &printed)?;
+    told += &outputs.ready()?.finish(out, &printed)?;
     // There is no one to tell if standard error cannot be written.
-    let _ = err.write_all(wrote.as_bytes());
+    let _ = err.write_all(told.as_bytes());
     Ok(())
 }
 
@@ -116,11 +120,14 @@ fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
     picture::set_ups(name, curve)
 }
 
-fn read(args: &Args, path: &Path) -> Result<(String, Planned), String> {
+fn read(args: &Args, path: &Path, told: &mut String) -> Result<(String, Planned), String> {
     let file = shown(path);
     let text = input::read(path)
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
+    if let Some(doubt) = args.settings.doubt(&file, &text) {
+        *told += &format!("warning: {doubt}\n");
+    }
     Ok((stem(path), checked(args, &file, &text)?))
 }
 
