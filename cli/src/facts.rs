@@ -319,6 +319,15 @@ fn set_up(plan: &Plan) -> String {
     }
 }
 
+/// The doses of equal flashes that a shutter in the light's path dims by more than a hundredth.
+#[cfg(feature = "terminal")]
+pub fn dimmed(plan: &Plan) -> Option<String> {
+    let is_equal = matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. });
+    let doses =
+        (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| SetUp::InPath.doses(plan))?;
+    doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
+}
+
 /// The doses of the first flash, of the middle one and of the last.
 pub fn few(doses: &[f64]) -> String {
     let mut places = vec![0, doses.len() / 2, doses.len() - 1];

@@ -276,6 +276,10 @@ fn the_spread_is_told_and_kept() {
     for agrees in ["", " --sync-falls true"] {
         assert_eq!(folder.run(&format!("{plan} --set-up emulated{agrees}")).2, "");
     }
+    // So is what the shutter leaves of flashes that nothing makes equal.
+    let (_, _, err) = folder.run(&format!("{plan} --set-up in_path --triggers 16"));
+    assert!(err.contains("warning: leaf: the shutter is in the light's path"), "{err}");
+    assert_eq!(folder.run(&format!("{plan} --set-up in_path --fully-open")).2, "");
     let (_, _, err) = folder.run("fit five.csv --out leaf.toml");
     assert!(err.contains("kept delay = 3.0") && err.contains("delay_spread = 0.0"), "{err}");
     folder.write("one.csv", Record::new(1, 4).csv());

@@ -10,7 +10,7 @@ use super::output::{Outputs, svg_path};
 use super::settings::Settings;
 use crate::emit::Form;
 use crate::planned::Planned;
-use crate::{emit, picture, report, speeds};
+use crate::{emit, facts, picture, report, speeds};
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
@@ -66,6 +66,16 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             .map(|path| read(args, path, &mut told))
             .collect::<Result<Vec<_>, String>>()?,
     };
+    if matches!(form, Some(Form::Rust | Form::C)) {
+        let dimmed =
+            plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
+        told.extend(dimmed.map(|(name, doses)| {
+            format!(
+                "warning: {name}: the shutter is in the light's path, and dims the flashes to {doses}; \
+                 --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal\n"
+            )
+        }));
+    }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
             let name = args.name.as_ref().unwrap_or(name);
