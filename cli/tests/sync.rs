@@ -280,6 +280,19 @@ fn the_spread_is_told_and_kept() {
     let (_, _, err) = folder.run(&format!("{plan} --set-up in_path --triggers 16"));
     assert!(err.contains("warning: leaf: the shutter is in the light's path"), "{err}");
     assert_eq!(folder.run(&format!("{plan} --set-up in_path --fully-open")).2, "");
+    // And what a coarse timer leaves of equal doses.
+    let pulses = "plan leaf.toml --set-up in_path --duty 0.5 --triggers 16 --emit rust --timer-hz";
+    let (_, out, err) = folder.run(&format!("{pulses} 20kHz"));
+    assert!(
+        err.contains("warning: leaf: a tick is so long that the doses differ by up to "),
+        "{err}"
+    );
+    assert!(
+        !out.contains("of equal doses") && out.contains("of doses that differ by up to "),
+        "{out}"
+    );
+    let (_, out, err) = folder.run(&format!("{pulses} 10MHz"));
+    assert!(err.is_empty() && out.contains(", of equal doses\n"), "{err}{out}");
     let (_, _, err) = folder.run("fit five.csv --out leaf.toml");
     assert!(err.contains("kept delay = 3.0") && err.contains("delay_spread = 0.0"), "{err}");
     folder.write("one.csv", Record::new(1, 4).csv());

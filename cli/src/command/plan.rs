@@ -75,6 +75,11 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
                  --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal\n"
             )
         }));
+        let unequal =
+            plans.iter().filter_map(|(name, plan)| Some((name, facts::unequal(plan.plan()?)?)));
+        told.extend(unequal.map(|(name, percent)| {
+            format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
+        }));
     }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
