@@ -189,6 +189,12 @@ fn a_file_of_something_else_needs_force() {
     assert_eq!(folder.run("fit trace.csv --picture made.svg").0, Some(0));
     folder.write("made.svg", &folder.text("made.svg").replace("<svg ", "<svg  "));
     folder.refuses("$shutter fit trace.csv --picture made.svg", "you have changed it since");
+    // A remark beside the mark is its user's, and a scene holds what its user wrote whether or not its mark does.
+    let made = folder.text("made.rust");
+    folder.write("made.rust", &made.replacen('\n', " for board 7\n", 1));
+    folder.refuses("$shutter plan --emit rust --to made.rust", "--force");
+    assert_eq!(folder.run("fit trace.csv --out leaf.toml").0, Some(0));
+    folder.refuses("$shutter plan --emit rust --to leaf.toml", "--force");
 }
 
 /// What cannot be written is told before a trace is even read; what fails after the fit leaves its report.

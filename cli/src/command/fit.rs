@@ -154,7 +154,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         outputs.in_folder(folder);
     }
     if let Some(picture) = &args.picture {
-        outputs.check(picture)?;
+        outputs.check(picture, mark::SVG)?;
     }
     let olds: Result<Vec<_>, _> = scenes.iter().map(|file| old(&mut outputs, file)).collect();
     let olds = olds?;
@@ -375,7 +375,7 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
 /// The scene that a fit wrote there, whatever was changed in it since.
 fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
     let Some(text) = outputs.old(file)? else { return Ok(None) };
-    let text = std::str::from_utf8(&text).ok().and_then(mark::below);
+    let text = std::str::from_utf8(&text).ok().and_then(|it| mark::below(mark::TOML, it));
     text.and_then(|(text, _)| Old::parse(text.as_bytes())).map(Some).ok_or_else(|| {
         format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display())
     })
