@@ -208,10 +208,21 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 /// What the delay is, as a module or a header says it.
 fn delay(plan: &Planned) -> &'static str {
     match plan.lag() {
+        Some(lag) if lag.ticks > 0 => {
+            "None is left: the lamp's lag is longer than it, and the rest is taken off the ticks."
+        }
         Some(_) => {
             "From the edge of the camera's sync to the start of opening, less the lamp's lag."
         }
         None => "From the edge of the camera's sync to the start of opening.",
+    }
+}
+
+/// From where the ticks of all these count.
+fn origin<'a>(mut plans: impl Iterator<Item = &'a Planned>) -> &'static str {
+    match plans.any(|plan| plan.delay().is_some() && plan.lag().is_some()) {
+        true => "counted from the end of the delay",
+        false => "counted from the start of opening",
     }
 }
 
