@@ -16,7 +16,7 @@ use super::fit_many::{self, Speed};
 use super::input::{file_name, shown, stem};
 use super::kept::Old;
 use super::mark;
-use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
+use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
@@ -139,6 +139,14 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         return Err(
             "--sync: each trace has a file of its own for its sync; give one for each".into()
         );
+    }
+    for paths in [&traces, &files] {
+        let mut pairs = paths.iter().enumerate().map(|(i, path)| (path, &paths[..i]));
+        if let Some((twice, _)) =
+            pairs.find(|(path, others)| others.iter().any(|it| is_same(it, path)))
+        {
+            return Err(format!("{}: it is given twice", shown(twice)));
+        }
     }
     let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
     if args.columns.len() > clock + 1 {
@@ -294,7 +302,10 @@ fn is_one_setting(
              name it SCENE.toml, or give each trace its speed with --nominal"
         ));
     }
-    read[1..].iter().try_for_each(|other| other.like(&read[0]))?;
+    for (i, other) in read.iter().enumerate().skip(1) {
+        other.like(&read[0])?;
+        read[..i].iter().try_for_each(|shot| other.differs(shot))?;
+    }
     Ok(true)
 }
 

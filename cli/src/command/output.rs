@@ -259,7 +259,8 @@ fn place(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-fn is_same(a: &Path, b: &Path) -> bool {
+/// Are both the same file?
+pub fn is_same(a: &Path, b: &Path) -> bool {
     // Nothing is lost in a stream.
     if is_stream(a) || is_stream(b) {
         return false;
