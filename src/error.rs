@@ -1,8 +1,8 @@
-//! What can be wrong with a curve or a schedule, one variant a reason.
+//! What can be wrong with a curve or a schedule: a variant for each reason.
 
 use core::fmt;
 
-/// The part of a curve that an error speaks of.
+/// The part of a curve that an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -25,8 +25,8 @@ impl fmt::Display for Part {
     }
 }
 
-/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and in which
-/// part, if that can be told. A `point` is the index of a control point, 0 to 3.
+/// Why a curve was not built: the rule that it breaks ([`ShutterCurve`](crate::ShutterCurve) lists them), and where,
+/// if that is known. A `point` is the index of a control point, 0 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -42,8 +42,8 @@ pub enum CurveError {
         /// The control point: 1 or 2.
         point: u8,
     },
-    /// The same of [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the
-    /// whole interval. They may have been given as fractions of the ramp, or as times.
+    /// The same for [`shutteropening`](crate::ShutterCurve::shutteropening), whose inner times are fractions of the
+    /// whole interval: perhaps they were given as fractions of the ramp, or as times.
     FractionOutsideRamp {
         /// The ramp.
         part: Part,
@@ -59,12 +59,12 @@ pub enum CurveError {
         /// The control point.
         point: u8,
     },
-    /// A control point of a [`density`](crate::ShutterCurve::density) is not in [0, 1]. A greater one may be
-    /// [scaled](crate::CubicBezier::scaled).
+    /// A [`density`](crate::ShutterCurve::density) is not in [0, 1] at a control point. If it is greater, [scale it
+    /// down](crate::CubicBezier::scaled).
     DensityOutOfRange,
     /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
     NotFullyOpen(Part),
-    /// The interval is below 2⁻¹⁶ of the greatest |time|: `f32` has few times in it, at most 256.
+    /// The interval is below 2⁻¹⁶ of the greatest |time|: it holds at most 256 times of `f32`.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,
@@ -195,9 +195,9 @@ pub enum ScheduleError {
         capacity: u32,
     },
     /// Two triggers would come closer than the minimum gap.
-    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds how many would keep it.
+    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds how many keep it.
     GapTooSmall {
-        /// The first trigger that comes too early, by its index.
+        /// The index of the first trigger that comes too soon.
         trigger: u32,
         /// The ticks since the trigger before it.
         gap: u32,
@@ -206,7 +206,7 @@ pub enum ScheduleError {
     },
     /// Two pulses would come closer than the minimum gap.
     PulsesTooClose {
-        /// The first pulse that comes too early, by its index.
+        /// The index of the first pulse that comes too soon.
         pulse: u32,
         /// The ticks from the end of the pulse before it to its start.
         gap: u32,
@@ -217,7 +217,7 @@ pub enum ScheduleError {
     DutyOutOfRange,
     /// A pulse would be shorter than asked for.
     PulseTooShort {
-        /// The first such pulse, by its index.
+        /// The index of the first such pulse.
         pulse: u32,
         /// The ticks that it lasts.
         length: u32,

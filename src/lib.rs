@@ -1,8 +1,8 @@
-//! Tells when a camera's shutter has collected any fraction of its exposure, so that firmware can fire flashes with
-//! equal shares of it. In `f32`, without `std`, allocation or dependencies.
+//! Computes when a camera's shutter has collected a given fraction of its exposure, so that firmware can fire a flash
+//! for each equal share. In `f32`, without `std`, allocation or dependencies.
 //!
-//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. Its openness over
-//! time is taken as a probability density, and the integral of that is inverted.
+//! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. The crate treats its
+//! openness over time as a probability density, and inverts the integral.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, valid};
@@ -18,20 +18,20 @@
 //!
 //! # Units
 //!
-//! Times are in seconds and rates in Hz. A curve in another unit has its answers in that unit, and takes ticks per that
-//! unit for a rate.
+//! Times are in seconds and rates in Hz. If a curve's times are in another unit, so are all answers, and rates are
+//! ticks per that unit.
 //!
 //! # Which call
 //!
 //! | you want | call |
 //! |---|---|
-//! | a shutter: by two [`CubicBezier`]s, straight ramps, RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
+//! | a shutter from two [`CubicBezier`]s, from straight ramps, in RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a constant curve; a fault in it stops the build | [`valid`] |
 //! | a smaller curve that needs more searches, or a larger one that needs fewer | [`with_octaves`] |
 //! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
-//! | the ticks of a frame, every gap checked: a constant, or at run time | [`ticks`], [`ticks_into`] |
+//! | the ticks of a frame, every gap checked: in a constant, or at run time | [`ticks`], [`ticks_into`] |
 //! | one tick after the other, as in an interrupt handler | [`trigger_ticks`] |
 //! | how many triggers keep a gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
 //! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses`], [`pulses_into`] |
@@ -39,8 +39,8 @@
 //! # From a measured shutter
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
-//! crate's repository fits the trace and prints a module for the firmware, with the ticks of a frame, the delay from the
-//! camera's sync, and the curve as a `static`. First it asks for what no trace tells: set-up, edge and timer.
+//! crate's repository fits the trace, and writes a module for the firmware: the ticks of a frame, the delay from the
+//! camera's sync, and the curve as a `static`. It also needs what no trace shows: set-up, edge and timer.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
@@ -59,7 +59,7 @@
 //!
 //! # Cost
 //!
-//! A `static` curve takes 1144 bytes of flash and no time at start-up. On a Cortex-M4F an [`inverse_cdf`] takes some 70
+//! A `static` curve takes 1144 bytes of flash and no time at start-up. On a Cortex-M4F an [`inverse_cdf`] takes some 60
 //! to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark at both
 //! ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 1.9 million
 //! instructions there. The README compares other methods, and says when not to use this crate.

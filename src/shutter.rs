@@ -11,12 +11,13 @@ use crate::trigger::iterator::{PulseTicks, TriggerTicks};
 use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
-/// A shutter: tells when any fraction of its exposure has been collected, and when to fire flashes that share it.
+/// A shutter: computes when it has collected a given fraction of its exposure, and when to fire flashes of equal
+/// shares.
 ///
 /// Its openness over time, `0 <= f <= 1`, is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
-/// It is taken as a probability density.
+/// It is treated as a probability density.
 ///
-/// **What is accepted.** Everything else is a [`CurveError`], which names the rule.
+/// **Which curves are accepted.** Any other is a [`CurveError`] that names the broken rule.
 ///
 /// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
 ///    (a box), and the plateau may have none (a triangle).
@@ -27,17 +28,18 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
-/// Lengths and the exposure are taken as an `f64` rounds them.
+/// Lengths and the exposure are compared as rounded to `f64`.
 ///
-/// Times are in seconds. A curve in another unit works, with every time and rate in that unit ([Units](crate#units)).
+/// Times are in seconds, or all times and rates in one other unit ([Units](crate#units)).
 ///
-/// `OCTAVES` is the number of polynomials per half of the fractions [0, 1]; [`with_octaves`](Self::with_octaves) takes
-/// another number than 8. The promised accuracy is the same for every number. With 8 some `u` of a typical
-/// curve need a search, about one in 500, with 0 all on the ramps do. A curve takes 376 bytes, and 96 more for each of
-/// `OCTAVES`. More than 64 do not compile, and beyond 16 a constant may exceed the compiler's limit on evaluation.
+/// `OCTAVES` is the number of polynomials for each half of the fractions [0, 1], 8 unless
+/// [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number. With 8, about one
+/// `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376 bytes, and 96 more
+/// for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the compiler's limit on
+/// evaluation.
 ///
-/// Fractions count from the nearer end. Down to about half of a ramp's largest fraction the first polynomial answers,
-/// down to a quarter the next one, and so on. Below the last one, and where the curve is too difficult for a
+/// Fractions are counted from the nearer end. The first polynomial answers down to about half of a ramp's largest
+/// fraction, the next down to a quarter, and so on. Below the last, and where the curve is too difficult for a
 /// polynomial, a search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
@@ -60,7 +62,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_octaves`](Self::with_octaves).
+    /// Those of [`with_octaves`](Self::with_octaves).
     pub const fn new(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
         Self::with_octaves(opening, closing)
     }
@@ -77,7 +79,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_octaves`](Self::with_octaves).
+    /// Those of [`with_octaves`](Self::with_octaves).
     pub const fn linear(
         open_start: f32,
         open_end: f32,
@@ -90,7 +92,7 @@ impl ShutterCurve {
         )
     }
 
-    /// The shutter in the form of RenderMan's `shutteropening`. The `times` are when it starts to open,
+    /// The shutter that RenderMan's `shutteropening` describes. The `times` are when it starts to open,
     /// is fully open, starts to close and is closed. Its inner control points are `[t1, y1, t2, y2, t5, y5, t6, y6]`:
     /// their times are fractions of the *whole* interval, 0 at the first of the `times` and 1 at the last, on the
     /// closing ramp as well.
@@ -108,7 +110,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_octaves`](Self::with_octaves), but an inner time that is not on its ramp is a
+    /// Those of [`with_octaves`](Self::with_octaves), but an inner time that is not on its ramp is a
     /// [`FractionOutsideRamp`](CurveError::FractionOutsideRamp).
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
         let (opening, closing) = CubicBezier::shutteropening(times, inner);
@@ -129,7 +131,7 @@ impl ShutterCurve {
     ///
     /// [`pdf`](Self::pdf), [`cdf`](Self::cdf) and [`inverse_cdf`](Self::inverse_cdf) do not depend on its scale. But
     /// `f` may not exceed 1, so scale a greater one first ([`scaled`](CubicBezier::scaled)), best by a power of two,
-    /// which rounds nothing. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
+    /// which is exact. Then [`normalization`](Self::normalization) is `K = 1 / ∫ f t' dp` of the scaled density.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve};
@@ -146,7 +148,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// As [`with_octaves`](Self::with_octaves).
+    /// Those of [`with_octaves`](Self::with_octaves).
     pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
         let [.., (end, _)] = density.points();
         match Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0))) {
@@ -169,7 +171,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A rule of [`ShutterCurve`]'s list that the ramps break.
+    /// The rule of [`ShutterCurve`]'s list that the ramps break.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -257,12 +259,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// The time by which the fraction `u` of the exposure is collected.
     ///
-    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`], and is exactly
-    /// these for 0 and 1. It never steps back as `u` grows.
+    /// `u` is clamped to [0, 1], and NaN counts as 0. The answer lies in [`open_start`, `close_end`]: exactly
+    /// `open_start` for 0, and `close_end` for 1. It never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
-    /// the opening ramp's part of it. (The formula is sometimes written as `t = A u`, which holds only where `A₀`
-    /// equals `open_end`.)
+    /// the opening ramp's part of it. It is not `t = A u`, unless `A₀` happens to equal `open_end`.
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;
@@ -281,8 +282,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.inverse_cdf(u)
     }
 
-    /// The effective exposure time `A = ∫ f dt`. In that time a fully open shutter lets the same
-    /// light through.
+    /// The effective exposure time `A = ∫ f dt`: as long as a fully open shutter takes for the same light.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -296,7 +296,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.exposure.area as f32
     }
 
-    /// `K = 1/A`, which makes the openness a probability density; per unit of the curve's time.
+    /// `K = 1/A`, the factor that makes the openness a probability density; per unit of the curve's time.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -322,12 +322,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// How many triggers a frame may have and none needs a search. The README says how many cycles such a tick takes at
-    /// most.
+    /// The most triggers of a frame in which none needs a search. The README has the most cycles that such a tick
+    /// takes.
     ///
-    /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves, and up to about twice that with one
-    /// more. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the exposure
-    /// lies on the plateau.
+    /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves; one octave more gives up to about
+    /// twice that. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the
+    /// exposure lies on the plateau.
     ///
     /// In a constant the compiler checks it:
     ///
@@ -349,9 +349,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. They
-    /// count from [`open_start`](Self::open_start), so add the timer's own base with `wrapping_add`, and never step
-    /// back.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. Ticks
+    /// never step back. They count from [`open_start`](Self::open_start): add the timer's count at that moment, with
+    /// `wrapping_add`.
     ///
     /// Their times, to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
@@ -382,8 +382,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(TriggerTicks { frame, left: 0..n })
     }
 
-    /// A checked frame: as many triggers as `ticks` has places, at the ticks of
-    /// [`trigger_ticks`](Self::trigger_ticks), no two closer than `min_gap` ticks.
+    /// Fills `ticks` with a checked frame: the ticks of [`trigger_ticks`](Self::trigger_ticks), no two closer than
+    /// `min_gap`.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
@@ -399,8 +399,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A gap that is too small: then the slice holds a part of the frame. The errors of
-    /// [`trigger_ticks`](Self::trigger_ticks): then the slice is unchanged.
+    /// A gap that is too small, after which the slice holds a part of the frame; and those of
+    /// [`trigger_ticks`](Self::trigger_ticks), after which it is unchanged.
     pub const fn ticks_into(
         &self,
         ticks: &mut [u32],
@@ -414,7 +414,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.ticks_into(ticks, min_gap)
     }
 
-    /// The frame of [`ticks_into`](Self::ticks_into) as an array. In a constant, the compiler checks it.
+    /// The frame of [`ticks_into`](Self::ticks_into) as an array. In a constant, it is checked at compile time.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -438,7 +438,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// The frame of [`ticks_into`](Self::ticks_into) with `n` triggers, as a `heapless::Vec`. It takes the feature
+    /// The frame of [`ticks_into`](Self::ticks_into) with `n` triggers, as a `heapless::Vec`. Needs the feature
     /// `heapless-v0_9`.
     ///
     /// ```
@@ -468,10 +468,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 
     /// How many triggers, up to `wanted`, keep a gap of `min_gap` ticks. If the answer is less than `wanted`, one more
-    /// breaks the gap. The answer is at least 1, unless none are wanted.
+    /// trigger would not keep it. The answer is at least 1, unless none are wanted.
     ///
-    /// It places one frame after another, each up to the first gap that is too small: usually a few. For a gap of 0 it
-    /// places none.
+    /// It tries frames, usually a few, each up to its first gap that is too small. For a gap of 0 it tries none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -495,12 +494,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
-    /// the same dose through the shutter, `duty · A / n`. A pulse lights the middle of its share of the exposure, the
-    /// part `duty` of it (above 0, at most 1): from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
+    /// the same dose through the shutter, `duty · A / n`. A pulse covers the part `duty` (above 0, at most 1) of its
+    /// share of the exposure, in the middle: from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
     ///
-    /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse that is
-    /// shorter than a tick may go on and off at the same one. Ticks are counted and rounded as
-    /// [`trigger_ticks`](Self::trigger_ticks) does it, but the fraction of a pulse's end may be off by two ulp.
+    /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse shorter
+    /// than a tick may go on and off at the same tick. Ticks are counted and rounded as in
+    /// [`trigger_ticks`](Self::trigger_ticks), but the fraction of a pulse's end may be off by two ulp.
     ///
     /// ```
     /// use shutter_curve::{Pulse, ShutterCurve, valid};
@@ -524,8 +523,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(PulseTicks { frame: pulses, left: 0..n })
     }
 
-    /// A checked frame of pulses: as many as `pulses` has places, at the ticks of [`pulse_ticks`](Self::pulse_ticks),
-    /// each and each gap between two at least as long as `limits` asks.
+    /// Fills `pulses` with a checked frame: the pulses of [`pulse_ticks`](Self::pulse_ticks), none of them and no gap
+    /// shorter than `limits` allows.
     ///
     /// ```
     /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, valid};
@@ -540,8 +539,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap that is too short: then the slice holds a part of the frame. The errors of
-    /// [`pulse_ticks`](Self::pulse_ticks): then the slice is unchanged.
+    /// A pulse or a gap that is too short, after which the slice holds a part of the frame; and those of
+    /// [`pulse_ticks`](Self::pulse_ticks), after which it is unchanged.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],
@@ -556,7 +555,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.pulses_into(pulses, limits)
     }
 
-    /// The frame of [`pulses_into`](Self::pulses_into) as an array. In a constant, the compiler checks it.
+    /// The frame of [`pulses_into`](Self::pulses_into) as an array. In a constant, it is checked at compile time.
     ///
     /// ```
     /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, valid};

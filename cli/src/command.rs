@@ -23,9 +23,9 @@ use clap::{Parser, Subcommand};
 /// The exit code for whatever goes wrong, as clap's.
 const FAILED: u8 = 2;
 
-/// From a camera's shutter to the ticks at which a firmware triggers
+/// From a camera's shutter to the ticks at which firmware fires flashes
 ///
-/// Without a command, `plan` of a soft shutter.
+/// Without a command, it plans a soft shutter as an example.
 #[derive(Parser)]
 #[command(name = "shutter", version, args_conflicts_with_subcommands = true)]
 struct Args {

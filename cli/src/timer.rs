@@ -65,7 +65,7 @@ impl Timer {
         Err(Fault::at(
             place,
             format!(
-                "timer_bits: the frame ends at tick {ticks}, and a count of {} bits tells past from future for {most}; \
+                "timer_bits: the frame ends at tick {ticks}, and with {} bits it may end at {most} at the latest; \
                  a prescaler of {by} fits: timer_hz = {}",
                 self.bits,
                 short(self.exact_hz / by, 10)

@@ -387,7 +387,7 @@ fn on_timer(keys: &str) -> Result<shutter::planned::Planned, String> {
 #[test]
 fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
     let err = on_timer("timer_hz = 84_000_000\ntimer_bits = 16").err().unwrap();
-    let reason = "timer_bits: the frame ends at tick 1088440, and a count of 16 bits tells past from future for 32768; \
+    let reason = "timer_bits: the frame ends at tick 1088440, and with 16 bits it may end at 32768 at the latest; \
                   a prescaler of 35 fits: timer_hz = 2400000\n";
     assert!(err.contains(&format!("leaf.toml:15: {reason}")), "{err}");
     // A prime has no prescaler that leaves a whole rate.

@@ -40,7 +40,7 @@ fn read(bytes: &[u8], options: &trace::Options) -> Result<(Recording, f64), Stri
 #[test]
 fn the_codes_of_warnings_are_the_documented_ones() {
     let pages = include_str!("../../docs/measuring.md");
-    let (_, list) = pages.split_once("\n## What is warned of\n").unwrap();
+    let (_, list) = pages.split_once("\n## Warnings\n").unwrap();
     let before_colons = list.lines().filter_map(|line| line.strip_prefix("- ")?.split_once(':'));
     let codes =
         before_colons.flat_map(|(codes, _)| codes.split(", ").map(|it| it.trim_matches('`')));

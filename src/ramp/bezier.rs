@@ -60,7 +60,7 @@ impl CubicBezier {
     }
 
     /// The opening and the closing ramp of RenderMan's `shutteropening`; see
-    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening). That validates them.
+    /// [`ShutterCurve::shutteropening`](crate::ShutterCurve::shutteropening), which validates them.
     ///
     /// ```
     /// use shutter_curve::CubicBezier;

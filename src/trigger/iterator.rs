@@ -7,11 +7,11 @@ use crate::trigger::pulse::{Pulse, Pulses};
 use crate::trigger::ticks::Ticks;
 
 /// An iterator over the ticks of a frame's triggers, from
-/// [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It goes from either end, and to any trigger at
-/// once.
+/// [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It runs from either end, and skips to any
+/// trigger at once.
 ///
-/// If the curve is a `static`, a `static` can hold the iterator, too. An interrupt handler takes one tick after the
-/// other from it:
+/// If the curve is a `static`, the iterator can live in a `static` too, from which an interrupt handler takes one tick
+/// at a time:
 ///
 /// ```
 /// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
@@ -41,8 +41,8 @@ pub struct TriggerTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) left: Range<u32>,
 }
 
-/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It goes
-/// from either end, and to any pulse at once.
+/// An iterator over a frame's pulses, from [`ShutterCurve::pulse_ticks`](crate::ShutterCurve::pulse_ticks). It runs
+/// from either end, and skips to any pulse at once.
 #[derive(Clone)]
 pub struct PulseTicks<'a, const OCTAVES: usize = 8> {
     pub(crate) frame: Pulses<'a, OCTAVES>,

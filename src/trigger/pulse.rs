@@ -14,13 +14,13 @@ pub struct Pulse {
     pub off: u32,
 }
 
-/// What a lamp asks of its pulses, in ticks; 0 asks nothing.
+/// What a lamp needs of its pulses, in ticks; 0 is no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PulseLimits {
-    /// How long a pulse lasts at least.
+    /// The least length of a pulse.
     pub min_pulse: u32,
-    /// From the end of a pulse to the start of the next, at least.
+    /// The least gap from the end of a pulse to the start of the next.
     pub min_gap: u32,
 }
 

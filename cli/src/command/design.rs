@@ -20,16 +20,16 @@ const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Serve the curve designer's page on 127.0.0.1, and open it in the browser
 ///
-/// designer/build.sh makes the page.
+/// Build the page first: designer/build.sh.
 #[derive(clap::Args)]
 pub struct Args {
     /// The page's folder
     #[arg(long, value_name = "FOLDER", default_value = "designer/dist")]
     page: PathBuf,
-    /// The port; 8417 or, if that is taken, any free one if left out
+    /// The port; if left out, 8417 or, if that is taken, any free one
     #[arg(long)]
     port: Option<u16>,
-    /// Print the address, and open no browser
+    /// Print the address only, without opening a browser
     #[arg(long)]
     no_open: bool,
 }

@@ -31,22 +31,21 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Fit the simplest shutter to a measured trace, and write it as a scene
 ///
-/// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it.
-/// The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and nothing is
-/// written.
+/// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it, or
+/// a WAV. The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and
+/// nothing is written.
 #[derive(Clone, clap::Args)]
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
-    /// More traces: shots of the same setting, to 10 % of the exposure, make one scene; of other speeds, or with --nominal, the
-    /// report is a table of them all
+    /// More traces: shots whose exposures agree to 10 % make one scene; other speeds, or a --nominal for each, make a table
     #[arg(value_name = "TRACE")]
     others: Vec<PathBuf>,
-    /// What each trace's speed is called, in their order, or that of one setting: 1/250, 4ms
+    /// The nominal speed of each trace, in order, or one for a single setting: 1/250, 4ms
     #[arg(long, value_name = "TIME,...", value_delimiter = ',', value_parser = speed)]
     nominal: Vec<f64>,
-    /// Write the scene to this file, for `shutter plan`, and keep what you changed in one that a fit wrote; of traces of several
-    /// speeds, a folder of them; `-` is standard output, in place of the report
+    /// Write the scene to this file, for `shutter plan`, keeping your changes to one that a fit wrote; for several speeds, a
+    /// folder of scenes; `-` is standard output, in place of the report
     #[arg(long, value_name = "SCENE.toml")]
     out: Option<PathBuf>,
     /// Write the picture to this file: trace, curve, residual, triggers
@@ -55,14 +54,14 @@ pub struct Args {
     /// Replace files that hold something else, or that you have changed
     #[arg(long)]
     force: bool,
-    /// The unit of the times, where the header does not tell
+    /// The unit of the times, if the file does not say
     #[arg(long)]
     pub(super) unit: Option<Unit>,
-    /// The columns of the time and the signal, or of the signal alone: numbers from 1, or names; of several sensors' signals, a table of
-    /// exposures and of the curtains' travel
+    /// The columns of time and signal, or of the signal alone, by number from 1 or by name; the signals of several sensors make
+    /// a table of exposures and curtain travel
     #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
     pub(super) columns: Vec<String>,
-    /// The samples in a second, where the rows hold no time: 48000, 250kHz
+    /// Samples per second, if the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
     pub(super) rate: Option<f64>,
     /// The first time of the trace that counts: -5ms
@@ -74,29 +73,29 @@ pub struct Args {
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
     pub(super) light: Light,
-    /// The signal of a shutter that is fully open, where this one never is
+    /// The signal of the fully open shutter, if this trace never reaches it
     #[arg(long, value_name = "SIGNAL", allow_negative_numbers = true)]
     pub(super) full: Option<f64>,
-    /// Which pulse, from 1, of all traces of one setting; the one of median exposure if left out
+    /// Which pulse to fit, counted from 1 through all traces of one setting; if left out, the one of median exposure
     #[arg(long, value_name = "NUMBER")]
     pub(super) frame: Option<usize>,
-    /// The shutter's model; the simplest that serves if left out
+    /// The shutter's model; if left out, the simplest that is good enough
     #[arg(long)]
     pub(super) model: Option<Kind>,
-    /// Take the simplest model whose triggers are as near to the free model's: 0.1% (of the exposure), 20us
+    /// Take the simplest model whose triggers are within this of the free model's: 0.1% (of the exposure), 20us
     #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
     pub(super) tolerance: Option<Tolerance>,
-    /// How many triggers; as many as the scene has that is there, or 16, if left out
+    /// How many triggers; if left out, as many as the existing scene has, or 16
     #[arg(long, value_name = "N", value_parser = trigger_count())]
     triggers: Option<u32>,
-    /// The mains' frequency in hertz: a hum in the trace has it
+    /// The mains frequency in hertz, if there is hum in the trace
     #[arg(long, value_name = "50|60", value_parser = mains)]
     pub(super) mains: Option<f64>,
-    /// The column of the camera's sync, by number or name, the time of its edge in the trace, or a file of the same record: CH2,
-    /// 3, 0, 1.5ms, F0001CH2.CSV; the scene has the delay from the edge to the opening, and how it differs between shots
+    /// The camera's sync: its column by name or number (CH2, 3), the time of its edge in the trace (0, 1.5ms), or a file of the
+    /// same record (F0001CH2.CSV); the scene gets the delay from the edge to the opening, and its spread between shots
     #[arg(long, value_name = "COLUMN|TIME|FILE", value_parser = read::sync, allow_hyphen_values = true)]
     sync: Vec<Asked>,
-    /// The report's form; `json` is an object, or an array of those of several speeds, whose names stay as they are
+    /// The report's form; `json` is an object, or for several speeds an array; later versions keep its names
     #[arg(long, default_value = "text")]
     report: Report,
     /// Where the scene's time 0 is

@@ -17,32 +17,32 @@ const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
 
 /// Plan a shutter's triggers, each in the middle of an equal share of the exposure
 ///
-/// Several scenes are the speeds of a shutter: a table of them, or one text with an array of all.
+/// Several scenes are taken as the speeds of one shutter: they make a table or, with --emit, one text with an array of all.
 #[derive(clap::Args, Default)]
 pub struct Args {
-    /// The scenes, as in cli/scenes; a soft shutter if left out; `-` is standard input
+    /// The scenes, such as those in cli/scenes; if left out, a soft shutter; `-` is standard input
     scenes: Vec<PathBuf>,
     #[command(flatten)]
     settings: Settings,
     /// Write the picture to this file
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     out: Option<PathBuf>,
-    /// Write the picture of both set-ups, the curve emulated and the shutter in the light's path, to this file
+    /// Write a picture of both set-ups to this file: the curve emulated, and the shutter in the light's path
     #[arg(long, value_name = "FILE.svg", value_parser = svg_path)]
     set_ups: Option<PathBuf>,
-    /// Print this form alone
+    /// Print the plan in this form, and no report
     #[arg(long, value_name = "FORM")]
     emit: Option<Form>,
-    /// Let the module of Rust have the curve as well, for firmware with the crate
+    /// Add the curve to the Rust module, for firmware that uses the crate
     #[arg(long, requires = "emit")]
     curve: bool,
-    /// Write the form to this file, and not to standard output
+    /// Write the form to this file instead of standard output
     #[arg(long, value_name = "FILE", requires = "emit")]
     to: Option<PathBuf>,
     /// Replace files that hold something else, or that you have changed
     #[arg(long)]
     force: bool,
-    /// What it is called; the scene's file name, or `shutter` for several, if left out
+    /// The plan's name; if left out, the scene's file name, or `shutter` for several
     #[arg(long)]
     name: Option<String>,
 }

@@ -19,13 +19,13 @@ pub struct Settings {
     /// The least time between two triggers, or of darkness between pulses: 100us
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
     min_gap: Option<f64>,
-    /// The part of each share of the exposure in which the lamp is on, above 0 and at most 1
+    /// Pulses of equal doses: the lamp is on for this part of each share of the exposure, above 0 and at most 1
     #[arg(long, value_name = "PART")]
     duty: Option<f64>,
     /// Flashes of one length in equal steps while the shutter is fully open
     #[arg(long, conflicts_with = "duty")]
     fully_open: bool,
-    /// How the flashes meet the shutter
+    /// Is the shutter in the light's path, or only emulated?
     #[arg(long)]
     set_up: Option<SetUp>,
     /// Does the delay count from the falling edge of the sync?

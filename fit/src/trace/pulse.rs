@@ -42,12 +42,12 @@ const STRAY: f64 = 5.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Light {
-    /// It begins and ends in the dark.
+    /// The trace begins and ends in the dark.
     #[default]
     Auto,
-    /// Light raises it.
+    /// Light raises the signal.
     Up,
-    /// Light lowers it.
+    /// Light lowers the signal.
     Down,
 }
 
