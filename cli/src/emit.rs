@@ -72,8 +72,9 @@ pub fn several(
     for (name, plan) in plans {
         is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
-    if matches!(form, Form::Rust | Form::C) {
-        alike(plans)?;
+    // An object of JSON has its timer; rows have none.
+    if form != Form::Json {
+        alike(form, plans)?;
     }
     Ok(match form {
         Form::Rust => rust::modules(name, plans, curve),
@@ -138,17 +139,20 @@ fn set_ups(planned: &Planned) -> Vec<String> {
     }
 }
 
-/// What an array's elements must have in common: the timer, what they tell, and names of their own.
-fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
+/// What rows must have in common: the timer; an array's elements also what they tell, and names of their own.
+fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
         let [a, b] = [one.timer(), plan.timer()];
         for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
             if a != b {
                 return Err(format!(
-                    "{key}: {a} in {first}, {b} in {name}; an array is for one timer"
+                    "{key}: {a} in {first}, {b} in {name}; one list is for one timer"
                 ));
             }
+        }
+        if form == Form::Csv {
+            continue;
         }
         let (has, lacks) = match (one.delay().is_some(), plan.delay().is_some()) {
             (true, false) => (first, name),

@@ -141,6 +141,7 @@ fn two_outputs_of_one_file_are_refused() {
         ("fit trace.csv sub/trace.csv --out .", "two outputs"),
         ("plan --out - --emit c --to -", "standard output"),
         ("plan --out - --emit c", "standard output"),
+        ("fit trace.csv --picture - --report json", "standard output"),
         ("fit - -", "standard input"),
         ("plan --force --out old.svg >> old.svg", "standard output"),
     ] {

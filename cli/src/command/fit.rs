@@ -155,7 +155,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         return sensors(args, clock, sync(0), out, err);
     }
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
-    let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
+    let printed = (args.report == Report::Json).then_some(Path::new("-"));
+    let to = scenes.iter().chain(&args.picture).map(PathBuf::as_path);
+    let to: Vec<&Path> = to.chain(printed).collect();
     let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
     if let ([_, _, ..], Some(folder)) = (&scenes[..], &args.out) {
         outputs.in_folder(folder);
