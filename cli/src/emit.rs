@@ -72,8 +72,9 @@ pub fn several(
     for (name, plan) in plans {
         is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
-    if matches!(form, Form::Rust | Form::C) {
-        alike(plans)?;
+    // An object of JSON has its timer; rows have none.
+    if form != Form::Json {
+        alike(form, plans)?;
     }
     Ok(match form {
         Form::Rust => rust::modules(name, plans, curve),
@@ -138,17 +139,20 @@ fn set_ups(planned: &Planned) -> Vec<String> {
     }
 }
 
-/// What an array's elements must have in common: the timer, what they tell, and names of their own.
-fn alike(plans: &[(String, Planned)]) -> Result<(), String> {
+/// What rows must have in common: the timer; an array's elements also what they tell, and names of their own.
+fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
         let [a, b] = [one.timer(), plan.timer()];
         for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
             if a != b {
                 return Err(format!(
-                    "{key}: {a} in {first}, {b} in {name}; an array is for one timer"
+                    "{key}: {a} in {first}, {b} in {name}; one list is for one timer"
                 ));
             }
+        }
+        if form == Form::Csv {
+            continue;
         }
         let (has, lacks) = match (one.delay().is_some(), plan.delay().is_some()) {
             (true, false) => (first, name),
@@ -208,10 +212,21 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 /// What the delay is, as a module or a header says it.
 fn delay(plan: &Planned) -> &'static str {
     match plan.lag() {
+        Some(lag) if lag.ticks > 0 => {
+            "None is left: the lamp's lag is longer than it, and the rest is taken off the ticks."
+        }
         Some(_) => {
             "From the edge of the camera's sync to the start of opening, less the lamp's lag."
         }
         None => "From the edge of the camera's sync to the start of opening.",
+    }
+}
+
+/// From where the ticks of all these count.
+fn origin<'a>(mut plans: impl Iterator<Item = &'a Planned>) -> &'static str {
+    match plans.any(|plan| plan.delay().is_some() && plan.lag().is_some()) {
+        true => "counted from the end of the delay",
+        false => "counted from the start of opening",
     }
 }
 

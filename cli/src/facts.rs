@@ -246,7 +246,7 @@ pub fn drift(plan: &Planned) -> Option<String> {
 }
 
 /// From the edge to the end of a frame that lasts so many seconds.
-fn from_edge(delay: Option<Delay>, seconds: f64) -> f64 {
+pub(crate) fn from_edge(delay: Option<Delay>, seconds: f64) -> f64 {
     delay.map_or(0.0, |delay| delay.seconds) + seconds
 }
 

@@ -2,7 +2,7 @@
 
 use shutter_curve::{ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
-use shutter_fit::unit::Unit;
+use shutter_fit::unit::{Unit, count};
 
 use crate::delay::{Delay, Lag, Sync};
 use crate::lamp::{Flash, FullyOpen, Lamp};
@@ -50,7 +50,7 @@ pub struct Plan {
     pub most: u32,
     /// In order.
     pub triggers: Vec<Trigger>,
-    /// What the scene's text keeps of the fit that it comes from.
+    /// What the scene's text keeps of the fit that it comes from, and what is doubtful about the curve's times.
     pub fitted: Vec<(&'static str, String)>,
     unit: Option<Unit>,
 }
@@ -70,7 +70,8 @@ impl Plan {
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let plan = Self::new(&crate::scene::parse(text)?)?;
-        Ok(Self { fitted: crate::scene::fitted(text), ..plan })
+        let fitted = [crate::scene::fitted(text), plan.fitted].concat();
+        Ok(Self { fitted, ..plan })
     }
 
     /// The plan of a scene.
@@ -121,6 +122,13 @@ impl Plan {
             let pulse = asked.lamp.has_pulses().then_some((flash.on as u32, flash.off as u32));
             Trigger { u, time, ticks: flash.tick, pulse }
         };
+        let moved = scene.rounding(&shape) * f64::from(timer_hz);
+        let moved = (timer.is_given && moved >= 0.5).then(|| {
+            format!(
+                "f32 moves the curve's times by up to {}; they are nearest where open_start is 0.",
+                count(moved.ceil() as u64, "tick")
+            )
+        });
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
         Ok(Self {
@@ -135,7 +143,7 @@ impl Plan {
             nominal: asked.nominal,
             most,
             triggers,
-            fitted: Vec::new(),
+            fitted: moved.map(|told| ("doubt", told)).into_iter().collect(),
             unit: scene.unit,
         })
     }

@@ -126,7 +126,6 @@ impl Planned {
     }
 
     /// In seconds, up to what is to be seen of it.
-    #[cfg(feature = "terminal")]
     pub(crate) fn length(&self) -> f64 {
         match self {
             Self::Curve(plan) => plan.length(),

@@ -283,6 +283,13 @@ impl Scene {
         Ok(Shape { times, inner })
     }
 
+    /// By how many seconds `f32` moves a time of the curve against `open_start`, at most.
+    pub(crate) fn rounding(&self, shape: &Shape) -> f64 {
+        let given = self.times().map(|place| self.unit().seconds(place.get_ref().get()));
+        let moved = |i: usize| f64::from(shape.times[i]) - given[i];
+        (1..4).map(|i| (moved(i) - moved(0)).abs()).fold(0.0, f64::max)
+    }
+
     fn times(&self) -> [&Spanned<Number>; 4] {
         [&self.open_start, &self.open_end, &self.close_start, &self.close_end]
     }

@@ -79,15 +79,21 @@ impl Timer {
         if !is_given {
             return "none, so there are times alone; timer_hz gives ticks".into();
         }
+        let off = self.off(seconds);
         let rate = match exact_hz == f64::from(hz) {
             true => format!("{hz} Hz"),
             false => format!(
                 "{} Hz, planned as {hz}: {} ticks off at the end",
                 short(exact_hz, 10),
-                short((exact_hz - f64::from(hz)).abs() * seconds, 2)
+                short(off, 2)
             ),
         };
         if bits == 32 { rate } else { format!("{rate}; {bits} bits") }
+    }
+
+    /// By how many ticks the whole rate is off after so many seconds.
+    pub(crate) fn off(&self, seconds: f64) -> f64 {
+        (self.exact_hz - f64::from(self.hz)).abs() * seconds
     }
 
     /// So many ticks, as what is told; without a rate, how long they last.

@@ -329,7 +329,7 @@ fn speeds_that_do_not_go_together_are_refused() {
     };
     let one = "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\nset_up = 'emulated'\n";
     for (lines, reason) in [
-        ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; an array is for one timer"),
+        ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
         (
             "timer_hz = 1_000_000",
             "delay: 1-500 has one and box has none; an array needs all or none",
@@ -345,6 +345,11 @@ fn speeds_that_do_not_go_together_are_refused() {
     ] {
         assert_eq!(both(&format!("{one}{lines}")), [reason, reason]);
     }
+    let mut plans = speeds("");
+    plans[1].1 = Plan::parse(&format!("{one}timer_hz = 999")).unwrap();
+    // A row tells no rate, and an object does.
+    assert!(several(Form::Csv, "camera", &plans).unwrap_err().starts_with("timer_hz: "));
+    assert!(several(Form::Json, "camera", &plans).is_ok());
     let mut plans = speeds("");
     plans[1].0 = "Slow-Speed".into();
     let reason = several(Form::C, "camera", &plans).unwrap_err();

@@ -879,7 +879,7 @@ fn several_traces_are_a_table() {
             vec![&slow, &fast, "--picture", "no.svg"],
             "--picture: it is of one setting; the exposures",
         ),
-        (vec![&slow, &slow, "--out", folder], "slow.toml: two outputs would be written to it"),
+        (vec![&slow, &slow, "--out", folder], "slow.csv: it is given twice"),
         (vec![&slow, "missing.csv"], "missing.csv: "),
     ] {
         let run = run(&args);

@@ -140,6 +140,8 @@ fn two_outputs_of_one_file_are_refused() {
         ("fit trace.csv --out new.svg --picture new.svg", "two outputs"),
         ("fit trace.csv sub/trace.csv --out .", "two outputs"),
         ("plan --out - --emit c --to -", "standard output"),
+        ("plan --out - --emit c", "standard output"),
+        ("fit trace.csv --picture - --report json", "standard output"),
         ("fit - -", "standard input"),
         ("plan --force --out old.svg >> old.svg", "standard output"),
     ] {
@@ -189,6 +191,12 @@ fn a_file_of_something_else_needs_force() {
     assert_eq!(folder.run("fit trace.csv --picture made.svg").0, Some(0));
     folder.write("made.svg", &folder.text("made.svg").replace("<svg ", "<svg  "));
     folder.refuses("$shutter fit trace.csv --picture made.svg", "you have changed it since");
+    // A remark beside the mark is its user's, and a scene holds what its user wrote whether or not its mark does.
+    let made = folder.text("made.rust");
+    folder.write("made.rust", &made.replacen('\n', " for board 7\n", 1));
+    folder.refuses("$shutter plan --emit rust --to made.rust", "--force");
+    assert_eq!(folder.run("fit trace.csv --out leaf.toml").0, Some(0));
+    folder.refuses("$shutter plan --emit rust --to leaf.toml", "--force");
 }
 
 /// What cannot be written is told before a trace is even read; what fails after the fit leaves its report.
@@ -456,6 +464,20 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     let text = folder.text("leaf.toml");
     assert!(text.contains("\nnominal = 10\n") && text.contains("\ndelay = 3.0"), "{text}");
     assert_eq!(text.matches("# From the edge of the camera's sync").count(), 1, "{text}");
+    // Comments in an array, and a count with a point, are kept; lines of an older fit are not, whatever stands between.
+    let own = first
+        .replace("# Exposure ", "# of Monday\n# Exposure ")
+        .replace("triggers = 16", "triggers = 12.0");
+    folder.write("leaf.toml", &own);
+    assert_eq!(folder.run("fit trace.csv --out leaf.toml --sync 0").0, Some(0));
+    let text = folder.text("leaf.toml");
+    assert!(text.contains("# of Monday\n") && text.contains("\ntriggers = 12\n"), "{text}");
+    assert_eq!(text.matches("\n# Exposure ").count(), 1, "{text}");
+    let array = "trigger_times = [ # by hand\n  1, 2, # late\n]\nopen_start = ";
+    folder.write("leaf.toml", &first.replace("open_start = ", array));
+    assert_eq!(folder.run("fit trace.csv --out leaf.toml --sync 0").0, Some(0));
+    let text = folder.text("leaf.toml");
+    assert!(text.contains("\n# by hand\n# late\nopen_start = "), "{text}");
     // What is asked for counts, in the unit of the scene.
     let mine = "unit = 'us'\nmin_gap = 200\n# mine\nopen_start = 1 # too\nclose_start = 2 # gone\ntriggers = 9\n";
     folder.write("leaf.toml", mine);

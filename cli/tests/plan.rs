@@ -417,6 +417,36 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
     assert!(fault.reason.contains("ends at tick 32769,"), "{}", fault.reason);
 }
 
+/// Ticks of a rate that is rounded, and of times that `f32` moves, are doubted in every form that has room for it.
+#[test]
+fn ticks_that_may_be_others_are_doubted() {
+    let scene = |start: f64, hz: &str| {
+        let [a, b, c, d] = [0.0, 0.002, 0.006, 0.008].map(|t| start + t);
+        let text = format!(
+            "open_start = {a}\nopen_end = {b}\nclose_start = {c}\nclose_end = {d}\n\
+             triggers = 4\nmin_gap = 0\nset_up = 'emulated'\ntimer_hz = {hz}\n"
+        );
+        Planned::parse(&text).unwrap()
+    };
+    let moved =
+        "f32 moves the curve's times by up to 58 ticks; they are nearest where open_start is 0.";
+    for (plan, doubts) in [
+        (scene(0.0003, "100_000_000"), vec![]),
+        (scene(10.0003, "100_000"), vec![]),
+        (scene(10.0003, "100_000_000"), vec![moved]),
+        (scene(0.0, "1000.4"), vec![]),
+    ] {
+        let json = emit(Form::Json, "scene", &plan, false).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(json["doubts"], serde_json::json!(doubts));
+        let module = emit(Form::Rust, "scene", &plan, false).unwrap();
+        assert_eq!(module.matches("\n// doubt ").count(), doubts.len(), "{module}");
+    }
+    let slow = "unit = 's'\nopen_start = 0\ntrigger_times = [20, 40]\nmin_gap = 0\nset_up = 'emulated'\ntimer_hz = 1.5";
+    let json = emit(Form::Json, "slow", &Planned::parse(slow).unwrap(), false).unwrap();
+    assert!(json.contains("\"1.5 Hz, planned as 2: 20 ticks off at the end\""), "{json}");
+}
+
 /// As docs/firmware.md computes it.
 #[test]
 fn the_report_tells_when_a_drift_matters() {

@@ -385,7 +385,12 @@ fn shots_in_files_of_their_own_make_one_scene() {
     // What is not one setting, or read otherwise, is none.
     folder.write("late.csv", record(-0.001, 62));
     folder.write("ms.csv", record(0.003, 63).replace("Time (s),CH1", "Time (s),CH7"));
+    folder.write("copy.csv", record(0.003, 60));
     for (args, reason) in [
+        // One shot, counted twice, would have no spread.
+        ("a.csv b.csv ./a.csv --sync 0", "./a.csv: it is given twice"),
+        ("a.csv b.csv --sync copy.csv --sync copy.csv", "copy.csv: it is given twice"),
+        ("a.csv b.csv copy.csv --sync 0", "a.csv once more, and no other shot"),
         (
             "a.csv b.csv --out speeds",
             "make one scene: name it SCENE.toml, or give each trace its speed",

@@ -16,7 +16,7 @@ use super::fit_many::{self, Speed};
 use super::input::{file_name, shown, stem};
 use super::kept::Old;
 use super::mark;
-use super::output::{Outputs, Ready, is_std, is_stream, print, svg_path};
+use super::output::{Outputs, Ready, is_same, is_std, is_stream, print, svg_path};
 use super::quantity::{rate, speed, time, tolerance};
 use super::read::{self, Asked, Read};
 use super::sensors;
@@ -139,6 +139,14 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             "--sync: each trace has a file of its own for its sync; give one for each".into()
         );
     }
+    for paths in [&traces, &files] {
+        let mut pairs = paths.iter().enumerate().map(|(i, path)| (path, &paths[..i]));
+        if let Some((twice, _)) =
+            pairs.find(|(path, others)| others.iter().any(|it| is_same(it, path)))
+        {
+            return Err(format!("{}: it is given twice", shown(twice)));
+        }
+    }
     let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
     if args.columns.len() > clock + 1 {
         if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
@@ -147,13 +155,15 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         return sensors(args, clock, sync(0), out, err);
     }
     let scenes = args.out.as_ref().map_or(Vec::new(), |file| scenes(file, &traces));
-    let to: Vec<&Path> = scenes.iter().chain(&args.picture).map(PathBuf::as_path).collect();
+    let printed = (args.report == Report::Json).then_some(Path::new("-"));
+    let to = scenes.iter().chain(&args.picture).map(PathBuf::as_path);
+    let to: Vec<&Path> = to.chain(printed).collect();
     let mut outputs = Outputs::new(&[&traces[..], &files].concat(), &to, args.force)?;
     if let ([_, _, ..], Some(folder)) = (&scenes[..], &args.out) {
         outputs.in_folder(folder);
     }
     if let Some(picture) = &args.picture {
-        outputs.check(picture)?;
+        outputs.check(picture, mark::SVG)?;
     }
     let olds: Result<Vec<_>, _> = scenes.iter().map(|file| old(&mut outputs, file)).collect();
     let olds = olds?;
@@ -293,7 +303,10 @@ fn is_one_setting(
              name it SCENE.toml, or give each trace its speed with --nominal"
         ));
     }
-    read[1..].iter().try_for_each(|other| other.like(&read[0]))?;
+    for (i, other) in read.iter().enumerate().skip(1) {
+        other.like(&read[0])?;
+        read[..i].iter().try_for_each(|shot| other.differs(shot))?;
+    }
     Ok(true)
 }
 
@@ -382,7 +395,7 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
 /// The scene that a fit wrote there, whatever was changed in it since.
 fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
     let Some(text) = outputs.old(file)? else { return Ok(None) };
-    let text = std::str::from_utf8(&text).ok().and_then(mark::below);
+    let text = std::str::from_utf8(&text).ok().and_then(|it| mark::below(mark::TOML, it));
     text.and_then(|(text, _)| Old::parse(text.as_bytes())).map(Some).ok_or_else(|| {
         format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display())
     })

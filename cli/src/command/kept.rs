@@ -46,7 +46,9 @@ impl Old {
     /// How many triggers it has.
     pub fn triggers(&self) -> Option<u32> {
         let times = self.0.get("trigger_times").and_then(Item::as_array).map(|it| it.len() as i64);
-        let count = self.0.get("triggers").and_then(Item::as_integer).or(times);
+        let whole = |x: f64| (x.fract() == 0.0).then_some(x as i64);
+        let count = |it: &Item| it.as_integer().or_else(|| whole(it.as_float()?));
+        let count = self.0.get("triggers").and_then(count).or(times);
         count.and_then(|count| count.try_into().ok())
     }
 
@@ -87,6 +89,9 @@ impl Old {
             let is_asked = ["delay", "delay_spread", "sync_falls", "nominal"].contains(&name)
                 && fresh.is_some();
             let is_measured = MEASURED.contains(&name) || is_asked;
+            if is_measured {
+                above += &inside(old);
+            }
             let item = match fresh {
                 Some((_, mut fresh)) if is_measured => {
                     if let Some(value) = fresh.as_value_mut() {
@@ -132,14 +137,24 @@ fn of_user(lines: &str, keeps_delay: bool) -> String {
     let begins = |line: &str, starts: &[&str]| starts.iter().any(|start| line.starts_with(start));
     let mut is_head = false;
     let is_own = |line: &&str| {
-        is_head = begins(line, &FIRST) || is_head && begins(line, &NEXT);
+        let is_first = begins(line, &FIRST);
+        is_head |= is_first;
         let is_asked = ASKED.iter().any(|(_, start)| line.starts_with(start));
-        !(is_head
+        !(is_first
+            || is_head && begins(line, &NEXT)
             || is_asked
             || begins(line, &ABOVE)
             || !keeps_delay && line.starts_with(ABOVE_DELAY))
     };
     lines.split_inclusive('\n').filter(is_own).collect()
+}
+
+/// The comments in an array, a line each.
+fn inside(item: &Item) -> String {
+    let Some(array) = item.as_array() else { return String::new() };
+    let around = array.iter().flat_map(|it| [prefix(it.decor()), suffix(it.decor())]);
+    let lines = around.chain(array.trailing().as_str()).flat_map(str::lines);
+    lines.filter_map(|line| Some(format!("{}\n", line.get(line.find('#')?..)?))).collect()
 }
 
 /// A value as it is written, without a comment.

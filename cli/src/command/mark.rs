@@ -18,11 +18,13 @@ pub fn marked([begin, end]: Comment, text: &str) -> String {
     format!("{begin}{BEFORE}{:08x}{BEHIND}{end}\n{text}", checksum(text))
 }
 
-/// What is below the mark, and does it still have that checksum? None where there is no mark.
-pub fn below(text: &str) -> Option<(&str, bool)> {
+/// What is below the mark, and does it still have that checksum? None where the first line is not such a mark alone.
+pub fn below([begin, end]: Comment, text: &str) -> Option<(&str, bool)> {
     let (line, text) = text.split_once('\n')?;
-    let (_, sum) = line.split_once(BEFORE)?;
-    let (sum, _) = sum.split_once(BEHIND)?;
+    // Editors may put a byte order mark before it.
+    let line = line.strip_prefix('\u{feff}').unwrap_or(line).trim_end_matches('\r');
+    let sum = line.strip_prefix(begin)?.strip_prefix(BEFORE)?;
+    let sum = sum.strip_suffix(end)?.strip_suffix(BEHIND)?;
     Some((text, u32::from_str_radix(sum, 16) == Ok(checksum(text))))
 }
 
@@ -42,11 +44,19 @@ mod tests {
         for comment in [TOML, RUST, C, SVG] {
             let text = marked(comment, "one\ntwo\n");
             assert!(text.starts_with(comment[0]), "{text}");
-            assert_eq!(below(&text), Some(("one\ntwo\n", true)));
-            assert_eq!(below(&text.replace('\n', "\r\n")), Some(("one\r\ntwo\r\n", true)));
-            assert_eq!(below(&text.replace("two", "too")), Some(("one\ntoo\n", false)));
-            assert_eq!(below(&(text + "\n")), Some(("one\ntwo\n\n", false)));
+            let below =
+                |text: &str| below(comment, text).map(|(text, holds)| (text.to_string(), holds));
+            let found = |text: &str, holds| Some((text.to_string(), holds));
+            assert_eq!(below(&text), found("one\ntwo\n", true));
+            assert_eq!(below(&format!("\u{feff}{text}")), found("one\ntwo\n", true));
+            assert_eq!(below(&text.replace('\n', "\r\n")), found("one\r\ntwo\r\n", true));
+            assert_eq!(below(&text.replace("two", "too")), found("one\ntoo\n", false));
+            assert_eq!(below(&format!("{text}\n")), found("one\ntwo\n\n", false));
+            // What stands beside a mark is not the program's.
+            assert_eq!(below(&text.replacen('\n', " mine\n", 1)), None);
+            assert_eq!(below(&format!("mine {text}")), None);
+            assert_eq!(below("one\ntwo\n"), None);
         }
-        assert_eq!(below("one\ntwo\n"), None);
+        assert_eq!(below(RUST, &marked(TOML, "one\n")), None);
     }
 }

@@ -121,10 +121,10 @@ impl Outputs {
         self.folder.as_deref().filter(|folder| path.parent() == Some(folder))
     }
 
-    /// Refuses a file that no run wrote, or that was changed since.
-    pub fn check(&mut self, path: &Path) -> Result<(), String> {
+    /// Refuses a file that no run wrote with such comments, or that was changed since.
+    pub fn check(&mut self, path: &Path, comment: Comment) -> Result<(), String> {
         let Some(old) = self.old(path)? else { return Ok(()) };
-        let reason = match std::str::from_utf8(&old).ok().and_then(mark::below) {
+        let reason = match std::str::from_utf8(&old).ok().and_then(|it| mark::below(comment, it)) {
             Some((_, true)) => return Ok(()),
             Some(_) => "you have changed it since it was written",
             None => "it holds something else",
@@ -134,7 +134,7 @@ impl Outputs {
 
     /// Adds a file of such comments in place of its own older one.
     pub fn add(&mut self, path: &Path, comment: Comment, text: &str) -> Result<(), String> {
-        self.check(path)?;
+        self.check(path, comment)?;
         self.replace(path, mark::marked(comment, text))
     }
 
@@ -259,7 +259,8 @@ fn place(path: &Path) -> io::Result<PathBuf> {
     }
 }
 
-fn is_same(a: &Path, b: &Path) -> bool {
+/// Are both the same file?
+pub fn is_same(a: &Path, b: &Path) -> bool {
     // Nothing is lost in a stream.
     if is_stream(a) || is_stream(b) {
         return false;

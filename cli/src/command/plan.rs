@@ -55,8 +55,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         return Err("a picture is of one scene".into());
     }
     let inputs: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
-    let files: Vec<&Path> =
-        [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path).collect();
+    let printed = form.filter(|_| to.is_none()).map(|_| Path::new("-"));
+    let files = [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path);
+    let files: Vec<&Path> = files.chain(printed).collect();
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
     let mut told = String::new();
     let plans = match scenes.as_slice() {

@@ -116,6 +116,21 @@ impl<'a> Read<'a> {
             other.reading
         ))
     }
+
+    /// Is it another shot? Where a signal has more than two levels, its noise tells.
+    pub fn differs(&self, other: &Self) -> Result<(), String> {
+        let (trace, first) = (&self.trace, self.trace.values[0]);
+        let mut levels = trace.values.iter().filter(|value| **value != first);
+        let second = levels.next();
+        if *trace != other.trace || levels.all(|value| Some(value) == second) {
+            return Ok(());
+        }
+        Err(format!(
+            "{}: it is the record of {} once more, and no other shot",
+            shown(self.path),
+            shown(other.path)
+        ))
+    }
 }
 
 /// The warnings, without those that are told already.

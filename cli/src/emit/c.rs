@@ -1,6 +1,8 @@
 //! A plan as a header of C99 and C++11.
 
-use super::{MADE_BY, comment, fnv, has_pulses, name, pulses, rows, ticks};
+use std::iter::once;
+
+use super::{MADE_BY, comment, fnv, has_pulses, name, origin, pulses, rows, ticks};
 use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
@@ -30,15 +32,15 @@ pub fn header(scene: &str, plan: &Planned) -> String {
             "\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n"
         )
     };
+    let origin = origin(once(plan));
     if has_pulses(plan) {
         for (edge, which) in ["on", "off"].into_iter().zip(0..) {
             let ticks = rows(pulses(plan).map(|(on, off)| [on, off][which].to_string()));
-            let about =
-                format!("When to switch the lamp {edge}, counted from the start of opening.");
+            let about = format!("When to switch the lamp {edge}, {origin}.");
             body += &array(&about, edge, ticks);
         }
     } else {
-        body += &array("When to trigger, counted from the start of opening.", "ticks", rows(ticks));
+        body += &array(&format!("When to trigger, {origin}."), "ticks", rows(ticks));
     }
     if plan.delay().is_some() {
         let int = format!("uint{bits}_t");
@@ -89,7 +91,8 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     if one.delay().is_some() {
         body += &format!("    /* See its _DELAY_TICKS. */\n    uint{bits}_t delay_ticks;\n");
     }
-    body += "    /* So many as `count`, counted from the start of opening. */\n";
+    let origin = origin(plans.iter().map(|(_, plan)| plan));
+    body += &format!("    /* So many as `count`, {origin}. */\n");
     let arrays: &[_] = if has_pulses(one) { &["on", "off"] } else { &["ticks"] };
     for array in arrays {
         body += &format!("    const uint{bits}_t *{array};\n");

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::facts::Facts;
+use crate::facts::{self, Facts};
 use crate::planned::{Planned, Row};
 use crate::set_up::SetUp;
 
@@ -19,6 +19,9 @@ pub fn array(plans: &[(String, Planned)]) -> String {
 fn text(json: &impl Serialize) -> String {
     serde_json::to_string_pretty(json).expect("numbers and names are JSON") + "\n"
 }
+
+/// What is further off may be at another tick.
+const HALF_TICK: f64 = 0.5;
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -39,19 +42,21 @@ struct Document<'a> {
     efficiency: Option<f32>,
     direct_triggers: Option<u32>,
     delta_ev: Option<f32>,
-    /// What is doubtful about the fit.
-    doubts: Vec<&'a str>,
+    /// What is doubtful about the fit, or about the ticks.
+    doubts: Vec<String>,
     triggers: Vec<Row>,
 }
 
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
+        let (timer, length) = (plan.timer(), facts::from_edge(plan.delay(), plan.length()));
+        let rate = (timer.off(length) >= HALF_TICK).then(|| timer.told(length));
         let fact = |of: fn(&Facts) -> f64| facts.as_ref().map(|facts| of(facts) as f32);
         Self {
             scene,
             set_up: plan.set_up(),
-            timer_hz: plan.timer().hz,
+            timer_hz: timer.hz,
             nominal_s: plan.nominal(),
             delay_s: plan.delay().map(|delay| delay.seconds),
             delay_ticks: plan.delay().map(|delay| delay.ticks),
@@ -66,7 +71,7 @@ impl<'a> Document<'a> {
             efficiency: curve.map(|curve| curve.efficiency()),
             direct_triggers: facts.as_ref().map(|it| it.direct_triggers),
             delta_ev: facts.as_ref().and_then(|it| it.delta_ev).map(|delta| delta as f32),
-            doubts: plan.doubts().collect(),
+            doubts: plan.doubts().map(String::from).chain(rate).collect(),
             triggers: plan.rows(),
         }
     }

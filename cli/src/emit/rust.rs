@@ -1,6 +1,8 @@
 //! A plan as a module of Rust, which needs no crate unless its curve is asked for.
 
-use super::{MADE_BY, comment, has_pulses, name, pulses, rows, ticks};
+use std::iter::once;
+
+use super::{MADE_BY, comment, has_pulses, name, origin, pulses, rows, ticks};
 use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::shape::Shape;
@@ -33,7 +35,7 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
         true => (format!("pulses: &'static [({int}, {int})]"), "        pulses: &{}::PULSES,\n"),
         false => (format!("ticks: &'static [{int}]"), "        ticks: &{}::TICKS,\n"),
     };
-    text += &format!("    /// {}\n    pub {array},\n", about(one));
+    text += &format!("    /// {}\n    pub {array},\n", about(plans.iter().map(|(_, plan)| plan)));
     let shutter = curve.then(|| {
         text += "    /// The shutter, its times in seconds.\n    pub shutter: &'static shutter_curve::ShutterCurve,\n";
         "        shutter: &{}::SHUTTER,\n"
@@ -74,12 +76,13 @@ fn common(plan: &Planned) -> String {
     text
 }
 
-/// What the array holds.
-fn about(plan: &Planned) -> &'static str {
-    match has_pulses(plan) {
-        true => "When to switch the lamp on, and when off, counted from the start of opening.",
-        false => "When to trigger, counted from the start of opening.",
-    }
+/// What the arrays of these hold.
+fn about<'a>(plans: impl Iterator<Item = &'a Planned> + Clone) -> String {
+    let what = match plans.clone().any(has_pulses) {
+        true => "When to switch the lamp on, and when off",
+        false => "When to trigger",
+    };
+    format!("{what}, {}.", origin(plans))
 }
 
 /// The items of a plan's module.
@@ -104,7 +107,7 @@ fn items(plan: &Planned, curve: bool) -> String {
         ),
         false => (format!("TICKS: [{int}; COUNT]"), rows(ticks(plan))),
     };
-    text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(plan));
+    text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(once(plan)));
     if plan.delay().is_some() {
         text += &from_edge(plan, int);
     }
