@@ -80,14 +80,18 @@ impl Delay {
     }
 }
 
-/// Takes the shots of traces of one speed together, each counted to the opening of the trace's own fit. Each delay comes with
-/// its trace's exposure.
+/// Takes the shots of traces of one speed and of one edge together, each counted to the opening of the trace's own fit. Each
+/// delay comes with its trace's exposure.
 pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
     let mut delays: Vec<_> = delays.collect();
     let all: Vec<_> =
         delays.iter().map(|(exposure, delay)| (*exposure, (*delay).clone())).collect();
     for (exposure, own) in &mut delays {
-        let same = || all.iter().filter(|(other, _)| (other / *exposure - 1.0).abs() <= ALIKE);
+        let falls = own.switch.map(|it| it.falls());
+        let is_same = |(other, it): &&(f64, Delay)| {
+            (other / *exposure - 1.0).abs() <= ALIKE && it.switch.map(|it| it.falls()) == falls
+        };
+        let same = || all.iter().filter(is_same);
         let shifted = |it: &Delay, shot: f64| shot + (it.half - own.half);
         let shots = same().flat_map(|(_, it)| it.shots.iter().map(move |shot| shifted(it, *shot)));
         own.shots = shots.collect();

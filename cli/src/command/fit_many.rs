@@ -45,7 +45,7 @@ fn delays(speeds: &[Speed]) -> String {
         return String::new();
     }
     let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: how far one \
-                is off their mean; shots of one speed, to 10 %, count together\n";
+                is off their mean; shots of one speed, to 10 %, and of one edge count together\n";
     format!("\n{}{told}", columns(&rows))
 }
 
