@@ -285,7 +285,13 @@ fn pulses(plan: &Plan) -> Option<String> {
             let [least, most] = [least, most].map(|ticks| plan.seconds(ticks.unwrap_or_default()));
             let least = short(unit.of(least), 5);
             let duty = short(duty.into(), 6);
-            Some(format!("{least} to {}, duty {duty}, of equal doses", unit.show(most)))
+            let doses = match unequal(plan) {
+                Some(percent) => {
+                    format!("of doses that differ by up to {percent} %, as a tick is so long")
+                }
+                None => "of equal doses".into(),
+            };
+            Some(format!("{least} to {}, duty {duty}, {doses}", unit.show(most)))
         }
     }
 }
@@ -317,6 +323,22 @@ fn set_up(plan: &Plan) -> String {
             format!("not said: emulated, or in the light's path, with {}", dimmed())
         }
     }
+}
+
+/// By how much the doses of a duty differ, in percent of the greatest, if it is more than one: the timer's ticks round its pulses.
+pub fn unequal(plan: &Plan) -> Option<String> {
+    matches!(plan.lamp, Lamp::Doses { .. }).then_some(())?;
+    let least = SetUp::InPath.doses(plan).into_iter().fold(1.0, f64::min);
+    (least < 0.99).then(|| short(100.0 * (1.0 - least), 2))
+}
+
+/// The doses of equal flashes that a shutter in the light's path dims by more than a hundredth.
+#[cfg(feature = "terminal")]
+pub fn dimmed(plan: &Plan) -> Option<String> {
+    let is_equal = matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. });
+    let doses =
+        (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| SetUp::InPath.doses(plan))?;
+    doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
 }
 
 /// The doses of the first flash, of the middle one and of the last.

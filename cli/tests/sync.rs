@@ -26,6 +26,8 @@ struct Record {
     /// How long it stays switched, without a gap where its contact bounces.
     length: f64,
     bounces: bool,
+    /// Does it bounce as it opens?
+    reopens: bool,
     /// How long an edge takes; its middle counts.
     slow: f64,
     /// Shots without an edge.
@@ -42,7 +44,8 @@ impl Record {
         let delays = (0..shots).map(|_| 0.003 + 20e-6 * random.normal()).collect();
         let (levels, noise, length) = ([3.3, 0.1], 0.2, 0.004);
         let (hertz, bounces, slow, lost, soft) = (2e5, false, 1e-9, Vec::new(), false);
-        Self { delays, hertz, levels, noise, length, bounces, slow, lost, soft, seed }
+        let reopens = false;
+        Self { delays, hertz, levels, noise, length, bounces, reopens, slow, lost, soft, seed }
     }
 
     fn mean(&self) -> f64 {
@@ -68,7 +71,8 @@ impl Record {
             let since = t - edges[k];
             let open = openness(since - self.delays[k]);
             let open = if self.soft { open * open * (3.0 - 2.0 * open) } else { open };
-            let bounces = self.bounces && (2e-4..5e-4).contains(&since);
+            let bounces = self.bounces && (2e-4..5e-4).contains(&since)
+                || self.reopens && (since + 4e-4..since + 7e-4).contains(&self.length);
             let is_off = bounces || self.lost.contains(&k);
             let on = 0.5 + since.min(self.length - since) / self.slow;
             let on = if is_off { 0.0 } else { on.clamp(0.0, 1.0) };
@@ -172,6 +176,21 @@ fn the_spread_is_what_was_put_in() {
     }
 }
 
+/// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other edge.
+#[test]
+fn a_bounce_is_told_with_its_end() {
+    let folder = Folder::new("bounce");
+    let plain = || Record { length: 0.012, ..Record::new(3, 11) };
+    for (record, last) in [
+        (Record { bounces: true, ..plain() }, "some 500 µs after the first"),
+        (Record { reopens: true, ..plain() }, "some 12 ms after the first"),
+    ] {
+        folder.write("three.csv", record.csv());
+        let (code, _, err) = folder.run("fit three.csv --sync CH2");
+        assert!(code == 0 && err.contains("at 3 of 3 shots") && err.contains(last), "{err}");
+    }
+}
+
 /// The level at the beginning need not be the one at rest.
 #[test]
 fn a_record_may_begin_in_the_middle_of_a_shot() {
@@ -240,6 +259,40 @@ fn the_spread_is_told_and_kept() {
     // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml");
     assert_eq!(scene(), first);
+    // An edge that its user has changed is measured again, and that is said.
+    fs::write(folder.0.join("leaf.toml"), first.replace("sync_falls = true", "sync_falls = false"))
+        .unwrap();
+    let (_, _, err) = folder.run("fit five.csv --sync CH2 --out leaf.toml");
+    assert!(err.contains("leaf.toml: sync_falls was false, and the trace says true\n"), "{err}");
+    assert_eq!(scene(), first);
+    // So is an option that contradicts what was measured.
+    let plan = "plan leaf.toml --timer-hz 1MHz --emit rust";
+    let (code, out, err) = folder.run(&format!("{plan} --set-up emulated --sync-falls false"));
+    assert!(code == 0 && out.contains("pub const SYNC_FALLS: bool = false;"), "{out}");
+    assert!(
+        err.contains("leaf.toml has sync_falls = true, and --sync-falls false counts"),
+        "{err}"
+    );
+    for agrees in ["", " --sync-falls true"] {
+        assert_eq!(folder.run(&format!("{plan} --set-up emulated{agrees}")).2, "");
+    }
+    // So is what the shutter leaves of flashes that nothing makes equal.
+    let (_, _, err) = folder.run(&format!("{plan} --set-up in_path --triggers 16"));
+    assert!(err.contains("warning: leaf: the shutter is in the light's path"), "{err}");
+    assert_eq!(folder.run(&format!("{plan} --set-up in_path --fully-open")).2, "");
+    // And what a coarse timer leaves of equal doses.
+    let pulses = "plan leaf.toml --set-up in_path --duty 0.5 --triggers 16 --emit rust --timer-hz";
+    let (_, out, err) = folder.run(&format!("{pulses} 20kHz"));
+    assert!(
+        err.contains("warning: leaf: a tick is so long that the doses differ by up to "),
+        "{err}"
+    );
+    assert!(
+        !out.contains("of equal doses") && out.contains("of doses that differ by up to "),
+        "{out}"
+    );
+    let (_, out, err) = folder.run(&format!("{pulses} 10MHz"));
+    assert!(err.is_empty() && out.contains(", of equal doses\n"), "{err}{out}");
     let (_, _, err) = folder.run("fit five.csv --out leaf.toml");
     assert!(err.contains("kept delay = 3.0") && err.contains("delay_spread = 0.0"), "{err}");
     folder.write("one.csv", Record::new(1, 4).csv());

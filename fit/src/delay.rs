@@ -109,6 +109,8 @@ struct Synced {
     /// So many frames have several edges, and so many edges start no frame.
     bounced: usize,
     others: usize,
+    /// From a frame's first edge to its last, in seconds, at most.
+    bounces: f64,
 }
 
 impl Synced {
@@ -118,13 +120,13 @@ impl Synced {
                 let mut edges = vec![None; frames.len()];
                 let after = frames.iter().position(|frame| frame.crossings[1] > *time);
                 edges[after.unwrap_or(frames.len() - 1)] = Some(Edge { time: *time, error: 0.0 });
-                Ok(Self { edges, switch: None, step: 0.0, bounced: 0, others: 0 })
+                Ok(Self { edges, switch: None, step: 0.0, bounced: 0, others: 0, bounces: 0.0 })
             }
             Sync::Channel(channel) => {
                 let Edges { switch, starts } = edges(channel, frames)?;
-                let (bounced, others) = (starts.bounced, starts.others);
+                let (bounced, others, bounces) = (starts.bounced, starts.others, starts.bounces);
                 let (switch, step) = (Some(switch), sampling_interval(&channel.times));
-                Ok(Self { edges: starts.of, switch, step, bounced, others })
+                Ok(Self { edges: starts.of, switch, step, bounced, others, bounces })
             }
         }
     }
@@ -199,9 +201,10 @@ pub(crate) fn measure(
     }
     let sum = |of: fn(&Synced) -> usize| synced.iter().map(of).sum::<usize>();
     let (bounced, edges) = (sum(|it| it.bounced), sum(|it| it.others));
+    let bounces = synced.iter().map(|it| it.bounces).fold(0.0, f64::max);
     let missing = if is_given { 0 } else { all - n };
     let doubts = [
-        (bounced, Warning::SyncBounced { few: bounced, all: shots.len() }),
+        (bounced, Warning::SyncBounced { few: bounced, all: shots.len(), by: bounces }),
         (missing, Warning::SyncMissing { few: missing, all }),
         (edges, Warning::SyncOthers { edges }),
         (late, Warning::SyncLate { few: late, all: n, by }),

@@ -342,12 +342,20 @@ fn write(
         if scene.zero != args.zero {
             warnings.push(Warning::ZeroMoved);
         }
+        let was = old.as_ref().and_then(Old::sync_falls);
         let (text, kept) = match old {
             Some(old) => merged(&old, &scene.text, file)?,
             None => (scene.text, Vec::new()),
         };
         if !kept.is_empty() {
             said.kept += &format!("{}: kept {}\n", file.display(), kept.join(", "));
+        }
+        let is = Old::parse(text.as_bytes()).and_then(|it| it.sync_falls());
+        if let (Some(was), Some(is)) = (was, is)
+            && was != is
+        {
+            let file = file.display();
+            said.kept += &format!("{file}: sync_falls was {was}, and the trace says {is}\n");
         }
         for key in ["set_up", "timer_hz", "sync_falls"] {
             if text.contains(&format!("\n# {key} = ")) && !said.lacks.contains(&key) {

@@ -52,6 +52,11 @@ impl Old {
         count.and_then(|count| count.try_into().ok())
     }
 
+    /// Which edge of the sync counts in it.
+    pub fn sync_falls(&self) -> Option<bool> {
+        self.0.get("sync_falls").and_then(Item::as_bool)
+    }
+
     /// The unit of its times.
     pub fn unit(&self) -> Unit {
         let name = self.0.get("unit").and_then(Item::as_str);

@@ -10,7 +10,7 @@ use super::output::{Outputs, svg_path};
 use super::settings::Settings;
 use crate::emit::Form;
 use crate::planned::Planned;
-use crate::{emit, picture, report, speeds};
+use crate::{emit, facts, picture, report, speeds};
 
 /// The scene without a file, and the name it goes by.
 const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
@@ -59,10 +59,29 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let files = [picture, set_ups, to].into_iter().flatten().map(PathBuf::as_path);
     let files: Vec<&Path> = files.chain(printed).collect();
     let mut outputs = Outputs::new(&inputs, &files, args.force)?;
+    let mut told = String::new();
     let plans = match scenes.as_slice() {
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
-        paths => paths.iter().map(|path| read(args, path)).collect::<Result<Vec<_>, String>>()?,
+        paths => paths
+            .iter()
+            .map(|path| read(args, path, &mut told))
+            .collect::<Result<Vec<_>, String>>()?,
     };
+    if matches!(form, Some(Form::Rust | Form::C)) {
+        let dimmed =
+            plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
+        told.extend(dimmed.map(|(name, doses)| {
+            format!(
+                "warning: {name}: the shutter is in the light's path, and dims the flashes to {doses}; \
+                 --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal\n"
+            )
+        }));
+        let unequal =
+            plans.iter().filter_map(|(name, plan)| Some((name, facts::unequal(plan.plan()?)?)));
+        told.extend(unequal.map(|(name, percent)| {
+            format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
+        }));
+    }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {
             let name = args.name.as_ref().unwrap_or(name);
@@ -95,9 +114,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         }
         None => text,
     };
-    let wrote = outputs.ready()?.finish(out, &printed)?;
+    told += &outputs.ready()?.finish(out, &printed)?;
     // There is no one to tell if standard error cannot be written.
-    let _ = err.write_all(wrote.as_bytes());
+    let _ = err.write_all(told.as_bytes());
     Ok(())
 }
 
@@ -117,11 +136,14 @@ fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
     picture::set_ups(name, curve)
 }
 
-fn read(args: &Args, path: &Path) -> Result<(String, Planned), String> {
+fn read(args: &Args, path: &Path, told: &mut String) -> Result<(String, Planned), String> {
     let file = shown(path);
     let text = input::read(path)
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
+    if let Some(doubt) = args.settings.doubt(&file, &text) {
+        *told += &format!("warning: {doubt}\n");
+    }
     Ok((stem(path), checked(args, &file, &text)?))
 }
 

@@ -66,4 +66,16 @@ impl Settings {
         }
         scene.to_string()
     }
+
+    /// What is doubtful: an edge that is not the scene's, which a trace may have told.
+    pub fn doubt(&self, file: &str, text: &str) -> Option<String> {
+        let scene: DocumentMut = text.parse().ok()?;
+        let told = scene.get("sync_falls")?.as_bool()?;
+        let said = self.sync_falls.filter(|said| *said != told)?;
+        let edge = if said { "falling" } else { "rising" };
+        Some(format!(
+            "{file} has sync_falls = {told}, and --sync-falls {said} counts from the {edge} edge: that is right if something \
+             between the camera and the timer inverts the sync"
+        ))
+    }
 }

@@ -45,6 +45,8 @@ pub struct Starts {
     pub of: Vec<Option<Edge>>,
     /// So many frames have more than one: the first counts.
     pub bounced: usize,
+    /// From a frame's first edge to its last, in seconds, at most.
+    pub bounces: f64,
     /// So many start no frame.
     pub others: usize,
     /// So many start a frame that is half open before.
@@ -107,7 +109,7 @@ impl Starts {
             frames.iter().filter(|it| (first.time..last.time).contains(&it.crossings[1])).count()
         };
         let is_clock = bursts.iter().any(|burst| opens(burst) > 1);
-        let (mut of, mut bounced, mut late) = (Vec::new(), 0, 0);
+        let (mut of, mut bounced, mut bounces, mut late) = (Vec::new(), 0, 0.0, 0);
         let mut before = f64::NEG_INFINITY;
         for Frame { crossings, .. } in frames {
             let is_here = |edge: &Edge| edge.time > before && edge.time < crossings[5];
@@ -116,11 +118,12 @@ impl Starts {
             let start = last.or(here.next());
             late += usize::from(last.is_none() && start.is_some());
             bounced += usize::from(start.is_some_and(|(first, last)| first != last));
+            bounces = start.map_or(0.0, |(first, last)| last.time - first.time).max(bounces);
             of.push(start.map(|(edge, _)| *edge));
             before = crossings[5];
         }
         let others = bursts.len() - of.iter().flatten().count();
-        Self { of, bounced, others, late, is_clock }
+        Self { of, bounced, bounces, others, late, is_clock }
     }
 
     fn faults(&self) -> usize {

@@ -191,7 +191,9 @@ impl Columns<'_> {
     fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
         let refused = |reason: String| Err(Refusal::NoDelay { reason });
         match self.table.column(column) {
-            Err(refusal) => refused(format!("{refusal}; a time has a unit, as in 1.5ms")),
+            Err(refusal) => refused(format!(
+                "{refusal}; a time has a unit, as in 1.5ms, and a file has to be there"
+            )),
             // A number may be a name as well.
             Ok(k) if self.named_exactly(column).is_some_and(|named| named != k) => {
                 let named =

@@ -221,13 +221,14 @@ pub enum Warning {
         are(.count)
     )]
     Overload { count: usize, line: u64 },
-    /// An edge of the sync was followed by others, as if a contact bounced, before so many of all shots.
+    /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at most.
     #[error(
-        "the sync switches more than once before {few} of {}: its contact may bounce; the first edge counts, so let the \
-         firmware take the first alone",
-        counted(.all, "shot")
+        "the sync switches more than once at {few} of {}, the last time some {} after the first: its contact may bounce, as it \
+         closes or as it opens; the first edge counts, so let the firmware take no other for so long",
+        counted(.all, "shot"),
+        time(.by)
     )]
-    SyncBounced { few: usize, all: usize },
+    SyncBounced { few: usize, all: usize, by: f64 },
     /// So many of all shots have no edge before them.
     #[error(
         "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay; check the \
