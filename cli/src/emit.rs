@@ -168,6 +168,9 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
         if falls(one) != falls(plan) {
             return Err(format!("sync_falls: {first} and {name} differ; an array is for one edge"));
         }
+        if one.set_up() != plan.set_up() {
+            return Err(format!("set_up: {first} and {name} differ; an array is for one set-up"));
+        }
         if has_pulses(one) != has_pulses(plan) {
             return Err(format!(
                 "pulses: one of {first} and {name} has them; an array needs all or none"
@@ -213,7 +216,7 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 fn delay(plan: &Planned) -> &'static str {
     match plan.lag() {
         Some(lag) if lag.ticks > 0 => {
-            "None is left: the lamp's lag is longer than it, and the rest is taken off the ticks."
+            "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks."
         }
         Some(_) => {
             "From the edge of the camera's sync to the start of opening, less the lamp's lag."

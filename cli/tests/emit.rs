@@ -327,26 +327,34 @@ fn speeds_that_do_not_go_together_are_refused() {
         plans[1].1 = Plan::parse(other).unwrap();
         [Form::Rust, Form::C].map(|form| several(form, "camera", &plans).unwrap_err())
     };
-    let one = "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\nset_up = 'emulated'\n";
+    let one =
+        "open_start = 0\nopen_end = 1\nclose_start = 1\nclose_end = 2\ntriggers = 4\nmin_gap = 0\n";
     for (lines, reason) in [
-        ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
         (
-            "timer_hz = 1_000_000",
+            "timer_hz = 999\nset_up = 'emulated'",
+            "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer",
+        ),
+        (
+            "timer_hz = 1_000_000\nset_up = 'emulated'",
             "delay: 1-500 has one and box has none; an array needs all or none",
         ),
         (
-            "timer_hz = 1_000_000\ndelay = 1\nsync_falls = false",
+            "timer_hz = 1_000_000\ndelay = 1\nsync_falls = false\nset_up = 'emulated'",
             "sync_falls: 1-500 and box differ; an array is for one edge",
         ),
         (
-            "timer_hz = 1_000_000\ndelay = 1\nsync_falls = true\npulse = 0.1",
+            "timer_hz = 1_000_000\ndelay = 1\nsync_falls = true\nset_up = 'in_path'",
+            "set_up: 1-500 and box differ; an array is for one set-up",
+        ),
+        (
+            "timer_hz = 1_000_000\ndelay = 1\nsync_falls = true\nset_up = 'emulated'\npulse = 0.1",
             "pulses: one of 1-500 and box has them; an array needs all or none",
         ),
     ] {
         assert_eq!(both(&format!("{one}{lines}")), [reason, reason]);
     }
     let mut plans = speeds("");
-    plans[1].1 = Plan::parse(&format!("{one}timer_hz = 999")).unwrap();
+    plans[1].1 = Plan::parse(&format!("{one}timer_hz = 999\nset_up = 'emulated'")).unwrap();
     // A row tells no rate, and an object does.
     assert!(several(Form::Csv, "camera", &plans).unwrap_err().starts_with("timer_hz: "));
     assert!(several(Form::Json, "camera", &plans).is_ok());

@@ -175,7 +175,7 @@ fn a_lamps_lag_is_taken_off() {
         assert!(text.contains("When to trigger, counted from the end of the delay."), "{text}");
         let longer = planned(&late.replace("lamp_lag = 0.7", "lamp_lag = 3"));
         let text = emit(form, "scene", &longer, false).unwrap();
-        assert!(text.contains("None is left: the lamp's lag is longer than it"), "{text}");
+        assert!(text.contains("No delay is left: the lamp's lag is longer"), "{text}");
     }
     // Pulses, and below times without a curve.
     let keys = "triggers = 1\nlamp_lag = 1\npulse = 1\n";
