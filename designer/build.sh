@@ -27,7 +27,8 @@ rm -rf dist.new
 mkdir dist.new
 files=dist.new/files
 mkdir $files
-cp page/style.css page/icon.svg page/worker.js ../cli/traces/leaf.csv $files
+cp page/icon.svg page/worker.js ../cli/traces/leaf.csv $files
+sed -E 's/^ +//; /^\/\*.*\*\/$/d' page/style.css >$files/style.css
 built=$(cargo metadata --no-deps --format-version 1 | sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/$target/page/designer.wasm
 # First what the page begins with, then what it loads when that is asked for.
 "${build[@]}"
@@ -54,7 +55,7 @@ joined numbers studio remedies form trace speeds export bar ticks later >$files/
 # however long a host lets browsers keep either.
 sum() { if command -v sha256sum >/dev/null; then sha256sum; else shasum -a 256; fi; }
 version=$(cat page/index.html $files/* | sum | cut -c 1-12)
-sed "s|@version@|$version|g" page/index.html >dist.new/index.html
+sed -E "s/^ +//; s|@version@|$version|g" page/index.html >dist.new/index.html
 mv $files dist.new/"$version"
 rm -rf dist
 mv dist.new dist
