@@ -12,8 +12,9 @@ pub use name::{identifier, module};
 
 use crate::facts;
 use crate::lamp::Lamp;
+use crate::lamp::SetUp;
 use crate::planned::Planned;
-use crate::set_up::SetUp;
+use crate::set_up::doses;
 
 /// A form that a plan can be emitted in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +130,7 @@ fn set_ups(planned: &Planned) -> Vec<String> {
         Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
         Lamp::Triggered | Lamp::Equal { .. } => {
             let [equal, dimmed] =
-                [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&it.doses(plan)));
+                [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&doses(it, plan)));
             vec![
                 format!("{emulated}: the first, the middle and the last flash give {equal}"),
                 format!("{in_path}, and dims them to {dimmed}; all alike"),

@@ -4,10 +4,11 @@ use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::{Delay, Lag};
+use crate::lamp::SetUp;
 use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::Plan;
 use crate::planned::Planned;
-use crate::set_up::SetUp;
+use crate::set_up::doses;
 use crate::times::Times;
 
 /// What a shutter tester prints, times in seconds. ISO 516 defines such terms; these are no measurement by it.
@@ -81,10 +82,14 @@ fn half(curve: &ShutterCurve, dark: f32, open: f32) -> f32 {
 
 /// The facts as lines, each a name and what is to be said.
 pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
-    match plan {
+    let mut lines = match plan {
         Planned::Curve(plan) => of_curve(name, plan),
         Planned::Times(times) => of_times(name, times),
-    }
+    };
+    let coarse =
+        coarse(plan).map(|percent| format!("moves flashes by up to {percent} % of a share"));
+    lines.extend(coarse.map(|told| ("rounding", told)));
+    lines
 }
 
 fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
@@ -302,7 +307,7 @@ const FLASHES: &str = "emulated: equal flashes while the camera's own shutter st
 /// How the flashes meet the shutter.
 fn set_up(plan: &Plan) -> String {
     use Lamp::{Doses, Equal, FullyOpen, Triggered};
-    let dimmed = || few(&SetUp::InPath.doses(plan));
+    let dimmed = || few(&doses(SetUp::InPath, plan));
     match (plan.set_up, plan.lamp) {
         (Some(SetUp::InPath), Doses { .. }) => {
             "in the light's path; a lamp steady while it is on".into()
@@ -328,8 +333,16 @@ fn set_up(plan: &Plan) -> String {
 /// By how much the doses of a duty differ, in percent of the greatest, if it is more than one: the timer's ticks round its pulses.
 pub fn unequal(plan: &Plan) -> Option<String> {
     matches!(plan.lamp, Lamp::Doses { .. }).then_some(())?;
-    let least = SetUp::InPath.doses(plan).into_iter().fold(1.0, f64::min);
+    let least = doses(SetUp::InPath, plan).into_iter().fold(1.0, f64::min);
     (least < 0.99).then(|| short(100.0 * (1.0 - least), 2))
+}
+
+/// By how much the timer's ticks move a flash without a dose of its own, in percent of a share, if it is more than one.
+pub fn coarse(plan: &Planned) -> Option<String> {
+    let has_doses = plan.plan().is_some_and(|plan| matches!(plan.lamp, Lamp::Doses { .. }));
+    let percent = 50.0 / (share(plan)? * f64::from(plan.timer().hz));
+    let is_told = plan.timer().is_given && !has_doses && percent > 100.0 * MATTERS;
+    is_told.then(|| short(percent, 2))
 }
 
 /// The doses of equal flashes that a shutter in the light's path dims by more than a hundredth.
@@ -337,7 +350,7 @@ pub fn unequal(plan: &Plan) -> Option<String> {
 pub fn dimmed(plan: &Plan) -> Option<String> {
     let is_equal = matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. });
     let doses =
-        (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| SetUp::InPath.doses(plan))?;
+        (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| doses(SetUp::InPath, plan))?;
     doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
 }
 

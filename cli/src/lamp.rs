@@ -1,7 +1,30 @@
 //! What a lamp does in a frame: flashes at the triggers, equal pulses around them, pulses of equal doses, or flashes while the
 //! shutter is fully open.
 
+use serde::{Deserialize, Serialize};
 use shutter_curve::{ScheduleError, ShutterCurve};
+
+/// How the flashes meet the shutter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
+#[cfg_attr(feature = "terminal", value(rename_all = "snake_case"))]
+#[serde(rename_all = "snake_case")]
+pub enum SetUp {
+    /// The camera's own shutter stays open, and the flashes make the exposure of the scene's curve
+    Emulated,
+    /// The scene's shutter is in the light's path, and dims the flashes
+    InPath,
+}
+
+impl SetUp {
+    /// As a scene has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Emulated => "emulated",
+            Self::InPath => "in_path",
+        }
+    }
+}
 
 /// How a lamp exposes, which depends on the set-up.
 #[derive(Clone, Copy, Debug, PartialEq)]

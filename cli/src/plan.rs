@@ -5,9 +5,9 @@ pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
 use crate::delay::{Delay, Lag, Sync};
+use crate::lamp::SetUp;
 use crate::lamp::{Flash, FullyOpen, Lamp};
 use crate::scene::{Fault, Scene, min_gap, positive, whole};
-use crate::set_up::SetUp;
 use crate::shape::Shape;
 use crate::timer::Timer;
 

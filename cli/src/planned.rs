@@ -4,9 +4,10 @@ use serde::Serialize;
 use shutter_fit::unit::Unit;
 
 use crate::delay::{Delay, Lag};
+use crate::lamp::SetUp;
 use crate::plan::{Plan, Trigger};
 use crate::scene::{Fault, trigger_times_at};
-use crate::set_up::SetUp;
+use crate::set_up::doses;
 use crate::timer::Timer;
 use crate::times::{Given, Times};
 
@@ -138,7 +139,7 @@ impl Planned {
         let (delay, mut last) = (self.delay(), None);
         // Checked when the lag was read: the first trigger comes no earlier.
         let early = self.lag().map_or(0, |lag| lag.ticks);
-        let doses = self.plan().and_then(|plan| Some(plan.set_up?.doses(plan)));
+        let doses = self.plan().and_then(|plan| Some(doses(plan.set_up?, plan)));
         let mut row = |index, u, time_s, ticks: u32, pulse: Option<(u32, u32)>| Row {
             index,
             u,

@@ -10,9 +10,9 @@ use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::facts;
 use crate::lamp::Lamp;
+use crate::lamp::SetUp;
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
-use crate::set_up::SetUp;
 use crate::times::Times;
 
 /// With more triggers than this, a full line at each would hide the curve.

@@ -7,7 +7,7 @@ use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::set_up::SetUp;
+use crate::lamp::SetUp;
 use crate::shape::Shape;
 
 /// A scene as it is written; each value knows its place in the text.

@@ -1,49 +1,24 @@
 //! The two set-ups: which light the same shutter leaves of equal pulses, and of those made for it.
 
-use serde::{Deserialize, Serialize};
-
-use crate::lamp::Lamp;
+use crate::lamp::{Lamp, SetUp};
 use crate::plan::{Plan, Trigger};
 
-/// How the flashes meet the shutter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
-#[cfg_attr(feature = "terminal", derive(clap::ValueEnum))]
-#[cfg_attr(feature = "terminal", value(rename_all = "snake_case"))]
-#[serde(rename_all = "snake_case")]
-pub enum SetUp {
-    /// The camera's own shutter stays open, and the flashes make the exposure of the scene's curve
-    Emulated,
-    /// The scene's shutter is in the light's path, and dims the flashes
-    InPath,
-}
-
-impl SetUp {
-    /// As a scene has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Emulated => "emulated",
-            Self::InPath => "in_path",
+/// The light of each flash of a plan, the greatest being 1.
+pub fn doses(set_up: SetUp, plan: &Plan) -> Vec<f64> {
+    let curve = &plan.curve;
+    let time = |ticks| (f64::from(curve.open_start()) + plan.seconds(ticks)) as f32;
+    let dose = |trigger: &Trigger| match (set_up, trigger.pulse) {
+        (SetUp::Emulated, None) => 1.0,
+        (SetUp::Emulated, Some((on, off))) => f64::from(off - on),
+        (SetUp::InPath, None) => f64::from(curve.openness(time(trigger.ticks))),
+        (SetUp::InPath, Some((on, off))) => {
+            f64::from(curve.cdf(time(off))) - f64::from(curve.cdf(time(on)))
         }
-    }
-
-    /// The light of each flash of a plan, the greatest being 1.
-    pub fn doses(self, plan: &Plan) -> Vec<f64> {
-        let curve = &plan.curve;
-        let time = |ticks| (f64::from(curve.open_start()) + plan.seconds(ticks)) as f32;
-        let dose = |trigger: &Trigger| match (self, trigger.pulse) {
-            (Self::Emulated, None) => 1.0,
-            (Self::Emulated, Some((on, off))) => f64::from(off - on),
-            (Self::InPath, None) => f64::from(curve.openness(time(trigger.ticks))),
-            (Self::InPath, Some((on, off))) => {
-                f64::from(curve.cdf(time(off))) - f64::from(curve.cdf(time(on)))
-            }
-        };
-        let doses: Vec<f64> = plan.triggers.iter().map(dose).collect();
-        let most = doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        doses.iter().map(|dose| dose / most).collect()
-    }
+    };
+    let doses: Vec<f64> = plan.triggers.iter().map(dose).collect();
+    let most = doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    doses.iter().map(|dose| dose / most).collect()
 }
-
 /// How much of each share the lamp is on, where the scene does not say.
 const DUTY: f32 = 0.5;
 

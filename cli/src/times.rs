@@ -6,9 +6,9 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST, Lag, Sync};
+use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
 use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
-use crate::set_up::SetUp;
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use shutter::emit::{Form, emit};
+use shutter::lamp::SetUp;
 use shutter::planned::Planned;
-use shutter::set_up::SetUp;
 
 /// Opens in 1 ms, is open for 4, closes in 2.
 const SCENE: &str =

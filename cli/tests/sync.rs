@@ -280,7 +280,14 @@ fn the_spread_is_told_and_kept() {
     let (_, _, err) = folder.run(&format!("{plan} --set-up in_path --triggers 16"));
     assert!(err.contains("warning: leaf: the shutter is in the light's path"), "{err}");
     assert_eq!(folder.run(&format!("{plan} --set-up in_path --fully-open")).2, "");
-    // And what a coarse timer leaves of equal doses.
+    // And what a coarse timer does to triggers, and leaves of equal doses. A share of 5 ms / 8 has 6.25 ticks of 10 kHz.
+    let flashes =
+        "plan leaf.toml --set-up emulated --triggers 8 --min-gap 0 --emit rust --timer-hz";
+    let (_, out, err) = folder.run(&format!("{flashes} 10kHz"));
+    assert!(err.contains("flashes move by up to 8 % of a share"), "{err}");
+    assert!(out.contains("\n// rounding     moves flashes by up to 8 % of a share\n"), "{out}");
+    let (_, out, err) = folder.run(&format!("{flashes} 1MHz"));
+    assert!(err.is_empty() && !out.contains("rounding"), "{err}{out}");
     let pulses = "plan leaf.toml --set-up in_path --duty 0.5 --triggers 16 --emit rust --timer-hz";
     let (_, out, err) = folder.run(&format!("{pulses} 20kHz"));
     assert!(

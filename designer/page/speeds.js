@@ -7,11 +7,7 @@ import { doubt, dial, nearest, stops } from './facts.js';
 import { change, model } from './model.js';
 import { parse } from './numbers.js';
 import { short } from './scene.js';
-import { readTrace } from './trace.js';
-
-// The file of each row of this visit: two may have one name.
-const files = new WeakMap();
-export const remember = (rows, list) => rows.forEach((row, i) => files.set(row, list[i]));
+import { readTrace, rowFiles } from './trace.js';
 
 const isNewTable = watch();
 
@@ -34,7 +30,7 @@ export function drawSpeeds({ now: { speeds }, pending }) {
 
 function line(row, speeds) {
   const { name, kind, exposure, error, scatter, pulses, doubts } = row;
-  const file = files.get(row);
+  const file = rowFiles.get(row);
   const title = html`<th scope="row">${file ? html`<button type="button" class="plain" title="Show this trace" @click=${() => readTrace(file, {})}>${name}</button>` : name}</th>`;
   if (!exposure) return html`<tr>${title}${Array.from({ length: 6 }, () => html`<td>–</td>`)}<td>${kind}</td></tr>`;
   const speed = nearest(exposure);
@@ -52,7 +48,7 @@ function line(row, speeds) {
       return target.reportValidity();
     }
     const told = { ...row, dial: Number.isNaN(seconds) ? null : seconds };
-    if (file) files.set(told, file);
+    if (file) rowFiles.set(told, file);
     change({ speeds: speeds.with(speeds.indexOf(row), told) });
   };
   return html`<tr>${title}<td>${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}</td><td>${speed ? dial(speed) : '–'}</td>

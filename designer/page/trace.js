@@ -6,13 +6,15 @@ import { change, model, tell } from './model.js';
 import { parse } from './numbers.js';
 import { UNITS } from './presets.js';
 import { GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, perSecond, short, tidy } from './scene.js';
-import { remember } from './speeds.js';
 import { cancelFit, fitTrace, parseScene } from './studio.js';
 
 /** Longer files are not read. */
 const LONGEST_TRACE = 256 << 20, LONGEST_SCENE = 1 << 20;
 /** What the button beside a message says, which leads to the control that mends it. */
 const MEND = { rate: 'Give the rate', unit: 'Choose the unit', signal: 'Choose the columns', rises: 'Say which way', full: 'Give full light', frame: 'Choose the pulse', sync: 'Choose its channel' };
+
+/** The file of each row of the table, in this visit: two may have one name. */
+export const rowFiles = new WeakMap();
 
 /** Begins: files are chosen or dropped. */
 export function startTraces() {
@@ -139,7 +141,7 @@ async function measure(files) {
     speeds.push({ name: file.name, kind, exposure, error, scatter, pulses, dial: null, doubts: fit ? doubtsOf(fit).map(({ text }) => text) : [] });
   }
   tell({ busy: null });
-  remember(speeds, files);
+  speeds.forEach((row, i) => rowFiles.set(row, files[i]));
   change({ speeds });
 }
 

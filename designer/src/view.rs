@@ -5,6 +5,7 @@ use shutter::facts::{Facts, drift, few};
 use shutter::lamp::Lamp;
 use shutter::plan::{MOST_TRIGGERS, Plan};
 use shutter::scene::{KEYS, Scene};
+use shutter::set_up::doses;
 use shutter::shape::Shape;
 use shutter::times::Times;
 use shutter_curve::CubicBezier;
@@ -211,7 +212,7 @@ impl Planned {
             delay: plan.delay.map(|delay| delay.ticks),
             most: Some(plan.most),
             seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
-            doses: plan.set_up.map(|set_up| set_up.doses(&plan)).and_then(|doses| {
+            doses: plan.set_up.map(|set_up| doses(set_up, &plan)).and_then(|doses| {
                 let is_even = doses.iter().all(|dose| *dose > 0.985);
                 (!is_even).then(|| few(&doses))
             }),

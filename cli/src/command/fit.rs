@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use shutter_fit::trace::{Light, Refusal, Warning};
+use shutter_fit::trace::{self, Column, Light, Refusal, Warning};
 use shutter_fit::unit::{Unit, count, short};
 use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
@@ -56,41 +56,41 @@ pub struct Args {
     force: bool,
     /// The unit of the times, if the file does not say
     #[arg(long)]
-    pub(super) unit: Option<Unit>,
+    unit: Option<Unit>,
     /// The columns of time and signal, or of the signal alone, by number from 1 or by name; the signals of several sensors make
     /// a table of exposures and curtain travel
     #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
-    pub(super) columns: Vec<String>,
+    columns: Vec<String>,
     /// Samples per second, if the rows hold no time: 48000, 250kHz
     #[arg(long, value_name = "HERTZ", value_parser = rate)]
-    pub(super) rate: Option<f64>,
+    rate: Option<f64>,
     /// The first time of the trace that counts: -5ms
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
-    pub(super) from: Option<f64>,
+    from: Option<f64>,
     /// The last time of the trace that counts
     #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
-    pub(super) to: Option<f64>,
+    to: Option<f64>,
     /// Which way light moves the signal
     #[arg(long, default_value = "auto")]
-    pub(super) light: Light,
+    light: Light,
     /// The signal of the fully open shutter, if this trace never reaches it
     #[arg(long, value_name = "SIGNAL", allow_negative_numbers = true)]
-    pub(super) full: Option<f64>,
+    full: Option<f64>,
     /// Which pulse to fit, counted from 1 through all traces of one setting; if left out, the one of median exposure
     #[arg(long, value_name = "NUMBER")]
-    pub(super) frame: Option<usize>,
+    frame: Option<usize>,
     /// The shutter's model; if left out, the simplest that is good enough
     #[arg(long)]
-    pub(super) model: Option<Kind>,
+    model: Option<Kind>,
     /// Take the simplest model whose triggers are within this of the free model's: 0.1% (of the exposure), 20us
     #[arg(long, value_parser = tolerance, conflicts_with = "model", allow_hyphen_values = true)]
-    pub(super) tolerance: Option<Tolerance>,
+    tolerance: Option<Tolerance>,
     /// How many triggers; if left out, as many as the existing scene has, or 16
     #[arg(long, value_name = "N", value_parser = trigger_count())]
     triggers: Option<u32>,
     /// The mains frequency in hertz, if there is hum in the trace
     #[arg(long, value_name = "50|60", value_parser = mains)]
-    pub(super) mains: Option<f64>,
+    mains: Option<f64>,
     /// The camera's sync: its column by name or number (CH2, 3), the time of its edge in the trace (0, 1.5ms), or a file of the
     /// same record (F0001CH2.CSV); the scene gets the delay from the edge to the opening, and its spread between shots
     #[arg(long, value_name = "COLUMN|TIME|FILE", value_parser = read::sync, allow_hyphen_values = true)]
@@ -101,6 +101,16 @@ pub struct Args {
     /// Where the scene's time 0 is
     #[arg(long, default_value = "trace")]
     zero: Zero,
+}
+
+impl Args {
+    /// How a trace is read, and what its fit is asked for.
+    fn asked(&self) -> (trace::Options, Options) {
+        let &Self { unit, rate, from, to, light, full, frame, model, tolerance, mains, .. } = self;
+        let columns = self.columns.iter().map(|column| Column::parse(column)).collect();
+        let how = trace::Options { unit, columns, rate, from, to, sync: None };
+        (how, Options { light, full, frame, model, tolerance, mains, ..Options::default() })
+    }
 }
 
 /// The form of what goes to standard output.
@@ -168,7 +178,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let olds: Result<Vec<_>, _> = scenes.iter().map(|file| old(&mut outputs, file)).collect();
     let olds = olds?;
 
-    let read = traces.iter().enumerate().map(|(i, path)| Read::new(args, path, sync(i)));
+    let (how, options) = args.asked();
+    let read = traces.iter().enumerate();
+    let read = read.map(|(i, path)| Read::new(path, &how, &options, sync(i)));
     let read: Vec<Read> = read.collect::<Result<_, _>>()?;
     let records = read.iter().map(|it| {
         Record::new(&it.trace, &it.options)
@@ -234,7 +246,8 @@ fn sensors(
         let columns = [time, std::slice::from_ref(signal)].concat();
         let frame = args.frame.or(all.first().map(|first| first.fit.frames.fitted));
         let one = Args { columns, frame, ..args.clone() };
-        let read = Read::new(&one, &args.trace, sync)?;
+        let (how, options) = one.asked();
+        let read = Read::new(&args.trace, &how, &options, sync)?;
         let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
         let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
         let Speed { fit, warnings, .. } =

@@ -81,6 +81,10 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         told.extend(unequal.map(|(name, percent)| {
             format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
         }));
+        let coarse = plans.iter().filter_map(|(name, plan)| Some((name, facts::coarse(plan)?)));
+        told.extend(coarse.map(|(name, percent)| {
+            format!("warning: {name}: a tick is so long that flashes move by up to {percent} % of a share; a faster timer moves them less\n")
+        }));
     }
     let text = match (plans.as_slice(), form) {
         ([(name, plan)], _) => {

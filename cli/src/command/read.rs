@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use shutter_fit::trace::{self, Column, Reading, Recording, Trace, Warning};
 use shutter_fit::{Options, Sync};
 
-use super::fit::Args;
 use super::input::{self, file_name, shown};
 use super::kept::Old;
 use super::quantity::time;
@@ -51,15 +50,20 @@ pub struct Read<'a> {
 }
 
 impl<'a> Read<'a> {
-    /// Reads a trace, and the channel of its sync from there or from a file of its own.
-    pub fn new(args: &Args, path: &'a Path, sync: Option<&Asked>) -> Result<Self, String> {
+    /// Reads a trace so, and the channel of its sync from there or from a file of its own; `options` are those of its fit.
+    pub fn new(
+        path: &'a Path,
+        how: &trace::Options,
+        options: &Options,
+        sync: Option<&Asked>,
+    ) -> Result<Self, String> {
         let column = match sync {
             Some(Asked::Column(column)) => Some(column.clone()),
             _ => None,
         };
+        let how_light = trace::Options { sync: column, ..how.clone() };
         let Recording { trace, timing, sync: channel, mut reading, mut warnings } =
-            open(args, path, &args.columns, column)
-                .map_err(|reason| format!("{}: {reason}", shown(path)))?;
+            open(path, &how_light).map_err(|reason| format!("{}: {reason}", shown(path)))?;
         let sync = match sync {
             Some(Asked::Time(_)) if reading.is_counted() => {
                 return Err(format!(
@@ -72,10 +76,12 @@ impl<'a> Read<'a> {
             Some(Asked::File(file)) => {
                 let told = |reason: String| format!("{}: {reason}", shown(file));
                 // Its names are its own.
-                let is_number = |column: &String| column.trim().parse::<usize>().is_ok();
-                let columns =
-                    if args.columns.iter().all(is_number) { &args.columns[..] } else { &[] };
-                let other = open(args, file, columns, None).map_err(told)?;
+                let is_number = |column: &Column| matches!(column, Column::Number(_));
+                let mut how = how.clone();
+                if !how.columns.iter().all(is_number) {
+                    how.columns.clear();
+                }
+                let other = open(file, &how).map_err(told)?;
                 same_record(&trace, &other).map_err(told)?;
                 let (number, name) = other.reading.signal;
                 let name = name.map_or(String::new(), |name| format!("{name} of "));
@@ -85,17 +91,7 @@ impl<'a> Read<'a> {
             }
             _ => channel.map(Sync::Channel),
         };
-        let options = Options {
-            model: args.model,
-            tolerance: args.tolerance,
-            full: args.full,
-            frame: args.frame,
-            light: args.light,
-            mains: args.mains,
-            sync,
-            timing,
-            ..Options::default()
-        };
+        let options = Options { sync, timing, ..options.clone() };
         Ok(Self { path, trace, options, reading, warnings })
     }
 
@@ -142,23 +138,9 @@ pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning
     }
 }
 
-fn open(
-    args: &Args,
-    path: &Path,
-    columns: &[String],
-    sync: Option<Column>,
-) -> Result<Recording, String> {
-    let columns = columns.iter().map(|column| Column::parse(column)).collect();
-    let options = trace::Options {
-        unit: args.unit,
-        columns,
-        rate: args.rate,
-        from: args.from,
-        to: args.to,
-        sync,
-    };
+fn open(path: &Path, how: &trace::Options) -> Result<Recording, String> {
     let bytes = input::read(path)?;
-    trace::open(&bytes, &options).map_err(|refusal| match bytes.trim_ascii_start().first() {
+    trace::open(&bytes, how).map_err(|refusal| match bytes.trim_ascii_start().first() {
         _ if Old::parse(&bytes).is_some() => {
             format!("this is a scene, and no trace; `shutter plan {}` takes it", shown(path))
         }

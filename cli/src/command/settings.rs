@@ -5,7 +5,7 @@ use toml_edit::{DocumentMut, Item, value};
 
 use super::fit::trigger_count;
 use super::quantity::{self, time, whole_rate};
-use crate::set_up::SetUp;
+use crate::lamp::SetUp;
 
 /// The settings of a frame. They count in place of the scene's.
 #[derive(clap::Args, Default)]

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use crate::facts::{self, Facts};
+use crate::lamp::SetUp;
 use crate::planned::{Planned, Row};
-use crate::set_up::SetUp;
 
 /// A plan's object.
 pub fn object(scene: &str, plan: &Planned) -> String {
