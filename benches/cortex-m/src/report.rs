@@ -210,7 +210,8 @@ fn introduction(cores: &[&Measured]) -> String {
     format!(
         "Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times, with `OCTAVES = 8` if no other number is named. *Soft* collects a third
 of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps; *typical* is the mean over {TYPICAL} curves. *Worst* is the
-worst call found on any curve, *direct* the worst that needs no search. A schedule is of {TRIGGERS} triggers, checked. Square roots serve
+worst call found on the tests' hard curves; a density that is dark at both ends may take some five times as many evaluations. *Direct* is
+the worst that needs no search. A schedule is of {TRIGGERS} triggers, checked. Square roots serve
 straight ramps alone. Calls go through an opaque reference; in the second row each curve is a `static`, as in firmware, and the worst is
 over typical curves.
 
