@@ -62,10 +62,10 @@
 //!
 //! # Cost
 //!
-//! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of
-//! a Cortex-M4F, an [`inverse_cdf`] takes some 50 to 110 cycles on average, and some 500 to 2200 where it needs a
-//! search (more on a density that is dark at both ends). Frames of up to [`direct_triggers`] never need one. Building a
-//! curve at run time takes some 2.9 million cycles. The README compares other methods, and says when not to use this crate.
+//! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of a Cortex-M4F, an [`inverse_cdf`]
+//! takes some 50 to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark
+//! at both ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 2.9
+//! million cycles. The README compares other methods, and says when not to use this crate.
 //!
 //! # Features and minimum Rust
 //!
@@ -114,8 +114,8 @@
 // Hints to the compiler stay where they pay, on a Cortex-M4F at level 3: without any `inline(always)` a schedule takes
 // 22 % more cycles, and an inverse of a `static` 10 %; without any `inline(never)` the code is 26 % larger.
 //
-// Masks such as `i & 31`, and branches to an end that is never reached, show the compiler that an index or a shift is
-// in range, so that no panic links.
+// Masks such as `i & 31`, branches to an end that is never reached, and `wrapping_` where nothing wraps but what a
+// comment says, show the compiler that an index, a shift or a sum is in range, so that no panic links.
 mod cdf;
 mod domain;
 mod error;

@@ -32,7 +32,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// Times are in seconds, or all times and rates in one other unit ([Units](crate#units)).
 ///
-/// `OCTAVES` is the number of polynomials for each half of the fractions [0, 1], 8 unless
+/// `OCTAVES` is the most polynomials for each half of the fractions [0, 1], 8 unless
 /// [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number. With 8, about one
 /// `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376 bytes, and 96 more
 /// for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the compiler's limit on
@@ -218,9 +218,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.openness(t)), [0.5, 1.0, 0.25, 0.0]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
-    ///
-    /// [`open_start`]: Self::open_start
-    /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
         cdf::openness(&self.inverse.exposure, t)
@@ -271,9 +268,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// assert_eq!(curve.inverse_cdf(0.5), 0.475);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
-    ///
-    /// [`open_start`]: Self::open_start
-    /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse.inverse_cdf(u)
@@ -347,9 +341,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer; their gaps
-    /// are not checked. Ticks never step back. They count from [`open_start`](Self::open_start): add the timer's count at that moment, with
-    /// `wrapping_add`.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer; their
+    /// gaps are not checked. Ticks never step back. They count from [`open_start`](Self::open_start): add the timer's
+    /// count at that moment, with `wrapping_add`.
     ///
     /// Their times, to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
@@ -412,7 +406,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.ticks_into(ticks, min_gap)
     }
 
-    /// The ticks of `N` triggers as an array, every gap checked to be at least `min_gap` ticks. In a constant, it is checked at compile time.
+    /// The ticks of `N` triggers as an array, every gap checked to be at least `min_gap` ticks. In a constant, it is
+    /// checked at compile time.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -436,8 +431,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// The ticks of `n` triggers in a `heapless::Vec`, every gap checked to be at least `min_gap` ticks. Needs the feature
-    /// `heapless-v0_9`.
+    /// The ticks of `n` triggers in a `heapless::Vec`, every gap checked to be at least `min_gap` ticks. Needs the
+    /// feature `heapless-v0_9`.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -554,7 +549,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.pulses_into(pulses, limits)
     }
 
-    /// `N` pulses as an array, each pulse and gap checked against `limits`. In a constant, it is checked at compile time.
+    /// `N` pulses as an array, each pulse and gap checked against `limits`. In a constant, it is checked at compile
+    /// time.
     ///
     /// ```
     /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, valid};

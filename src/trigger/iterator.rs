@@ -63,14 +63,12 @@ macro_rules! iterate {
             // Inlined into the caller's loop: most programs have only one, so the code is there once.
             #[inline(always)]
             fn next(&mut self) -> Option<$item> {
-                let i = self.left.next()?;
-                Some(self.frame.at(i))
+                self.left.next().map(|i| self.frame.at(i))
             }
 
             #[inline]
             fn nth(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth(n)?;
-                Some(self.frame.at(i))
+                self.left.nth(n).map(|i| self.frame.at(i))
             }
 
             #[inline]
@@ -82,14 +80,12 @@ macro_rules! iterate {
         impl<const OCTAVES: usize> DoubleEndedIterator for $name<'_, OCTAVES> {
             #[inline]
             fn next_back(&mut self) -> Option<$item> {
-                let i = self.left.next_back()?;
-                Some(self.frame.at(i))
+                self.left.next_back().map(|i| self.frame.at(i))
             }
 
             #[inline]
             fn nth_back(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth_back(n)?;
-                Some(self.frame.at(i))
+                self.left.nth_back(n).map(|i| self.frame.at(i))
             }
         }
 
