@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::accuracy::{Figures, mended, of_triggers};
-use crate::methods::Method::{Nearer, Table256, Textbook};
+use crate::methods::Method::{Nearer, Textbook};
 use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
@@ -33,7 +33,6 @@ pub struct Measured {
 
 pub fn write(measured: &Measured) -> String {
     let sections = [
-        introduction(measured),
         methods(measured),
         forwards(measured),
         hard_cases(),
@@ -42,38 +41,6 @@ pub fn write(measured: &Measured) -> String {
         rendering(measured),
     ];
     sections.join("\n\n") + "\n"
-}
-
-fn introduction(measured: &Measured) -> String {
-    format!(
-        "# Speed against error
-
-Written by `cargo bench -p benches -- --write-docs`; nothing here is typed by hand. Times are from one {} core of
-an ordinary machine, medians of interleaved repeats, in short runs, over 65 536 random `u`, so that no branch on `u` is ever
-predicted; on another machine trust the ratios.
-
-Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones), {}
-fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
-
-- *forward* and *backward*: as [accuracy.md](../accuracy.md) has them, in ulp of `t` and of `u`;
-- *of the interval*: the distance from the exact time as a share of the interval, its mean over the uniform half;
-- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
-- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
-  other columns a time outside the interval counts as its nearer end, and NaN as its start.
-
-The time of `inverse_cdf` as a share of that of *{}*, the fastest of the others whose errors are of the same order:
-
-{}
-
-![Error against cost](frontier.svg)
-
-Full dots are the greatest error, rings the mean.",
-        std::env::consts::ARCH,
-        measured.curves,
-        measured.samples,
-        Nearer.name(),
-        ratios(measured),
-    )
 }
 
 /// The times of this crate's methods on *soft* and *all ramp*, as shares of the careful Newton's.
@@ -102,94 +69,90 @@ pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> 
     rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
+/// The names of the columns of times. A box has no ramps, where methods differ.
+fn timed() -> String {
+    let names = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
+    names.collect::<Vec<_>>().join(" | ")
+}
+
 fn methods(measured: &Measured) -> String {
-    let costs = METHODS.iter().map(|method| {
-        // A box has no ramps, where methods differ.
+    let rows = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let times = measured.times[..=TRAPEZOID].iter().map(|(times, _)| time(times, *method));
         let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-        let head = [method.name().to_owned(), method.bytes().to_string()];
-        head.into_iter().chain(times).collect()
-    });
-    let timed = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
-    let timed = timed.collect::<Vec<_>>().join(" | ");
-    let costs = table(&format!("method | bytes | {timed}"), 1, costs);
-    let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let numbers = [
-            figures.forward.0,
-            figures.forward.1,
+        let errors = [
+            figures.forward,
             figures.of_interval.0,
-            figures.of_interval.1,
             figures.backward,
             figures.steps_back,
             figures.failures,
         ];
-        [method.name().into()].into_iter().chain(numbers.map(number)).collect()
-    });
-    let header = "method | forward: max | mean | of the interval: max | mean | backward, ulp(u) \
-                  | steps back | failures";
-    let errors = table(header, 1, errors);
-    let aimed = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let (most, back) = figures.hard;
         let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
-        vec![method.name().into(), number(most), number(back), triggers]
+        let head = [method.name().to_owned()];
+        head.into_iter().chain(times).chain(errors.map(number)).chain([triggers]).collect()
     });
-    let aimed = table("method | aimed and tiny `u` | steps back | a leaf's triggers", 1, aimed);
+    let header = format!(
+        "method | {} | ulp(t) | of the interval | ulp(u) | steps back | failures | a leaf's triggers",
+        timed()
+    );
+    let table = table(&header, 1, rows);
     format!(
-        "## The methods
+        "# Speed against error
+
+Written by `cargo bench -p benches -- --write-docs`. Times are medians from one {arch} core, over 65 536 random `u`, so that no
+branch on `u` is predicted; on another machine trust the ratios.
+
+![Error against cost](frontier.svg)
+
+Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the curves, and cycles and bytes.
+
+## The methods
 
 The first four are this crate. *{nearer}* is what one writes without it, with care: sextics in powers of p from both ends
 of each ramp, in `f32` but built in `f64`; `u` counted from the nearer end; and Newton's steps inside a bracket, from where a
 straight ramp has its answer, until the residual is 3e-7 of the target, and one more. The others are written from public
 descriptions: Newton in `f32` on sextics in powers of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer);
-Newton inside a bracket until an absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally
-spaced `u`, joined by lines or by monotone cubics. The last three are for straight ramps alone, which take one square root, from
-the nearer end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
+Newton inside a bracket until an absolute 1e-6 (another renderer); Newton in doubles; tables of the exact inverse at equally
+spaced `u`, joined by lines or by monotone cubics; and one square root from the nearer end, for straight ramps alone.
 
-### Cost
+{table}
 
-The curves are those of [cost.md](cost.md), which has cycles.
+Errors are the greatest against double-double arithmetic on {curves} typical curves, {samples} fractions each: half of them uniform,
+a quarter towards either end by octaves, where tables and absolute tolerances fail. Square roots are judged on the {straight} whose ramps
+are straight, from 0 to 1 and back.
 
-{costs}
-
-### Error
-
-{errors}
-
-The square roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
-
-The largest errors, as shares of the interval, where it is harder and where it is easier. *Aimed and tiny* `u` are some 1000 on each of
-the same curves, next to joins and kinks and as small as an `f32` can be; the rounding of the time to an `f32` is forgiven there.
-*A leaf's triggers* are frames of up to 64 on the leaf shutter of `cli/traces/leaf.csv`: what firmware asks.
-
-{aimed}
+- *ulp(t)* and *ulp(u)*: the forward and the backward error of [accuracy.md](../accuracy.md);
+- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
+- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
+  other columns a time outside the interval counts as its nearer end, and NaN as its start;
+- *a leaf's triggers*: the error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`.
 
 ![Worst cases](worst-cases.svg)
 
-Each random curve's worst `u`, over about 1000 that are likely to be bad. Where several lie at one place, it has one dot.",
+Each random curve's worst `u`, over about 1000 that are likely to be bad; where several lie at one place, it has one dot.",
+        arch = std::env::consts::ARCH,
         nearer = Nearer.name(),
+        curves = measured.curves,
+        samples = measured.samples,
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
 
 fn forwards(measured: &Measured) -> String {
-    let rows =
-        CURVES[..=TRAPEZOID].iter().zip(&measured.times).map(|((name, ..), (_, forwards))| {
-            let cells =
-                forwards.iter().flat_map(|(time, error)| [format!("{time:.1}"), number(*error)]);
-            [(*name).into()].into_iter().chain(cells).collect()
-        });
-    let names = FORWARDS.map(|(name, _)| format!("{name}, ns | error")).join(" | ");
-    let table = table(&format!("curve | {names}"), 1, rows);
+    let rows = FORWARDS.iter().enumerate().map(|(i, (name, _))| {
+        let on = || measured.times[..=TRAPEZOID].iter().map(|(_, forwards)| forwards[i]);
+        let times = on().map(|(time, _)| format!("{time:.1}"));
+        let error = number(on().map(|(_, error)| error).fold(0.0, f64::max));
+        [(*name).into()].into_iter().chain(times).chain([error]).collect()
+    });
+    let table = table(&format!("| {} | greatest error", timed()), 1, rows);
     format!(
         "## Openness and cdf
 
-Against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
-bisection. Nanoseconds a sample at random times, and the greatest error seen, absolute: of the openness, and of the
-fraction of the exposure.
+At random times, against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
+bisection. Errors are absolute, of the openness and of the fraction of the exposure. No table gives the place of a time, so this crate
+searches for it, to the promised ulp.
 
-{table}
-
-Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp."
+{table}"
     )
 }
 
@@ -197,24 +160,24 @@ Both need `p` for a `t`, which no table gives: this crate solves by its own sear
 fn hard_cases() -> String {
     let judged = |curve: &Curve, us: &[f32]| {
         let exact = Exact::new(curve);
-        let others = [Nearer, Textbook, Table256].map(|method| {
+        let others = [Nearer, Textbook].map(|method| {
             let inverse = method.build(curve).expect("it serves every curve");
             judge_on(&exact, |u| mended(curve, inverse.inverse_cdf(u)), us).of_interval
         });
         let ours = shutter::<8>(curve);
         let own = judge_on(&exact, |u| ours.inverse_cdf(u), us);
-        [others[0], others[1], others[2], own.of_interval, own.backward]
+        [others[0], others[1], own.of_interval, own.backward]
     };
     let cases = CASES.iter().map(|case| {
         let curve = case.curve();
         (case.name, judged(&curve, &breaking_us(&Exact::new(&curve))))
     });
     let (told, others): (Vec<_>, Vec<_>) =
-        cases.partition(|(_, figures)| figures[..3].iter().any(|error| *error > 0.01));
-    let row = |name: String, figures: [f64; 5]| {
+        cases.partition(|(_, figures)| figures[..2].iter().any(|error| *error > 0.01));
+    let row = |name: String, figures: [f64; 4]| {
         [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>()
     };
-    let most = |all: Vec<[f64; 5]>| {
+    let most = |all: Vec<[f64; 4]>| {
         std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max))
     };
     let name = format!("{} others, the worst of each column", others.len());
@@ -227,14 +190,13 @@ fn hard_cases() -> String {
     let name = format!("{} aimed curves, the worst of each column", aimed.len());
     let aimed = row(name, most(aimed));
     let told = told.into_iter().map(|(name, figures)| row(name.into(), figures));
-    let header = "case | Newton, nearer end | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
+    let header = "case | Newton, nearer end | textbook Newton | this crate, 8 octaves | its ulp(u)";
     let table = table(header, 1, told.chain([others, aimed]));
     format!(
         "## Hard cases
 
-The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, and the
-backward error of this crate with 8 octaves, where another method errs by more than 1 %. Each case is judged in
-`tests/promises.rs`; `tests/support/aimed.rs` draws curves that meet difficulties exactly, and the `u` next to them.
+The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, where a
+Newton errs by more than 1 %. *Aimed* curves meet difficulties exactly (`tests/support/aimed.rs`).
 
 {table}"
     )
@@ -244,7 +206,8 @@ fn search(measured: &Measured) -> String {
     let (bred, aimed): (Vec<_>, Vec<_>) =
         measured.search.iter().partition(|row| row["is_bred"] == "true");
     let [tried, each] = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
-    let bred = table("aim | worst found", 1, bred.iter().map(|row| shown(row, "what worst")));
+    let bred = bred.iter().map(|row| shown(row, "what worst").join(": "));
+    let bred = bred.collect::<Vec<_>>().join("\n- ");
     let steps = ["steps_back", "cdf_steps_back", "tick_steps_back"];
     let steps: f64 = steps.into_iter().map(|column| sum(&aimed, column)).sum();
     let [backward, evaluations, cdf, density, ticks] =
@@ -253,14 +216,13 @@ fn search(measured: &Measured) -> String {
         "### Found by search
 
 `cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the worst of them by
-moving control points. {tried} valid curves were tried, each on about 650 `u`; the errors in ulp(t), the evaluations and the round
-trip are those of every seventh of these. `search.csv` has the curves.
+moving control points. The worst of {tried} valid curves, each on about 650 `u` (`search.csv` has them; all but ulp(u) and steps back
+are of every seventh `u`):
 
-{bred}
+- {bred}
 
-Then it judges all that is promised on {families} families of curves that meet difficulties exactly (`tests/support/aimed.rs`), {each}
-of each, with `OCTAVES` = 0 and 8. Promises broken: {broken}. Steps back: {steps}. At worst {backward} ulp(u), {evaluations} evaluations,
-{cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
+All promises were judged on {families} families of aimed curves, {each} of each, with `OCTAVES` = 0 and 8. Promises broken: {broken}. Steps
+back: {steps}. At worst {backward} ulp(u), {evaluations} evaluations, {cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
         families = aimed.len(),
         broken = sum(&aimed, "breaches"),
     )
@@ -281,8 +243,7 @@ fn most(rows: &[&Row], column: &str) -> String {
 
 fn every_f32(measured: &Measured) -> String {
     let all: Vec<_> = measured.every_f32.iter().collect();
-    let [answers, seconds] = ["count", "seconds"].map(|column| sum(&all, column));
-    let minutes = seconds / 60.0;
+    let minutes = sum(&all, "seconds") / 60.0;
     let mut kinds: Vec<_> = all.iter().map(|row| [&row["function"], &row["octaves"]]).collect();
     kinds.sort();
     kinds.dedup();
@@ -304,16 +265,14 @@ fn every_f32(measured: &Measured) -> String {
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and with other
-counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. It asks `cdf` and `openness` at all times of a
-curve (within 2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the
-oracle judges samples and the worst of each 4 million (*judged*). These {answers} answers took {minutes:.0} minutes on two busy cores.
-`every-f32.csv` has each curve.
+`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, with other counts
+for all from 2<sup>-20</sup> up, below which one solver serves them all; and `cdf` and `openness` at all times of a curve (within
+2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle judges samples
+and the worst of each 4 million (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
 
 {table}
 
-The error of the inverse is its backward error, that of `cdf` and `openness` in ulp at some time within an ulp of the one asked for,
-an ulp of the cdf being at least that of 2<sup>-24</sup>."
+Errors are backward for the inverse; of `cdf` and `openness` those at the best time within an ulp of the one asked for."
     )
 }
 
@@ -327,13 +286,12 @@ fn rendering(measured: &Measured) -> String {
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
 within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
-openness, which a lamp of equal pulses cannot do, and random ones are far noisier.
+openness, which a lamp of equal pulses cannot do; random ones are far noisier. The root-mean-square error over the picture, on
+*soft* (random: mean of 16 seeds):
 
-![A moving bar in pulses](rendering.svg)
+{table}
 
-Root-mean-square error over the picture, soft curve (random: mean of 16 seeds):
-
-{table}"
+![A moving bar in pulses](rendering.svg)"
     )
 }
 
