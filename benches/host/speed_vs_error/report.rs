@@ -128,7 +128,7 @@ are straight, from 0 to 1 and back.
 
 ![Worst cases](worst-cases.svg)
 
-Each random curve's worst `u`, over about 1000 that are likely to be bad; where several lie at one place, it has one dot.",
+Each random curve's worst `u` of about 1000 that are likely to be bad. Of those that lie close together, the greatest is drawn.",
         arch = std::env::consts::ARCH,
         nearer = Nearer.name(),
         curves = measured.curves,
