@@ -17,13 +17,12 @@ const METHOD: &str = "## How it is measured
 A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), with all but the call itself inlined.
 
 *Instructions* are counted in QEMU and exact: of a Cortex-M33 and a riscv32imafc with an FPU, of a Cortex-M0+ and a riscv32imc in soft
-float. *Cycles* are modelled after the Cortex-M4's Technical Reference Manual and what boards show of branches and the fetch. Take them to
-be within 10 % at zero wait states, probably 1 to 4 % low; two wait states without a cache cost up to 1.4 times as much.
-[tried.md](tried.md) says how the model was chosen and held against boards.
+float. *Cycles* are modelled. Take them to be within 10 % at zero wait states, probably 1 to 4 % low ([how the model was
+chosen](tried.md#the-model-of-cycles)); two wait states without a cache cost up to 1.4 times as much.
 
 *Worst* is over the tests' hard curves and cases, each with some 870 hard inputs: ends of sections, powers of two, and those of 20 000 that
-take most evaluations; of triggers over a frame of 64, step by step and as a whole, and first triggers near a hard input, on intervals of one
-to two million ticks. A refused frame costs no more.";
+take most evaluations; of triggers over frames of 64, and first triggers near a hard input, on intervals of one to two million ticks. A
+refused frame costs no more.";
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
 const CALLS: [(&str, Function, usize); 15] = [
@@ -245,8 +244,8 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
 
 The compiler builds a `static` curve. Built on the microcontroller, *soft* takes these instructions, most of them in doubles, which all
 of these cores compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. Optimised for size (`opt-level = \"z\"`), building takes {}
-bytes of code there. Code is a call's own and all that it reaches, so calls share some. Stack is the deepest path by the compiler's figures.
-`.data` and `.bss` hold {} bytes.
+bytes of code there. Code is all that a call reaches, so calls share some; stack is the deepest path by the compiler's figures. `.data`
+and `.bss` hold {} bytes.
 
 {table}",
         figures([cycles]),

@@ -107,24 +107,21 @@ Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the cur
 
 ## The methods
 
-The first four are this crate. *{nearer}* is what one writes without it, with care: sextics in powers of p from both ends
-of each ramp, in `f32` but built in `f64`; `u` counted from the nearer end; and Newton's steps inside a bracket, from where a
-straight ramp has its answer, until the residual is 3e-7 of the target, and one more. The others are written from public
-descriptions: Newton in `f32` on sextics in powers of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer);
-Newton inside a bracket until an absolute 1e-6 (another renderer); Newton in doubles; tables of the exact inverse at equally
-spaced `u`, joined by lines or by monotone cubics; and one square root from the nearer end, for straight ramps alone.
+The first four are this crate. *{nearer}* is what one writes without it, with care: sextics from both ends of each ramp, in
+`f32` but built in `f64`, and Newton's steps inside a bracket. *Textbook* and *bracketed* Newton are those of two renderers, with
+an absolute tolerance of 1e-6. Tables have exact entries at equally spaced `u`. Square roots, from the nearer end, are for straight
+ramps alone. `tests/support` has them all, in `baseline.rs` and `peers.rs`.
 
 {table}
 
-Errors are the greatest against double-double arithmetic on {curves} typical curves, {samples} fractions each: half of them uniform,
-a quarter towards either end by octaves, where tables and absolute tolerances fail. Square roots are judged on the {straight} whose ramps
-are straight, from 0 to 1 and back.
+Errors are the greatest on {curves} typical curves, by double-double arithmetic, at {samples} fractions each: half of them uniform, a
+quarter towards either end by octaves, where tables and absolute tolerances fail. Square roots are judged on the {straight} straight ones.
 
-- *ulp(t)* and *ulp(u)*: the forward and the backward error of [accuracy.md](../accuracy.md);
-- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
-- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
-  other columns a time outside the interval counts as its nearer end, and NaN as its start;
-- *a leaf's triggers*: the error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`.
+- *ulp(t)*, *ulp(u)*: forward and backward error, as in [accuracy.md](../accuracy.md)
+- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
+- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in other columns a
+  time outside counts as the nearer end, and NaN as the start
+- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`
 
 ![Worst cases](worst-cases.svg)
 
@@ -148,9 +145,8 @@ fn forwards(measured: &Measured) -> String {
     format!(
         "## Openness and cdf
 
-At random times, against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
-bisection. Errors are absolute, of the openness and of the fraction of the exposure. No table gives the place of a time, so this crate
-searches for it, to the promised ulp.
+Against the usual solver of animation curves in `f32`: 8 Newton steps to an absolute 1e-6, then bisection. Errors are absolute.
+No table gives the place of a time, so this crate searches for it, to the promised ulp.
 
 {table}"
     )
@@ -215,14 +211,13 @@ fn search(measured: &Measured) -> String {
     format!(
         "### Found by search
 
-`cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the worst of them by
-moving control points. The worst of {tried} valid curves, each on about 650 `u` (`search.csv` has them; all but ulp(u) and steps back
-are of every seventh `u`):
+`cargo bench -p benches -- --search N` climbs from the worst of random curves by moving control points. The worst of {tried}
+(`search.csv`), each on about 650 `u` (every seventh for all but ulp(u) and steps back):
 
 - {bred}
 
-All promises were judged on {families} families of aimed curves, {each} of each, with `OCTAVES` = 0 and 8. Promises broken: {broken}. Steps
-back: {steps}. At worst {backward} ulp(u), {evaluations} evaluations, {cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
+On {families} families of aimed curves, {each} of each, with `OCTAVES` = 0 and 8, {broken} promises were broken, with {steps} steps back. At worst
+{backward} ulp(u), {evaluations} evaluations, {cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
         families = aimed.len(),
         broken = sum(&aimed, "breaches"),
     )
@@ -267,8 +262,8 @@ fn every_f32(measured: &Measured) -> String {
 
 `cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, with other counts
 for all from 2<sup>-20</sup> up, below which one solver serves them all; and `cdf` and `openness` at all times of a curve (within
-2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle judges samples
-and the worst of each 4 million (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
+2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and
+the worst of each 4 million (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
 
 {table}
 
@@ -284,10 +279,9 @@ fn rendering(measured: &Measured) -> String {
     format!(
         "## What it is for
 
-A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
-openness, which a lamp of equal pulses cannot do; random ones are far noisier. The root-mean-square error over the picture, on
-*soft* (random: mean of 16 seeds):
+A bright bar moves while the shutter is open, and is lit by pulses. Equal ones at this crate's triggers come within 1/n of the
+exact integral at every pixel (`tests/statistics.rs`). Equally spaced ones must be dimmed by the openness, which a lamp of equal
+pulses cannot do; random ones are far noisier. The root-mean-square error over the picture, on *soft*:
 
 {table}
 
