@@ -9,7 +9,7 @@ use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
-use crate::support::rendering::{PULSES, Pulses};
+use crate::support::rendering::Pulses;
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -25,8 +25,6 @@ pub struct Measured {
     pub times: [Times; CURVES.len()],
     /// The text of `docs/internals/cost.md`.
     pub cost: String,
-    /// The error of the pictures in so many pulses.
-    pub rendering: Vec<(u32, [f64; 3])>,
     pub search: Vec<Row>,
     pub every_f32: Vec<Row>,
 }
@@ -38,7 +36,7 @@ pub fn write(measured: &Measured) -> String {
         hard_cases(),
         search(measured),
         every_f32(measured),
-        rendering(measured),
+        PURPOSE.into(),
     ];
     sections.join("\n\n") + "\n"
 }
@@ -271,23 +269,13 @@ Errors are backward for the inverse; of `cdf` and `openness` those at the best t
     )
 }
 
-fn rendering(measured: &Measured) -> String {
-    let rows = measured.rendering.iter().map(|(n, errors)| {
-        [n.to_string()].into_iter().chain(errors.iter().map(|error| number(*error))).collect()
-    });
-    let table = table(&format!("pulses | {}", PULSES.map(name).join(" | ")), 0, rows);
-    format!(
-        "## What it is for
+const PURPOSE: &str = "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal ones at this crate's triggers come within 1/n of the
 exact integral at every pixel (`tests/statistics.rs`). Equally spaced ones must be dimmed by the openness, which a lamp of equal
-pulses cannot do; random ones are far noisier. The root-mean-square error over the picture, on *soft*:
+pulses cannot do; random ones are far noisier.
 
-{table}
-
-![A moving bar in pulses](rendering.svg)"
-    )
-}
+![A moving bar in pulses](rendering.svg)";
 
 pub fn name(pulses: Pulses) -> &'static str {
     match pulses {
