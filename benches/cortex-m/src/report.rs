@@ -20,9 +20,8 @@ A call's figures are from its first instruction to its return, over 512 uniform 
 float. *Cycles* are modelled. Take them to be within 10 % at zero wait states, probably 1 to 4 % low ([how the model was
 chosen](tried.md#the-model-of-cycles)); two wait states without a cache cost up to 1.4 times as much.
 
-*Worst* is over the tests' hard curves and cases, each with some 870 hard inputs: ends of sections, powers of two, and those of 20 000 that
-take most evaluations; of triggers over frames of 64, and first triggers near a hard input, on intervals of one to two million ticks. A
-refused frame costs no more.";
+*Worst* is over the tests' hard curves and cases, each with some 870 hard inputs, those of 20 000 that take most evaluations among them; of
+triggers over frames of 64, and first triggers near a hard input. A refused frame costs no more.";
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
 const CALLS: [(&str, Function, usize); 15] = [
