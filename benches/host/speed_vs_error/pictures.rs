@@ -7,16 +7,17 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
+use crate::accuracy::judge;
 use crate::methods::Method::{
     Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024,
 };
 use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
+use crate::rendering::{PIXELS, PULSES, Picture};
 use crate::report::{Measured, cycles, name, time};
-use crate::support::cases::{judge, shutter};
+use crate::support::cases::shutter;
 use crate::support::curves::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
 use crate::support::promise::BACKWARD;
-use crate::support::rendering::{PIXELS, PULSES, Picture};
 
 /// Drawn at twice the size, since the pen moves by whole units.
 const SCALE: i32 = 2;

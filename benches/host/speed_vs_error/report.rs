@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 
-use crate::accuracy::{Figures, mended, of_triggers};
+use crate::accuracy::{Figures, breaking_us, judge_on, mended, of_triggers};
 use crate::methods::Method::{Nearer, Table256, Textbook};
 use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
+use crate::rendering::{PULSES, Pulses};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
-use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
+use crate::support::cases::{CASES, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
-use crate::support::rendering::{PULSES, Pulses};
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -326,7 +326,7 @@ fn rendering(measured: &Measured) -> String {
         "## What it is for
 
 A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
+within 1/n of the exact integral at every pixel. Equally spaced pulses must be dimmed by the
 openness, which a lamp of equal pulses cannot do, and random ones are far noisier.
 
 ![A moving bar in pulses](rendering.svg)

@@ -3,8 +3,9 @@
 
 use rayon::prelude::*;
 
+use crate::accuracy::judge_on;
 use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::cases::{judge_on, shutter};
+use crate::support::cases::shutter;
 use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical, settled};
 use crate::support::oracle::{Curve, Dd, Exact, Points, ulp_f32};
 use crate::support::promise::Figures;
