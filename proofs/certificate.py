@@ -6,7 +6,9 @@ cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 
 import numpy as np
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 octave/mod.rs offset f842a0c4 polynomial dd3fe418

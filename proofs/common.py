@@ -141,3 +141,14 @@ def gappa_claim(claim, script, bound, slack=Fraction(1, 50)):
     require(gappa(script(Fraction(bound))), claim)
     require(not gappa(script(Fraction(bound) * (1 - slack))), f"{claim}: a tighter bound is proven, too: say that one")
     proven(claim)
+
+
+def valid(claim, formula, *but_not):
+    """z3 proves the formula; and finds an exception to each of those that say a little more."""
+    from z3 import Not, Solver, sat, unsat
+
+    for expected, stated in [(unsat, formula), *((sat, more) for more in but_not)]:
+        solver = Solver()
+        solver.add(Not(stated))
+        require(solver.check() == expected, f"{claim}{': more than this holds' * (expected == sat)}")
+    proven(claim)

@@ -1,7 +1,9 @@
 """That the look-up and the offset lead to the `x` at which a polynomial was judged, by z3; and what Horner's rule in integers
 truncates, by Gappa."""
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 octave/mod.rs top ec60763a below b73f9ae7 Octave::offset f842a0c4 times_high 6572aa47 times_high_by_halves 411fa41c polynomial dd3fe418

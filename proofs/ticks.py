@@ -1,7 +1,9 @@
 """From fractions to ticks: the order of fractions, whole units of time, and the nearest tick; and that ticks never step back."""
 
 import box
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 fraction.rs of_parts 36f90104
@@ -47,18 +49,6 @@ part, whole, quotient, error = Reals("part whole quotient error")
 scaled = And(part >= 1, part <= 2, whole >= 1, whole < 2, error * whole <= 1, error >= 0)
 within = lambda most: Implies(scaled, If(part >= whole, error / 2, error) + half <= most)
 valid("a trigger's fraction is within half an ulp; a pulse's end within one and a half", within(Q(3, 2)), within(Q(149, 100)))
-
-
-def single(x):
-    """The nearest f32, to even in the middle, and its ulp."""
-    ulp = Fraction(2) ** (x.numerator.bit_length() - x.denominator.bit_length() - 24)
-    ulp *= 1 if x < 2**24 * ulp else 2
-    return round(x / ulp) * ulp, ulp
-
-
-exact = 257 - Fraction(0.7388458251953125)
-end, ulp = single(single(exact)[0] / 2052)
-require(abs(end - exact / 2052) > Fraction(148, 100) * ulp, "an end that is farther off than 1.48 ulp")
 # Two ends of pulses that are neighbours are at 1/4n or later, or the second is three times as far as the first: with v = 1 - d < 1/2 the
 # next is 1 + d.
 v, w = Reals("v w")

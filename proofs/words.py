@@ -1,12 +1,13 @@
 """The plateau's line, the rounding of a time, and bits of numbers: for all values of the words, by z3."""
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 979ba1b4
 number/pair.rs upper 5180492f ::flipped 279c50d6 significand a3252cda
 number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
-octave/candidate.rs rounded 0d9916e4
 """)
 
 # The plateau's line.
@@ -126,12 +127,6 @@ valid(
     "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0",
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
     Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
-)
-units = Real("units")
-valid(
-    "rounded: from whole halves of a unit to the nearest unit; the other sign mirrors it",
-    Implies(units >= 0, (ToInt(2 * units) + 1) / 2 == ToInt(units + Q(1, 2))),
-    Implies(units >= 0, ToInt(2 * units) / 2 == ToInt(units + Q(1, 2))),
 )
 # `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
 # has one less, also across a power of two.
