@@ -49,7 +49,7 @@ impl Picture {
             .collect();
         let exact = windows
             .iter()
-            .map(|window| window.map(|t| oracle.cdf_dd(Dd::from(t))))
+            .map(|window| window.map(|t| oracle.cdf(Dd::from(t))))
             .map(|[from, to]| (to - from).hi)
             .collect();
         Self { exact, windows, curve: *curve, ours: crate::support::cases::shutter(curve) }
