@@ -5,7 +5,6 @@ cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 """
 
 import numpy as np
-
 from z3 import *
 
 from common import *
