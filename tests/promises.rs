@@ -10,12 +10,12 @@ use support::aimed::{FAMILIES, aimed};
 use support::cases::{CASES, shutter};
 use support::curves::{
     Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted,
-    hard_openness, hard_times, hard_us, instant, line, named, placed, random_density, random_hard,
-    random_typical, settled, shape,
+    hard_openness, hard_times, hard_us, instant, line, named, neighbours, placed, random_density,
+    random_hard, random_typical, settled, shape,
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{FORWARD_MEAN, Figures, Questions, Reach, neighbours};
+use support::promise::{FORWARD_MEAN, Figures, Questions, Reach};
 use support::times;
 
 const SEED: u64 = 13;
