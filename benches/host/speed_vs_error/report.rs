@@ -2,14 +2,13 @@
 
 use rayon::prelude::*;
 
-use crate::accuracy::{Figures, mended, of_triggers};
+use crate::accuracy::{Figures, breaking_us, judge_on, mended, of_triggers};
 use crate::methods::Method::{Nearer, Textbook};
 use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
-use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
+use crate::support::cases::{CASES, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
-use crate::support::rendering::Pulses;
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -36,7 +35,6 @@ pub fn write(measured: &Measured) -> String {
         hard_cases(),
         search(measured),
         every_f32(measured),
-        PURPOSE.into(),
     ];
     sections.join("\n\n") + "\n"
 }
@@ -220,11 +218,11 @@ fn most(rows: &[&Row], column: &str) -> String {
 fn every_f32(measured: &Measured) -> String {
     let all: Vec<_> = measured.every_f32.iter().collect();
     let minutes = sum(&all, "seconds") / 60.0;
-    let mut kinds: Vec<_> = all.iter().map(|row| [&row["function"], &row["octaves"]]).collect();
-    kinds.sort();
-    kinds.dedup();
-    let rows = kinds.into_iter().map(|[function, octaves]| {
-        let of = |row: &&&Row| [&row["function"], &row["octaves"]] == [function, octaves];
+    let mut functions: Vec<_> = all.iter().map(|row| &row["function"]).collect();
+    functions.sort();
+    functions.dedup();
+    let rows = functions.into_iter().map(|function| {
+        let of = |row: &&&Row| &row["function"] == function;
         let rows: Vec<_> = all.iter().filter(of).copied().collect();
         let sums =
             ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
@@ -232,38 +230,20 @@ fn every_f32(measured: &Measured) -> String {
                 _ => sum(&rows, column).to_string(),
             });
         let worst = ["error", "judged"].map(|column| most(&rows, column));
-        let head = [format!("`{function}`"), octaves.clone(), rows.len().to_string()];
+        let head = [format!("`{function}`"), rows.len().to_string()];
         head.into_iter().chain(sums).chain(worst).collect()
     });
-    let header =
-        "function | octaves | curves | answers | out of range | steps back | error, ulp | judged";
+    let header = "function | curves | answers | out of range | steps back | error, ulp | judged";
     let table = table(header, 1, rows);
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1] with 8 octaves, with other counts for those from
-2<sup>-20</sup> up, below which one solver serves them all; and `cdf` and `openness` at all times of a curve (next to a time 0
-inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
+`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1], and `cdf` and `openness` at all times of a
+curve (next to a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
 (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
 
 {table}
 
 Errors are backward for the inverse; of `cdf` and `openness` those at the best time within an ulp of the one asked for."
     )
-}
-
-const PURPOSE: &str = "## What it is for
-
-A bright bar moves while the shutter is open, and is lit by pulses. Equal ones at this crate's triggers come within 1/n of the
-exact integral at every pixel (`tests/statistics.rs`). Equally spaced ones must be dimmed by the openness, which a lamp of equal
-pulses cannot do; random ones are far noisier.
-
-![A moving bar in pulses](rendering.svg)";
-
-pub fn name(pulses: Pulses) -> &'static str {
-    match pulses {
-        Pulses::Triggers => "triggers of this crate",
-        Pulses::Weighted => "equally spaced, weighted by openness",
-        Pulses::Random => "random, as the curve has it",
-    }
 }
