@@ -14,8 +14,8 @@ use shutter_fit::{Options, fit};
 
 /// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in exponential
 /// notation, `{mv}` in thousands, `{adc}` in whole ones, `{g}` a gate of 5 V, `{d}` one of 0 and 1, `{z}` a channel that is not
-/// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{ns}`; `{i}` counts; `{set}` is a setting
-/// in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
+/// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{k us}` with its thousands apart,
+/// `{ns}`; `{i}` counts; `{set}` is a setting in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
 fn rows(row: &str) -> String {
     let settings =
         ["Record Length,1200", "Sample Interval,1e-05", "Trigger Point,600", "Source,CH1"];
@@ -34,6 +34,7 @@ fn rows(row: &str) -> String {
             ("ms", format!("{:.4}", t * 1e3)),
             ("-ms", format!("{:.4}", t * 1e3 - 6.0)),
             ("us", format!("{:.1}", t * 1e6)),
+            ("k us", format!("{}\u{202f}{:05.1}", 1 + i / 100, t * 1e6 % 1e3)),
             ("ns", format!("{:.0}", t * 1e9)),
             ("v", format!("{v:.5}")),
             ("e", format!("{v:.5e}")),
@@ -248,6 +249,8 @@ const EXPORTS: &[Export] = &[
     ("an index, without names", "", "{i};{t};{v}", 3, "column 2 in s, assumed", "unit_assumed"),
     ("a count with a rate above", "# Sample rate: 100000 Hz\nSample,CH1\n", "{i},{v}", 2, "100000 samples a second, by '# Sample", ""),
     ("a lone rate", "100000 Hz\n# bits: 12\n", "{v}", 1, "100000 samples a second, by '100000 Hz'", ""),
+    ("a blank between thousands", "sep=;\nTemps (µs);Lumière\n", "{,k us};{,v}", 2, "in µs, by its name", ""),
+    ("signs apart", "NO.,Time,ms,V\n", "{i},2026/11/20 10:00:07,+ {ms},+  {v}", 4, "in ms, by its name", ""),
     ("quoted decimal commas", "", "\"{,ms}\",\"{,v}\"", 2, "in s, assumed", "unit_assumed"),
     ("a flat channel beside it", "Time [s],A,B\n", "{t},{z},{v}", 3, "\"Time [s]\" in s", ""),
     // A setting above the names tells no unit.

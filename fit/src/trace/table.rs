@@ -2,7 +2,7 @@
 
 use super::asked::Column;
 use super::names::{is_axis, is_time, is_unit, words};
-use super::numbers::{is_decimal, is_grouped, number, short_of, split};
+use super::numbers::{THOUSANDS, is_decimal, is_grouped, number, short_of, split};
 use super::settings::{Settings, is_setting};
 use super::told::Refusal;
 
@@ -43,7 +43,8 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
     }
     let fields = || lines.iter().flat_map(|line| split(line, delimiter));
     // Without its marks a number is digits, whichever mark is which.
-    let is_number = |field: &&str| number(&field.replace([',', '.'], ""), false).is_some();
+    let is_mark = |c: char| matches!(c, ',' | '.') || THOUSANDS.contains(&c);
+    let is_number = |field: &&str| number(&field.replace(is_mark, ""), false).is_some();
     let Some(comma) = fields().find(|field| field.contains(',') && is_number(field)) else {
         return Ok((delimiter, false));
     };
