@@ -12,7 +12,7 @@ enum Kind {
     Rate,
     /// The time from one sample to the next.
     Step,
-    /// The same, if it has a unit of time: else it is a processor's clock.
+    /// The same, if it has a unit of time: else it is another thing's.
     Clock,
     /// The first sample's time.
     Start,
@@ -38,10 +38,10 @@ const NAMES: [(Kind, &str); 9] = [
     (
         Kind::Step,
         "sampleinterval samplinginterval sampleperiod samplingperiod sampletime samplingtime samplespacing timestep \
-                  abtastintervall timeinterval timeincrement increment tinc xinc xincr xincrement hresolution deltax deltat dt",
+                  abtastintervall timeinterval timeincrement increment wfincrement tinc xinc xincr xincrement hresolution deltax deltat dt",
     ),
-    (Kind::Clock, "clock"),
-    (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime"),
+    (Kind::Clock, "clock interval delta"),
+    (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime wfstartoffset"),
     (Kind::Begin, "start"),
     (
         Kind::Trigger,
@@ -119,6 +119,9 @@ fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
     let is_unit = |c: &char| c.is_alphanumeric() || matches!(c, '/' | 'µ' | 'μ' | '\u{fffd}');
     let behind = text[end..].trim_start();
     let unit: String = behind.chars().take_while(is_unit).collect();
+    if let Some(each) = unit.to_lowercase().strip_suffix("/sample").and_then(unit_of) {
+        return Some((1.0 / each.seconds(x), Some(Measure::Hertz(1.0))));
+    }
     // Another rate behind the first leaves open which one is meant.
     let others = behind[unit.len()..].split([' ', '(', ')', ',', ';']);
     let mut others = others.filter_map(Measure::parse);
@@ -288,7 +291,7 @@ mod tests {
         let ten_microseconds = "Sample rate: 100000 Hz|Samplerate: 100 kHz|Sampling rate 100 kHz|Sampling rate (kHz): 100\
             |Sample Rate [kS/s],100|Sampling Rate:100.0KSa/s|sampling_rate_hz=100000|Sample Rate: 100000 Hz. Values are linear.\
             |100 kHz|100.000 kHz|Sample rate: 100000.000|XInc,10\nXUnits,us|HResolution,1E-5\nHUnit,s|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
-            |XInc:,1.0E-05|CLOCK=10.0uS|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
+            |XInc:,1.0E-05|CLOCK=10.0uS|Interval=,1E-05 s|Delta(second),1.0E-05|0.01 msec/sample|Unit,wf_increment\nV,0.00001|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
         for text in ten_microseconds.split('|') {
             assert!(
                 (step(text).unwrap_or_default() - 1e-5).abs() < 1e-15,
@@ -296,7 +299,7 @@ mod tests {
                 step(text)
             );
         }
-        let nothing = "Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
+        let nothing = "Interval,2|Delta,1.0E-05|10 msec|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
             |Sample rate: 100.000 Hz|Sample rate: 1.000.000|Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
         nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));
@@ -309,7 +312,7 @@ mod tests {
     #[test]
     fn a_setting_gives_the_first_time() {
         let start = |text: &str| settings(text, ',', false).start(1e-5);
-        let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|XOrg:,-6.0E-03\nStart:,0\
+        let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|Unit,wf_start_offset\nV,-0.006|XOrg:,-6.0E-03\nStart:,0\
             |Trigger Point,600,Samples|Trigger position: 600|Trigger Address,600|Zero Index,600|X,Start\nSequence,-6.0ms";
         for text in six_before.split('|') {
             assert!(

@@ -1,7 +1,7 @@
 //! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands above them.
 
 use super::asked::Column;
-use super::names::{is_axis, is_time, is_unit, words};
+use super::names::{has, is_axis, is_time, is_unit, words};
 use super::numbers::{THOUSANDS, is_decimal, is_grouped, number, short_of, split};
 use super::settings::{Settings, is_setting};
 use super::told::Refusal;
@@ -298,12 +298,13 @@ impl<'a> Table<'a> {
                 && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
         };
         // Names that are told to be some.
-        let is_told =
-            |(_, fields): &&Above| words(&fields[0]).concat() == "tracename" && is_wide(fields);
+        let is_told = |(_, fields): &&Above| {
+            has("tracename channeltitle", &words(&fields[0]).concat()) && is_wide(fields)
+        };
         if let Some((_, fields)) = self.above.iter().find(is_told) {
             return [fields.clone(), Vec::new()];
         }
-        let has_words = |line: &str| line.contains(char::is_alphanumeric);
+        let has_words = |line: &str| line.contains(char::is_alphabetic);
         let is_it = |(line, fields): &Above| has_words(line) && is_wide(fields);
         let Some(lowest) = self.above.iter().rposition(is_it) else {
             return Default::default();
@@ -321,6 +322,7 @@ impl<'a> Table<'a> {
     fn is_setting(&self, fields: &[String]) -> bool {
         let first = fields[self.columns[0]].as_str();
         let before_brackets = first.split(['(', '[']).next().unwrap_or_default();
+        let behind_mark = before_brackets.rsplit_once(['=', ':']).map(|(_, behind)| behind);
         let is_number = |field: &str| number(field, self.decimal_comma).is_some();
         let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
         let is_date = |field: &str| {
@@ -335,7 +337,9 @@ impl<'a> Table<'a> {
             !may_be && (is_number(field) || is_date(field) || is_measure(field))
         };
         let is_setting_before = self.columns[0] > 0 && is_setting(&fields[0]);
-        is_setting_before || fields.iter().any(is_value) || before_brackets.contains(['=', ':'])
+        is_setting_before
+            || fields.iter().any(is_value)
+            || behind_mark.is_some_and(|name| !is_time(name))
     }
 
     /// What the lines above the rows say of the times.
