@@ -212,6 +212,8 @@ const EXPORTS: &[Export] = &[
         "in s, by 'Interval= 1E-05 s'", "second_signal"),
     ("AcqKnowledge", "0.01 msec/sample\n2 channels\nLight\nVolts\nmsec\tCH1\tCH2\t\n\t1200\t1200\t\n", "{ms}\t{v}\t{g}\t", 2,
         "\"msec\" in ms, by its name", "second_signal"),
+    ("AcqKnowledge, without times", "0.01 msec/sample\nCH1\tCH2\n1199\t1201\n", "{v}\t{g}", 1,
+        "100000 samples a second, by '0.01 msec/sample'", "second_signal"),
     ("Graphical Analysis", "Run 1: Time (ms),Run 1: Light (lx)\n", "{ms},{v}", 2, "in ms, by its name", ""),
     ("LabJack", "Time\tAIN0\n", "{t}\t{v}", 2, "in s, assumed", "unit_assumed"),
     ("TracerDAQ", "Sample Rate (Hz): 100000\nSample,CHANNEL0\n", "{i},{v}", 2, "100000 samples a second, by 'Sample Rate (Hz)", ""),

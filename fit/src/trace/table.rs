@@ -166,7 +166,10 @@ impl<'a> Table<'a> {
         if table.columns.is_empty() {
             return Err(table.no_rows(total));
         }
-        let count = table.without_header(&lines, first, &most);
+        let mut count = table.without_header(&lines, first, &most);
+        // Below the names may be how many rows follow.
+        let counts = |line: usize| table.counts(lines[line], total - count);
+        count += usize::from(count + 1 < lines.len() && counts(count) && !counts(count + 1));
         table.above = lines[..count].iter().map(|line| (*line, table.fields_above(line))).collect();
         table.width = split(lines[first], delimiter).count();
         table.names = table.names();
@@ -246,6 +249,13 @@ impl<'a> Table<'a> {
                 && (held.iter().zip(most).all(is_bare) || leads(*line))
         };
         first - (0..first).rev().take_while(|line| self.columns.len() > 1 && is_row(line)).count()
+    }
+
+    /// Is each of its numbers, to a hundredth, how many rows there are?
+    fn counts(&self, line: &str, rows: usize) -> bool {
+        let mut fields = split(line, self.delimiter);
+        let is_count = |x: f64| (x / rows as f64 - 1.0).abs() < 0.01;
+        fields.all(|field| number(field, self.decimal_comma).is_none_or(is_count))
     }
 
     fn no_rows(&self, total: usize) -> Refusal {
