@@ -288,13 +288,17 @@ fn segments_whose_times_begin_anew_are_shots() {
     assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
 }
 
-/// A timer of 16 or 32 bits that begins anew goes on; nobody counts seconds by the hundred; a number may be a name.
+/// A timer of 16 or 32 bits, or a second's fraction, goes on when it begins anew; nobody counts seconds by the hundred; a number may
+/// be a name.
 #[test]
 fn a_timers_count_and_a_channels_number_are_not_misread() {
-    for (bits, tick) in [(16, 50), (32, 10)] {
-        let first = (1u64 << bits) - 600 * tick;
-        let rows = rows(|i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % (1 << bits)));
-        let (fit, _, codes) = doubted(&format!("micros,adc\n{rows}"), None);
+    for (whole, tick) in [(1u64 << 16, 50), (1 << 32, 10), (1_000_000, 10)] {
+        let first = whole - 600 * tick;
+        let rows = rows(|i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
+        let text = format!("us,adc\n{rows}");
+        let rated = trace::Options { rate: Some(1e6 / tick as f64), ..Default::default() };
+        assert_eq!(open(text.as_bytes(), &rated).unwrap().reading.signal.0, 2);
+        let (fit, _, codes) = doubted(&text, None);
         let truth = 500e-6 * tick as f64;
         assert!(
             codes.is_empty() && (fit.exposure.value / truth - 1.0).abs() < 2e-3,

@@ -228,7 +228,8 @@ impl Columns<'_> {
             let reason = format!("beside column {} no other holds a signal", self.name(sync));
             return Err(Refusal::NoDelay { reason });
         }
-        let is_signal = |k: &usize| !(self.counts(*k) || self.is_time(*k) && self.runs(*k));
+        let is_time = |k: usize| self.is_time(k) || matches!(self.unit(k), Said::Unit(_));
+        let is_signal = |k: &usize| !(self.counts(*k) || is_time(*k) && self.runs(*k));
         let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
         let found = [signals, others].into_iter().find(|found| !found.is_empty());
         Ok(found.unwrap_or_else(|| columns.clone()))

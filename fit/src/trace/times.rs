@@ -42,17 +42,16 @@ const OFTEN: usize = 20;
 const STAYS: usize = 4000;
 const USUAL: f64 = 1000.0;
 
-/// Goes on where a timer of so many bits began anew at 0, if it is no segment that does.
+/// Goes on where a timer of so many bits, or a second's fraction, began anew at 0, if it is no segment that does.
 fn unwrap(rows: &mut [Sample]) {
     let Some(step) =
         rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0)
     else {
         return;
     };
-    for whole in [1u64 << 16, 1 << 32]
-        .iter()
-        .flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)))
-    {
+    let timers = [1u64 << 16, 1 << 32];
+    let timers = timers.iter().flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)));
+    for whole in timers.chain([1.0]) {
         let wraps = |pair: &[Sample]| {
             pair[1].time < pair[0].time
                 && (0.0..5.0 * step).contains(&pair[1].time)
