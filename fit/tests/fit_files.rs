@@ -288,6 +288,17 @@ fn segments_whose_times_begin_anew_are_shots() {
     assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
 }
 
+/// As a simulator chooses its steps.
+#[test]
+fn uneven_samples_count_for_their_own_time() {
+    let text = with("time_s,v\n", |_, t, v| format!("{t:.6},{v:.4}"));
+    let lines = text.lines().enumerate().filter(|(i, _)| [0, 1, 2, 3, 5, 8].contains(&(i % 9)));
+    let text: String = lines.map(|(_, line)| format!("{line}\n")).collect();
+    let (recording, _) = read(text.as_bytes(), &trace::Options::default()).unwrap();
+    let pulses = trace::pulses(&recording.trace, trace::Light::Auto).unwrap();
+    assert!((pulses.frames[0].exposure / 0.005 - 1.0).abs() < 5e-3, "{:?}", pulses.frames);
+}
+
 /// A timer of 16 or 32 bits, or a second's fraction, goes on when it begins anew; nobody counts seconds by the hundred; a number may
 /// be a name.
 #[test]
