@@ -182,33 +182,24 @@ impl Columns<'_> {
         runs(&self.table.spread[k])
     }
 
-    /// The column with a name that is no more than this.
-    fn named_exactly(&self, column: &Column) -> Option<usize> {
-        (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string())
-    }
-
     /// The sync's column, which is not asked for as another.
     fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
-        let refused = |reason: String| Err(Refusal::NoDelay { reason });
-        match self.table.column(column) {
-            Err(refusal) => refused(format!(
-                "{refusal}; a time has a unit, as in 1.5ms, and a file has to be there"
-            )),
+        let named = (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string());
+        let reason = match (self.table.column(column), named) {
+            (Err(refusal), _) => {
+                format!("{refusal}; a time has a unit, as in 1.5ms, and a file has to be there")
+            }
             // A number may be a name as well.
-            Ok(k) if self.named_exactly(column).is_some_and(|named| named != k) => {
-                let named =
-                    self.named_exactly(column).map_or(String::new(), |named| self.name(named));
-                refused(format!(
-                    "'{column}' is the number of column {}, and the name of column {named}; give the whole name",
-                    self.name(k)
-                ))
-            }
-            Ok(k) if self.runs(k) => refused(format!("column {} holds times", self.name(k))),
-            Ok(k) if asked.contains(&k) => {
-                refused(format!("column {} is the signal's", self.name(k)))
-            }
-            Ok(k) => Ok(k),
-        }
+            (Ok(k), Some(named)) if named != k => format!(
+                "'{column}' is the number of column {}, and the name of column {}; give the whole name",
+                self.name(k),
+                self.name(named)
+            ),
+            (Ok(k), _) if self.runs(k) => format!("column {} holds times", self.name(k)),
+            (Ok(k), _) if asked.contains(&k) => format!("column {} is the signal's", self.name(k)),
+            (Ok(k), _) => return Ok(k),
+        };
+        Err(Refusal::NoDelay { reason })
     }
 
     /// The signals: those that are asked for, or all columns that are neither times nor counts, if there are others.

@@ -154,44 +154,39 @@ impl Settings {
     /// From lines, each with its fields; what stands in the next line below a name may be its value.
     pub fn new(lines: &[(&str, Vec<String>)], comma: bool) -> Self {
         let mut settings = Self::default();
+        let is_digit = |c: char| c.is_ascii_digit();
         for (k, (line, fields)) in lines.iter().enumerate() {
             let below = lines.get(k + 1).map_or(&[][..], |(_, fields)| fields);
             let known = settings.steps.len();
             let is_alone = fields.iter().filter(|field| !field.is_empty()).count() == 1;
+            let several = line.matches('=').count() > 1;
             for (c, field) in fields.iter().enumerate() {
                 let at = |k: usize| fields.get(k).map_or("", String::as_str);
                 let unit = Some(at(c + 2)).filter(|unit| Measure::parse(unit).is_some());
                 let beside = format!("{} {}", at(c + 1), unit.unwrap_or_default());
                 let below = below.get(c).map_or("", String::as_str);
-                let digit = field.find(|c: char| c.is_ascii_digit()).unwrap_or(field.len());
+                let digit = field.find(is_digit).unwrap_or(field.len());
                 let mark = field.find(['=', ':']).filter(|k| !field[k + 1..].trim().is_empty());
                 // Of `100,000 Hz` it stays open what the comma means.
-                let digits =
-                    at(c + 1).find(|c: char| !c.is_ascii_digit()).unwrap_or(at(c + 1).len());
-                let several = line.matches('=').count() > 1;
+                let goes_on = at(c + 1).starts_with(is_digit);
+                let words = if several { field } else { *line };
+                let mut add = |words: &str, name, text| settings.add(words, name, text, comma);
                 let _ = match mark {
-                    Some(_) if digits > 0 => false,
-                    Some(at) if several => {
-                        settings.add(field, &field[..at], &field[at + 1..], comma)
-                    }
-                    Some(at) => settings.add(line, &field[..at], &field[at + 1..], comma),
+                    Some(at) => !goes_on && add(words, &field[..at], &field[at + 1..]),
                     None => {
-                        settings.add(line, field, &beside, comma)
-                            || settings.add(&format!("{field} {below}"), field, below, comma)
-                            || digits == 0
+                        add(line, field, &beside)
+                            || add(&format!("{field} {below}"), field, below)
+                            || !goes_on
                                 && (is_alone || digit > 0)
-                                && settings.add(line, &field[..digit], &field[digit..], comma)
+                                && add(line, &field[..digit], &field[digit..])
                     }
                 };
             }
-            let line = line.to_lowercase();
-            let may_tell =
-                ["sampl", "rate", "interval", "increment"].iter().any(|w| line.contains(w));
-            if may_tell
-                && settings.steps.len() == known
-                && line.contains(|c: char| c.is_ascii_digit())
-            {
-                settings.unread.get_or_insert(short_of(lines[k].0.trim()));
+            let words = line.to_lowercase();
+            let is_near =
+                ["sampl", "rate", "interval", "increment"].iter().any(|it| words.contains(it));
+            if is_near && settings.steps.len() == known && line.contains(is_digit) {
+                settings.unread.get_or_insert(short_of(line.trim()));
             }
         }
         settings

@@ -363,13 +363,8 @@ impl<'a> Table<'a> {
         // Settings may stand beside the first rows, where others have nothing.
         let beside = self.rows().take(JUDGED).map(|(_, row)| {
             let fields = split(row, self.delimiter).enumerate();
-            (
-                row,
-                fields
-                    .filter(|(k, _)| !self.columns.contains(k))
-                    .map(|(_, field)| field.into())
-                    .collect(),
-            )
+            let others = fields.filter(|(k, _)| !self.columns.contains(k));
+            (row, others.map(|(_, field)| field.into()).collect())
         });
         let has_words =
             |(_, fields): &Above| fields.iter().any(|field| field.contains(char::is_alphabetic));
@@ -382,12 +377,8 @@ impl<'a> Table<'a> {
     /// Is the line a row of names, though not of these columns?
     pub fn names_others(&self, line: &str) -> bool {
         let fields = self.fields_above(line);
-        let is_name = |k: &usize| {
-            fields.get(*k).is_some_and(|field| {
-                field.starts_with(char::is_alphabetic)
-                    && number(field, self.decimal_comma).is_none()
-            })
-        };
+        let is_name =
+            |k: &usize| fields.get(*k).is_some_and(|field| self.holds(field) == Holds::Word);
         self.columns.len() > 1
             && self.columns.iter().all(is_name)
             && self.columns.iter().any(|k| self.names[0].get(*k) != fields.get(*k))
