@@ -138,10 +138,11 @@ fn what_is_refused_is_shown() {
 }
 
 #[test]
-fn utf_16_needs_no_mark() {
+fn utf_16_needs_no_mark_and_lines_no_feed() {
     let text = with("time_s,v\n", |_, t, v| format!("{t:.6},{v:.5}"));
-    for pair in [u16::to_le_bytes, u16::to_be_bytes] {
-        let bytes: Vec<u8> = text.encode_utf16().flat_map(pair).collect();
+    let [le, be] = [u16::to_le_bytes, u16::to_be_bytes]
+        .map(|pair| text.encode_utf16().flat_map(pair).collect());
+    for bytes in [le, be, text.replace('\n', "\r").into_bytes()] {
         let (_, exposure) = read(&bytes, &trace::Options::default()).unwrap();
         assert!((exposure / 0.005 - 1.0).abs() < 2e-3);
     }
