@@ -304,8 +304,11 @@ fn uneven_samples_count_for_their_own_time() {
 /// be a name.
 #[test]
 fn a_timers_count_and_a_channels_number_are_not_misread() {
-    for (whole, tick) in [(1u64 << 16, 50), (1 << 32, 10), (1_000_000, 10)] {
-        let first = whole - 600 * tick;
+    let second = 1_000_000;
+    let timers =
+        [(1u64 << 16, 50, 600), (1 << 32, 10, 600), (second, 10, 600), (second, 1250, 800)];
+    for (whole, tick, before) in timers {
+        let first = whole - before * tick;
         let rows = rows(|i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
         let text = format!("us,adc\n{rows}");
         let rated = trace::Options { rate: Some(1e6 / tick as f64), ..Default::default() };
