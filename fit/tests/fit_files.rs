@@ -77,15 +77,17 @@ fn of_two_signals_the_light_is_taken_and_the_other_named() {
 
 #[test]
 fn an_infinite_value_is_an_overload() {
-    for sign in ["inf", "∞", "1.#INF", "OL"] {
+    for (sign, of_sync) in [("inf", false), ("∞", true), ("1.#INF", false), ("OL", true)] {
         let row = |_, t: f64, v: f64| {
-            if v > 0.9 { format!("{t:.6},{sign}") } else { format!("{t:.6},{v:.5}") }
+            let sign_of = |is: bool| if is && v > 0.9 { sign.into() } else { format!("{v:.5}") };
+            format!("{t:.6},{},{}", sign_of(!of_sync), sign_of(of_sync))
         };
-        let (recording, _) =
-            read(with("time_s,v\n", row).as_bytes(), &trace::Options::default()).unwrap();
+        let (sync, text) = (Some(Column::Number(3)), with("time_s,v,w\n", row));
+        let how = trace::Options { sync, ..Default::default() };
+        let (recording, _) = read(text.as_bytes(), &how).unwrap();
         assert_eq!(recording.trace.times.len(), 1200, "{sign}");
-        let told = recording.warnings.iter().any(|w| matches!(w, Warning::Overload { .. }));
-        assert!(told, "{sign}: {:?}", recording.warnings);
+        let told: Vec<_> = recording.warnings.iter().map(Warning::code).collect();
+        assert!(told.contains(&"overload"), "{sign}: {told:?}");
     }
 }
 

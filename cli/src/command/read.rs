@@ -88,7 +88,7 @@ impl<'a> Read<'a> {
                 let (number, name) = other.reading.signal;
                 let name = name.map_or(String::new(), |name| format!("{name} of "));
                 reading.sync = Some((number, Some(name + &file_name(file))));
-                add(&mut warnings, other.warnings);
+                Warning::add(&mut warnings, other.warnings);
                 Some(Sync::Channel(other.trace))
             }
             _ => channel.map(Sync::Channel),
@@ -128,15 +128,6 @@ impl<'a> Read<'a> {
             shown(self.path),
             shown(other.path)
         ))
-    }
-}
-
-/// The warnings, without those that are told already.
-pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning>) {
-    for other in others {
-        if warnings.iter().all(|told| told.code() != other.code()) {
-            warnings.push(other);
-        }
     }
 }
 

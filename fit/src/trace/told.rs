@@ -394,6 +394,15 @@ impl Warning {
     pub fn code(&self) -> &'static str {
         self.into()
     }
+
+    /// Adds those of others that are not told yet.
+    pub fn add(told: &mut Vec<Self>, others: impl IntoIterator<Item = Self>) {
+        for other in others {
+            if told.iter().all(|it| it.code() != other.code()) {
+                told.push(other);
+            }
+        }
+    }
 }
 
 /// A time that counts from the start of opening.
