@@ -89,12 +89,9 @@ impl Layout {
 
     /// Where the times of a signal are: of several columns of times, the next one to its left.
     fn time_of(&self, signal: usize) -> Time {
-        match self.time {
-            Time::Column(_, unit) => match self.times.iter().rev().find(|k| **k < signal) {
-                Some(column) => Time::Column(*column, unit),
-                None => self.time,
-            },
-            steps => steps,
+        match (self.time, self.times.iter().rev().find(|k| **k < signal)) {
+            (Time::Column(_, unit), Some(column)) => Time::Column(*column, unit),
+            (time, _) => time,
         }
     }
 

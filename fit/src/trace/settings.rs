@@ -83,13 +83,12 @@ impl Measure {
 
 /// The kind of a setting's name, and the unit that it holds: in brackets, or as its last word.
 fn named(name: &str) -> Option<(Kind, Option<Measure>)> {
-    let (name, inside) = match name.split_once(['(', '[']) {
-        Some((name, inside)) => (name, Some(inside.trim_end().trim_end_matches([')', ']', ':']))),
+    let (name, mut unit) = match name.split_once(['(', '[']) {
+        Some((name, inside)) => {
+            let inside = inside.trim_end().trim_end_matches([')', ']', ':']).trim();
+            (name, Some(Measure::parse(inside)?))
+        }
         None => (name, None),
-    };
-    let mut unit = match inside {
-        Some(text) => Some(Measure::parse(text.trim())?),
-        None => None,
     };
     let mut words = words(name);
     if let (None, [_, .., last]) = (unit, words.as_slice()) {

@@ -260,10 +260,9 @@ impl<'a> Table<'a> {
 
     fn no_rows(&self, total: usize) -> Refusal {
         // A line of the middle shows best what the rows are.
-        let shown = filled_lines(self.text)
-            .nth(total / 2)
-            .map(|line| line.chars().take(60).collect::<String>());
-        let shown = shown.unwrap_or_default().replace(|c: char| c.is_control(), " ");
+        let line = filled_lines(self.text).nth(total / 2).unwrap_or_default();
+        let shown = line.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60);
+        let shown: String = shown.collect();
         let reason = format!("there is no row of numbers in it; its middle line is '{shown}'");
         Refusal::NotCsv { reason }
     }
