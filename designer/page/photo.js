@@ -2,6 +2,7 @@
 // triggers. Below each, the light that has come.
 
 import { $, watch, write } from './dom.js';
+import { percents } from './facts.js';
 import { collected, shareAt } from './graph.js';
 import { STOPS } from './scene.js';
 
@@ -101,7 +102,7 @@ export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
     if (i && n <= 120) for (let k = 1; k < n; k++) context.fillRect((WIDTH * k) / n - 1, HEIGHT + 3, 2, ROOM - 3);
   });
   if (isPlaying) return;
-  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${plan.Ok?.doses ? `, as if of equal light; through this shutter they give ${plan.Ok.doses}` : n > 1 ? ' of equal light' : ''}`;
+  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${plan.Ok?.doses.length ? `, as if of equal light; through this shutter they give ${percents(plan.Ok.doses)}` : n > 1 ? ' of equal light' : ''}`;
   write($('flash-caption'), what);
   write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
 }

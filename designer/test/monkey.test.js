@@ -58,7 +58,7 @@ async function play({ seed, count }) {
     if (Boolean(view) && wrong && $('problem').hidden) fault('what is wrong is not told');
     if (view) {
       const told = Number(/^Exposure([\d.e+-]+)/.exec($('facts').querySelector('dl').textContent)?.[1]);
-      const isFitted = trace && told === Number(trace.fit.told.split(' ')[0]);
+      const isFitted = trace && told === Number(trace.fit.exposure.split(' ')[0]);
       const per = { s: 1, ms: 1e3, µs: 1e6, ns: 1e9 }[scene.unit];
       if (!isFitted && !scene.measured && !(Math.abs(told / (per * last.exposure) - 1) < 1e-4)) fault(`the facts tell ${told}, it is ${per * last.exposure}`);
       for (const { text } of scene.doubts) if (!$('facts').textContent.includes(text)) fault(`no doubt: ${text}`);
