@@ -209,8 +209,8 @@ function readingForm({ file, asked, measured: { names, read }, fit }) {
     ${choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])], asked.unit ?? '', (unit) => ({ unit: unit || null, rate: null }))}
     ${number('samples a second', 'rate', 'rate', asked.rate ?? (read?.rate && tidy(read.rate, 7)), 'by the times')}
     ${choice('in light the signal', 'rises', [['', way], ['true', 'rises'], ['false', 'falls']], asked.rises ?? '', (value) => ({ rises: value ? value === 'true' : null }))}
-    ${number('signal of full light', 'full', 'part', asked.full, 'the peak')}
     ${number(`from, ${unit}`, 'from', 'time', asked.from, 'the beginning', perSecond(unit))}${number(`to, ${unit}`, 'to', 'time', asked.to, 'the end', perSecond(unit))}
+    ${number('signal of full light', 'full', 'part', asked.full, 'the peak')}
     ${fit?.json.pulses > 1 || asked.frame ? choice('pulse', 'frame', Array.from({ length: Math.min(pulses, 200) }, (_, i) => [i + 1, `${i + 1} of ${fit?.json.pulses ?? '?'}`]), asked.frame ?? fit.json.pulse, (value) => ({ frame: Number(value) })) : nothing}
   </fieldset>`;
 }
