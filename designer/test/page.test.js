@@ -219,6 +219,10 @@ test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, wh
   assert.match(await page.text('#facts'), /Light\d+(\.\d+)?, 100 and \d+(\.\d+)? % from the first, the middle and the last flash/);
   await page.push('Give the timer’s rate');
   assert.equal(await focused(), 'timer_hz');
+  // A coarse timer is told where the timer is, and where the ticks are.
+  await page.fill('#timer_hz', '4 kHz');
+  const [, share] = /rounding +moves flashes by up to (\S+ %)/.exec(await planned('rust', 'soft'));
+  for (const id of ['facts', 'ticks-note']) assert.ok((await page.text(`#${id}`)).includes(`flashes move by up to ${share} of a share`), id);
   await page.fill('#timer_hz', '1 MHz');
   const rust = await copied('rust');
   assert.match(rust, /SYNC_FALLS: bool = true/);
@@ -409,13 +413,15 @@ test('a channel of the sync gives the delay, and which way it goes; what is outs
 
 test('a scene in TOML is as it was written, and what a person gave in it stays; a broken one is refused with its line', async () => {
   await open();
-  const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\ntimer_hz = 2000000\ntimer_bits = 16\nmin_gap = 0.25\ndelay = 1\ndelay_spread = 0.02\nsync_falls = true\nset_up = "emulated"\nlamp_lag = 0.01\n';
+  const text = 'unit = "ms"\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 15\ntriggers = 7\ntimer_hz = 2000000\ntimer_bits = 16\nmin_gap = 0.25\ndelay = 1\ndelay_spread = 0.02\nsync_falls = true\nset_up = "emulated"\nlamp_lag = 1.3\n';
   const file = join(scratch, 'short.toml');
   writeFileSync(file, text);
   await drop(['short.toml', text]);
   await page.until(() => document.getElementById('name').value === 'short');
   for (const form of ['rust', 'json', 'c']) assert.equal(await copied(form), shutter('plan', file, '--emit', form), form);
   assert.match(await copied('rust'), /u16/);
+  // A lag beyond the delay is taken off each tick.
+  assert.deepEqual(await ticks(), JSON.parse(await copied('json')).triggers.map((it) => it.ticks));
   const [, told] = /^drift +(.*)$/m.exec(shutter('plan', file));
   assert.equal((await page.text('#drift')).toLowerCase(), `${told}.`.toLowerCase());
   const link = await copiedBy(() => page.click('#link'));
