@@ -42,7 +42,7 @@ cp "$built" $files/studio.wasm
     echo 'const { html, nothing, render } = (() => {'
     sed 's/export{.*b as html.*A as nothing.*D as render.*};/return { html: b, nothing: A, render: D };/' page/lit-html.js
     echo '})();'
-    for module in dom scene view model toml graph handles photo play facts words numbers studio form trace speeds export bar ticks main; do
+    for module in dom scene view model graph handles photo facts words numbers studio form trace speeds export bar ticks main; do
         sed -E '/^import .* from /d; /^ *\/\//d; s/^export //' "page/$module.js"
     done | awk '/^ *\/\*\*/ { inside = 1 } !inside { sub(/^ +/, ""); print } /\*\/ *$/ { inside = 0 }'
 } >$files/page.js

@@ -240,18 +240,6 @@ pub enum What {
     TimesClose(Pair),
 }
 
-impl From<&str> for What {
-    fn from(reason: &str) -> Self {
-        Self::Text(reason.into())
-    }
-}
-
-impl From<String> for What {
-    fn from(reason: String) -> Self {
-        Self::Text(reason)
-    }
-}
-
 const EMULATED: &str =
     "it is for a shutter in the light's path, and set_up is \"emulated\"; there, ";
 

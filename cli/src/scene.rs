@@ -147,7 +147,7 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
     if let Some(at) = trigger_times_at(text) {
         let reason = "trigger_times: this scene has times as they were measured, and a curve is required here; \
                       `shutter plan` takes it";
-        return Err(Fault::of(Some(at), reason));
+        return Err(Fault::of(Some(at), What::Text(reason.into())));
     }
     read(text)
 }
@@ -175,7 +175,7 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
                 _ => format!("{key}: {reason}"),
             };
         }
-        Fault::of(at, reason)
+        Fault::of(at, What::Text(reason))
     })
 }
 

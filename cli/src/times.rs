@@ -95,7 +95,7 @@ impl Times {
         let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         for key in table.keys() {
             if let Some(why) = of_a_curve(key.get_ref()) {
-                return Err(Fault::at(key, format!("{}: {why}", key.get_ref())));
+                return Err(Fault::at(key, What::Text(format!("{}: {why}", key.get_ref()))));
             }
         }
         let times = Self::new(&scene::read(text)?)?;

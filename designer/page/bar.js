@@ -28,12 +28,5 @@ export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   }
   const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
   if (at.some((id) => MORE.includes(id))) $('inner').open = true;
-  for (const id of FIELDS) {
-    const isWrong = at.includes(id);
-    if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
-    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
-      if (isWrong) $(id).setAttribute(name, value);
-      else $(id).removeAttribute(name);
-    }
-  }
+  for (const id of FIELDS) for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) at.includes(id) ? $(id).setAttribute(name, value) : $(id).removeAttribute(name);
 }

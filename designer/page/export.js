@@ -4,9 +4,8 @@ import { html, nothing, render } from './lit-html.js';
 import { $, arrowed, watch } from './dom.js';
 import { give } from './form.js';
 import { model } from './model.js';
-import { hash } from './scene.js';
+import { hash, toml } from './scene.js';
 import { emitForm } from './studio.js';
-import { toml } from './toml.js';
 import { remedies, told } from './words.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];

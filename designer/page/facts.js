@@ -78,15 +78,9 @@ export function drawFacts({ now: { scene, trace }, view, last, isDraft }, sample
   const isHand = trace && !isFitted;
   const changed = isHand && samples ? html`<p id="by-hand">Changed by hand since the fit: the curve now misses the trace by ${short(100 * rms(samples), 3)} % of the light, the fit by ${short(100 * trace.fit.json.fit.rms, 3)} %.
     <button type="button" @click=${backToFit}>Back to the fit</button></p>` : nothing;
-  render(html`${trace ? html`<h3>${trace.name}</h3>` : nothing}<dl>${lines}</dl>${changed}${gap(plan, of)}
+  render(html`${trace ? html`<h3>${trace.name}</h3>` : nothing}<dl>${lines}</dl>${changed}${plan?.min_gap && plan.closest !== null ? html`<p class="note" id="gap">Closest ${of(plan.closest, 4)} apart; ${of(plan.min_gap, 4)} required.</p>` : nothing}
     ${plan?.drift ? html`<p class="note" id="drift">A tick a second moves the delay by 1 % of a share in ${plan.drift > 10 ? Math.round(plan.drift) : short(plan.drift, 2)} frames.</p>` : nothing}`, $('facts'));
   write($('speed'), exposure === null ? `${scene.triggers} measured times` : `${dial(exposure)} s${scene.doubts.some(({ about }) => about === 'exposure') ? ', doubtful' : ''}`);
-}
-
-// The closest gap beside what is required of it.
-function gap(plan, of) {
-  if (!plan || plan.closest === null || plan.min_gap === 0) return nothing;
-  return html`<p class="note" id="gap">Closest ${of(plan.closest, 4)} apart; ${of(plan.min_gap, 4)} required.</p>`;
 }
 
 function backToFit() {

@@ -10,12 +10,10 @@ import { drawFacts } from './facts.js';
 import { drawForm, startForm } from './form.js';
 import { Graph } from './graph.js';
 import { change, go, model, startModel, tell } from './model.js';
-import { drawPhoto } from './photo.js';
-import { play } from './play.js';
-import { fromScene, hash, innerOf } from './scene.js';
+import { drawPhoto, play } from './photo.js';
+import { fromScene, hash, innerOf, toml } from './scene.js';
 import { drawSpeeds } from './speeds.js';
 import { drawTicks } from './ticks.js';
-import { toml } from './toml.js';
 import { drawTrace, openFiles, startTraces } from './trace.js';
 import { fileOf, loadEngine } from './view.js';
 

@@ -23,11 +23,10 @@ export const model = {
   busy: null, note: null,
   /** A trace that was refused as it is read: { file, name, asked, measured, words, mend }. */
   pending: null,
-  get isDraft() { return now() !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
+  get isDraft() { return model.now !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
   get canUndo() { return at > 0 || model.isDraft; },
   get canRedo() { return at < steps.length - 1; },
 };
-const now = () => model.now;
 
 let steps = [], at = -1;
 // The browser's entry and the tab's visit, and whether a step waits for an entry.

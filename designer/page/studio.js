@@ -1,6 +1,6 @@
 // Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
 
-import { toml } from './toml.js';
+import { toml } from './scene.js';
 import { fileOf } from './view.js';
 
 class Asked {

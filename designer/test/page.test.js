@@ -295,20 +295,6 @@ test('a move with 256 flashes writes nothing that is not seen', async () => {
   const [x, y] = await middle('t2');
   await page.mouse.move(x, y);
   await page.mouse.down();
-  const session = await page.createCDPSession();
-  await session.send('Performance.enable');
-  const spent = async () => {
-    const { metrics } = await session.send('Performance.getMetrics');
-    return ['ScriptDuration', 'LayoutDuration', 'RecalcStyleDuration'].reduce((sum, name) => sum + 1000 * metrics.find((metric) => metric.name === name).value, 0);
-  };
-  const moves = [];
-  for (let i = 1; i <= 30; i++) {
-    const start = await spent();
-    await page.mouse.move(x - 2 * i, y + i);
-    await drawn();
-    moves.push((await spent()) - start);
-  }
-  console.log(`a move with 256 flashes on all ramp: ${moves.sort((a, b) => a - b)[15].toFixed(2)} ms of the main thread, the median`);
   await page.evaluate(() => {
     globalThis.touched = new Set();
     new MutationObserver((list) => list.forEach(({ target }) => touched.add((target.closest ? target : target.parentElement)?.closest('[id]')?.id))).observe(document.body, { subtree: true, childList: true, characterData: true, attributes: true });
