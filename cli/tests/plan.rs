@@ -447,7 +447,7 @@ fn ticks_that_may_be_others_are_doubted() {
     assert!(json.contains("\"1.5 Hz, planned as 2: 20 ticks off at the end\""), "{json}");
 }
 
-/// As docs/firmware.md computes it.
+/// As docs/firmware.md says.
 #[test]
 fn the_report_tells_when_a_drift_matters() {
     let report = |keys| shutter::report::text("leaf", &on_timer(keys).unwrap(), 80);

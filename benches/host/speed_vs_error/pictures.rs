@@ -12,7 +12,7 @@ use crate::methods::Method::{
     Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024,
 };
 use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
-use crate::rendering::{PIXELS, PULSES, Picture};
+use crate::rendering::{PIXELS, PULSES, Picture, Pulses};
 use crate::report::{Measured, cycles, name, time};
 use crate::support::cases::shutter;
 use crate::support::curves::{random_hard, random_typical};
@@ -39,6 +39,7 @@ fn picture(path: &str, size: (u32, u32), title: &str, draw: impl FnOnce(&Area)) 
     }
     // What is said of each dot and is so without being said.
     let svg = svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>");
+    let svg = svg.replace(" opacity=\"1\"", "");
     std::fs::write(path, dressed(&svg, drawn, size, title)).expect("the picture is written");
 }
 
@@ -230,11 +231,12 @@ pub fn worst_cases(path: &str, curves: u64) {
                 let verdict = judge(&Exact::new(&curve), |u| ours.inverse_cdf(u));
                 (place(verdict.at), verdict.backward)
             });
-            // One dot where many would lie on each other.
+            // Of those in a cell of an octave and 1/75 ulp, the greatest.
+            let mut points: Vec<(f64, f64)> = points.collect();
+            points.sort_by(|a, b| b.1.total_cmp(&a.1));
             let mut seen = HashSet::new();
-            let cell = |(x, y): (f64, f64)| ((4.0 * x) as u32, (150.0 * y) as u32);
-            let dots = points.filter(|at| seen.insert(cell(*at)));
-            draw(&mut graph, dots.map(|at| Circle::new(at, 4, color.mix(0.5).filled())));
+            points.retain(|(x, y)| seen.insert((*x as u32, (75.0 * y) as u32)));
+            draw(&mut graph, points.into_iter().map(|at| Circle::new(at, 4, color.filled())));
         }
         draw(
             &mut graph,
@@ -254,6 +256,11 @@ pub fn rendering(path: &str) {
     const SHOWN: u32 = 32;
     picture(path, (700, 430), "A moving bar exposed in pulses", |strips| {
         let scene = Picture::new(&CURVES[0].1);
+        // As the report says, but for what times round.
+        for n in [SHOWN, 256, 4096] {
+            let error = scene.error(&scene.exposed(Pulses::Triggers, n, 1));
+            assert!(error <= 1.001 / f64::from(n), "{error} of {n}");
+        }
         let rows = [("exact".to_string(), scene.exact().to_vec())].into_iter().chain(
             PULSES.map(|pulses| (name(pulses).to_string(), scene.exposed(pulses, SHOWN, 1))),
         );
