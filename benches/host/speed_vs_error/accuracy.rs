@@ -15,8 +15,6 @@ pub struct Figures {
     pub forward: f64,
     /// The greatest error as a fraction of the interval, and the mean of those at uniform fractions.
     pub of_interval: (f64, f64),
-    /// The greatest error in ulp(u), once half an ulp(t) is forgiven.
-    pub backward: f64,
     /// Of neighbouring u.
     pub steps_back: f64,
     /// NaN, outside the interval, or off by more than 1 % of it.
@@ -121,7 +119,6 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
                 if truth.hi != 0.0 {
                     figures.forward = figures.forward.max(exact.forward_ulp(t, truth));
                 }
-                figures.backward = figures.backward.max(exact.judge(u, t).backward);
             }
             let neighbours = (0..=samples as u32).map(|i| f32::from_bits(first + i));
             let times: Vec<f32> = neighbours.map(|u| inverse.inverse_cdf(u)).collect();
