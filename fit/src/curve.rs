@@ -30,8 +30,7 @@ pub struct Curve {
 
 impl Curve {
     /// How the whole length moves with each parameter.
-    pub(super) const LENGTH: [f64; PARAMETERS] =
-        [0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    pub(super) const LENGTH: [f64; PARAMETERS] = [0., 1., 1., 1., 0., 0., 0., 0., 0., 0., 0., 0.];
 
     pub(super) fn trapezoid(start: f64, opening: f64, plateau: f64, closing: f64) -> Self {
         Self { start, opening, plateau, closing, controls: [STRAIGHT; 2] }
@@ -69,24 +68,15 @@ impl Curve {
     }
 
     pub(super) fn from_parameters(p: &[f64; PARAMETERS]) -> Self {
-        Self {
-            start: p[START],
-            opening: p[OPENING],
-            plateau: p[PLATEAU],
-            closing: p[CLOSING],
-            controls: [[p[4], p[5], p[6], p[7]], [p[8], p[9], p[10], p[11]]],
-        }
+        let [start, opening, plateau, closing, a, b, c, d, e, f, g, h] = *p;
+        Self { start, opening, plateau, closing, controls: [[a, b, c, d], [e, f, g, h]] }
     }
 
     /// The curve with time counted in other units from another zero: `t` becomes `t * scale + shift`.
     pub fn mapped(&self, scale: f64, shift: f64) -> Self {
-        Self {
-            start: self.start * scale + shift,
-            opening: self.opening * scale,
-            plateau: self.plateau * scale,
-            closing: self.closing * scale,
-            controls: self.controls,
-        }
+        let [opening, plateau, closing] =
+            [self.opening, self.plateau, self.closing].map(|time| time * scale);
+        Self { start: self.start * scale + shift, opening, plateau, closing, ..*self }
     }
 }
 
@@ -131,7 +121,7 @@ pub struct Collected {
 impl Exposure {
     pub fn new(curve: &Curve) -> Self {
         let ramps = curve.controls.map(|controls| UnitRamp::new(&controls));
-        Self { curve: *curve, ramps, whole: ramps.map(|ramp| ramp.whole()) }
+        Self { curve: *curve, ramps, whole: ramps.map(|ramp| ramp.at(1.0)) }
     }
 
     /// The exposure `A`.
@@ -244,11 +234,7 @@ impl Exposure {
         let mut t = 0.5 * (low + high);
         for _ in 0..200 {
             let missing = self.collected(t).amount - target;
-            if missing < 0.0 {
-                low = t
-            } else {
-                high = t
-            }
+            (low, high) = if missing < 0.0 { (t, high) } else { (low, t) };
             let next = t - missing / self.openness(t);
             let next = if next > low && next < high { next } else { 0.5 * (low + high) };
             if next == t || high - low <= f64::EPSILON * high.abs().max(low.abs()) {
@@ -272,12 +258,14 @@ pub fn fractions(n: u32) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
 
-    fn curves() -> [Curve; 3] {
-        let free = Curve {
-            controls: [[0.4, 0.0, 0.6, 1.0], [0.1, 0.2, 0.9, 0.8]],
-            ..Curve::trapezoid(0.1, 0.5, 0.2, 0.9)
-        };
-        [Curve::trapezoid(-1.0, 0.3, 0.6, 0.1), Curve::trapezoid(2.0, 0.0, 1.0, 0.0), free]
+    fn curves() -> [Curve; 4] {
+        let free = |controls| Curve { controls, ..Curve::trapezoid(0.1, 0.5, 0.2, 0.9) };
+        [
+            Curve::trapezoid(-1.0, 0.3, 0.6, 0.1),
+            Curve::trapezoid(2.0, 0.0, 1.0, 0.0),
+            free([[0.4, 0.0, 0.6, 1.0], [0.1, 0.2, 0.9, 0.8]]),
+            free([[0.9, 0.2, 0.1, 0.9], [0.0, 0.7, 0.1, 1.0]]),
+        ]
     }
 
     #[test]

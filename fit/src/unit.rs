@@ -31,22 +31,12 @@ impl Unit {
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Second => "s",
-            Self::Millisecond => "ms",
-            Self::Microsecond => "µs",
-            Self::Nanosecond => "ns",
-        }
+        ["s", "ms", "µs", "ns"][self as usize]
     }
 
     /// How many of it are a second.
     pub const fn per_second(self) -> f64 {
-        match self {
-            Self::Second => 1.0,
-            Self::Millisecond => 1e3,
-            Self::Microsecond => 1e6,
-            Self::Nanosecond => 1e9,
-        }
+        [1.0, 1e3, 1e6, 1e9][self as usize]
     }
 
     /// The largest that `seconds` has at least one of.
