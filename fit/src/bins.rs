@@ -19,6 +19,14 @@ pub struct Bin {
 }
 
 impl Bin {
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.from + self.to)
+    }
+
+    pub fn width(&self) -> f64 {
+        self.to - self.from
+    }
+
     /// Does the next bin begin where this one ends, and not behind a gap?
     fn touches(&self, next: &Self) -> bool {
         next.from - self.to <= 1e-6 * (next.to - next.from)

@@ -17,7 +17,7 @@ pub fn candidates(fits: &FrameFits, n: u32) -> Vec<Candidate> {
             signal: fits.units.outside(signal),
             rms: fitted.variance().sqrt() / signal.gain,
             delta_bic: fits.bic(kind) - least,
-            shift: shifts.fold(0.0, f64::max) * fits.units.pulse(),
+            shift: shifts.fold(0.0, f64::max) * fits.units.pulse,
         }
     };
     Kind::ALL.into_iter().map(candidate).collect()
@@ -35,20 +35,15 @@ pub fn choose(options: &Options, candidates: &[Candidate], fits: &FrameFits) -> 
     }
     if let Some(tolerance) = options.tolerance {
         let most = match tolerance {
-            Tolerance::Share(share) => {
-                share * fits.exposure(Kind::Free).area() * fits.units.pulse()
-            }
+            Tolerance::Share(share) => share * fits.exposure(Kind::Free).area() * fits.units.pulse,
             Tolerance::Seconds(seconds) => seconds,
         };
         return (simplest(&|candidate| candidate.shift <= most), Reason::Tolerance(tolerance));
     }
     let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
-    if structure(fits, kind).explained {
-        return (kind, Reason::Criterion { effective: fits.effective() });
-    }
-    let freer = Kind::ALL.into_iter().filter(|freer| *freer > kind);
-    match freer.into_iter().find(|freer| structure(fits, *freer).explained) {
-        Some(freer) => (freer, Reason::Explains),
-        None => (kind, Reason::Criterion { effective: fits.effective() }),
+    let mut freer = Kind::ALL[kind as usize..].iter();
+    match freer.find(|freer| structure(fits, **freer).explained) {
+        Some(freer) if *freer > kind => (*freer, Reason::Explains),
+        _ => (kind, Reason::Criterion { effective: fits.effective() }),
     }
 }

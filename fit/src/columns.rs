@@ -46,7 +46,7 @@ pub fn with_columns(
 fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
     let curve = found.solution.signal.curve;
     let before = samples.partition_point(|bin| bin.to < curve.start);
-    let times = samples[..before].iter().map(|bin| 0.5 * (bin.from + bin.to));
+    let times = samples[..before].iter().map(|bin| bin.middle());
     let left: Vec<(f64, f64)> = times.zip(found.residuals.iter().copied()).collect();
     let n = left.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| left.iter().map(of).sum::<f64>() / n;
@@ -80,7 +80,7 @@ pub fn flickering(
 ) -> Option<KindFit> {
     let seen = MAINS.into_iter().filter(|hertz| hertz * second > FEWEST);
     let found = seen.filter_map(|hertz| {
-        let flicker = Some(Flicker::none(hertz * second));
+        let flicker = Some(Flicker { frequency: hertz * second, terms: [0.0; 4] });
         let start = Signal { flicker, ..without.solution.signal };
         if_worth_it(problem, &start, without, samples)
     });

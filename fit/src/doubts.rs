@@ -22,7 +22,7 @@ const WIDE: f64 = 0.02;
 /// All doubts about the fit of a frame.
 pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
     // The sampling interval in seconds.
-    let step = fits.step * fits.units.pulse();
+    let step = fits.step * fits.units.pulse;
     // What a capacitor bends may pass for a hum.
     let is_bent = fit.warnings.iter().any(|w| matches!(w, Warning::Undershoot { .. }));
     let is_pulsed = fit.warnings.iter().any(|w| matches!(w, Warning::Pulsed { .. }));
@@ -142,10 +142,10 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
 fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let Parts { before, pulse, after } = Parts::new(fits, fit.chosen);
     let gain = fits.of(fit.chosen).solution.signal.gain;
-    let amount = |bin: &Bin| bin.mean * (bin.to - bin.from) / gain;
+    let amount = |bin: &Bin| bin.mean * bin.width() / gain;
     let mean = |part: std::ops::Range<usize>| {
         let bins = &fits.samples[part];
-        bins.iter().map(amount).sum::<f64>() / bins.iter().map(|bin| bin.to - bin.from).sum::<f64>()
+        bins.iter().map(amount).sum::<f64>() / bins.iter().map(Bin::width).sum::<f64>()
     };
     let (few, quarter) = (before.len() / 2, after.len() / 4);
     if few < 8 || quarter < 8 || fit.from == From::Trace {
@@ -159,11 +159,9 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let walk = Walk::new(&missed(fits, fit.chosen), &flat, fits.step)?;
     let error = (walk.power / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
     let sinks = first > second && second > third && second - last > TAIL * error;
-    let seconds = fits.samples[after.clone()]
-        .iter()
-        .map(|bin| amount(bin) - dark * (bin.to - bin.from))
-        .sum::<f64>()
-        * fits.units.pulse();
+    let seconds =
+        fits.samples[after.clone()].iter().map(|bin| amount(bin) - dark * bin.width()).sum::<f64>()
+            * fits.units.pulse;
     let is_told = sinks && first - last > 4.0 * drift && seconds > LITTLE * fit.exposure.value;
     is_told.then_some(Warning::SlowTail { share: first, with: fit.exposure.value + seconds })
 }

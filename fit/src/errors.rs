@@ -5,7 +5,7 @@ use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole,
 use crate::frame::FrameFits;
 use crate::hum;
 use crate::missed::least_open;
-use crate::signal::{Hum, Kind};
+use crate::signal::{Flicker, Hum, Kind};
 use crate::solve::Cholesky;
 use crate::trace::Timing;
 use crate::units::Units;
@@ -15,6 +15,10 @@ use crate::units::Units;
 const FOOT: f64 = 0.005;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
 const PEAK: f64 = 0.1;
+/// What a hum of few periods leaves unknown, as a share of it, where its frequency was not given.
+const SHORT_HUM: f64 = 0.1;
+/// What a lamp's flicker leaves unknown, as a share of it, where a period of it is in the pulse.
+const FLICKER: f64 = 0.2;
 
 /// A value and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +33,11 @@ impl Measured {
     fn scaled(self, factor: f64) -> Self {
         Self { value: self.value * factor, error: self.error * factor }
     }
+
+    /// With an error more.
+    fn widen(&mut self, by: f64) {
+        self.error = self.error.hypot(by);
+    }
 }
 
 /// What a curve is good for.
@@ -41,18 +50,62 @@ pub struct Results {
 }
 
 impl Results {
+    fn times(&mut self) -> impl Iterator<Item = &mut Measured> {
+        self.triggers.iter_mut().chain([&mut self.start])
+    }
+
     /// The same in seconds, and of full light where the pulse's peak is this share of it.
     pub fn outside(self, units: &Units, peak: f64) -> Self {
-        let seconds = |m: Measured| Measured {
-            value: units.seconds(m.value),
-            error: units.pulse() * m.error,
-        };
+        let seconds =
+            |m: Measured| Measured { value: units.seconds(m.value), error: units.pulse * m.error };
         Self {
-            exposure: self.exposure.scaled(units.pulse() * peak),
+            exposure: self.exposure.scaled(units.pulse * peak),
             efficiency: self.efficiency.scaled(peak),
             start: seconds(self.start),
             triggers: self.triggers.into_iter().map(seconds).collect(),
         }
+    }
+
+    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
+    pub fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
+        let signal = fits.of(kind).solution.signal;
+        let is_short =
+            |hum: &Hum| hum.range.0 < hum.range.1 && hum::periods(fits.bins(), hum) < hum::FEWEST;
+        let of_hum = |hum: Hum| SHORT_HUM * hum.amplitude() / signal.gain;
+        let hum = signal.hum.filter(is_short).map_or(0.0, of_hum);
+        let of_lamp = |lamp: Flicker| FLICKER * lamp.amplitude() / lamp.frequency;
+        let lamp = signal.flicker.map_or(0.0, of_lamp);
+        let share = (2f64.sqrt() * fits.rounding).hypot(lamp).hypot(hum);
+        for result in [&mut self.exposure, &mut self.efficiency] {
+            result.widen(share * result.value);
+        }
+        let late = fits.rounding.hypot(0.3 * lamp).hypot(hum) * self.exposure.value;
+        self.times().for_each(|time| time.widen(late));
+        self
+    }
+
+    /// With structure that the tests do not tell, which moves triggers and exposure by these shares of the exposure.
+    pub fn with_hidden(mut self, [triggers, exposure]: [f64; 2]) -> Self {
+        let of = self.exposure.value;
+        self.triggers.iter_mut().for_each(|trigger| trigger.widen(triggers * of));
+        self.exposure.widen(exposure * of);
+        self
+    }
+
+    /// With what is not known of the clock, in seconds.
+    pub fn timed(mut self, timing: &Timing) -> Self {
+        self.exposure.widen(timing.pace * self.exposure.value);
+        self.times().for_each(|time| time.widen(timing.error));
+        self
+    }
+
+    /// A model's that do not explain the samples: how far they lie from the samples' own belongs to their errors.
+    pub fn apart_from(mut self, samples: &Self) -> Self {
+        self.exposure.widen(self.exposure.value - samples.exposure.value);
+        for (trigger, other) in self.triggers.iter_mut().zip(&samples.triggers) {
+            trigger.widen(trigger.value - other.value);
+        }
+        self
     }
 }
 
@@ -62,12 +115,11 @@ impl Results {
 /// Akaike weight, with its own variance and how far it lies from this one.
 pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     let mut chosen = OfKind::new(fits, kind).results(n);
-    let freer = || Kind::ALL.into_iter().filter(|k| *k >= kind);
-    let least = freer().map(|k| fits.aic(k)).fold(f64::INFINITY, f64::min);
-    let weights: Vec<f64> = freer().map(|k| (0.5 * (least - fits.aic(k))).exp()).collect();
-    let sum: f64 = weights.iter().sum();
-    let all: Vec<(f64, Results)> = freer()
-        .zip(weights)
+    let freer = &Kind::ALL[kind as usize..];
+    let least = freer.iter().map(|k| fits.aic(*k)).fold(f64::INFINITY, f64::min);
+    let weights = freer.iter().map(|k| (*k, (0.5 * (least - fits.aic(*k))).exp()));
+    let sum: f64 = weights.clone().map(|(_, weight)| weight).sum();
+    let all: Vec<(f64, Results)> = weights
         .filter(|(_, weight)| *weight > 1e-3 * sum)
         .map(|(k, weight)| (weight / sum, OfKind::new(fits, k).results(n)))
         .collect();
@@ -82,64 +134,6 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
         widen(trigger, &|results| results.triggers[i]);
     }
     chosen.widened(fits, kind)
-}
-
-/// What a hum of few periods leaves unknown, as a share of it, where its frequency was not given.
-const SHORT_HUM: f64 = 0.1;
-/// What a lamp's flicker leaves unknown, as a share of it, where a period of it is in the pulse.
-const FLICKER: f64 = 0.2;
-
-impl Results {
-    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
-    pub fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
-        let signal = fits.of(kind).solution.signal;
-        let is_short =
-            |hum: &Hum| hum.range.0 < hum.range.1 && hum::periods(fits.bins(), hum) < hum::FEWEST;
-        let hum = signal
-            .hum
-            .filter(is_short)
-            .map_or(0.0, |hum| SHORT_HUM * hum.amplitude() / signal.gain);
-        let lamp = signal.flicker;
-        let lamp = lamp.map_or(0.0, |lamp| FLICKER * lamp.amplitude() / lamp.frequency);
-        let share = (2f64.sqrt() * fits.rounding).hypot(lamp).hypot(hum);
-        for result in [&mut self.exposure, &mut self.efficiency] {
-            result.error = result.error.hypot(share * result.value);
-        }
-        let late = fits.rounding.hypot(0.3 * lamp).hypot(hum) * self.exposure.value;
-        for time in self.triggers.iter_mut().chain([&mut self.start]) {
-            time.error = time.error.hypot(late);
-        }
-        self
-    }
-
-    /// With structure that the tests do not tell, which moves triggers and exposure by these shares of the exposure.
-    pub fn with_hidden(mut self, [triggers, exposure]: [f64; 2]) -> Self {
-        let of = self.exposure.value;
-        for trigger in &mut self.triggers {
-            trigger.error = trigger.error.hypot(triggers * of);
-        }
-        self.exposure.error = self.exposure.error.hypot(exposure * of);
-        self
-    }
-
-    /// With what is not known of the clock, in seconds.
-    pub fn timed(mut self, timing: &Timing) -> Self {
-        self.exposure.error = self.exposure.error.hypot(timing.pace * self.exposure.value);
-        for time in self.triggers.iter_mut().chain([&mut self.start]) {
-            time.error = time.error.hypot(timing.error);
-        }
-        self
-    }
-
-    /// A model's that do not explain the samples: how far they lie from the samples' own belongs to their errors.
-    pub fn apart_from(mut self, samples: &Self) -> Self {
-        let of_samples = samples.triggers.iter().chain([&samples.exposure]);
-        for (result, other) in self.triggers.iter_mut().chain([&mut self.exposure]).zip(of_samples)
-        {
-            result.error = result.error.hypot(result.value - other.value);
-        }
-        self
-    }
 }
 
 /// One kind's curve with all that its errors come from.
@@ -234,8 +228,29 @@ impl<'a> OfKind<'a> {
         fractions(n).map(trigger).collect()
     }
 
+    /// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
+    ///
+    /// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
+    /// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
-        searched_error(self.fits, self.kind, whole, linear, self.covariance.variance)
+        const SIDE: f64 = 1.96;
+        let value = whole.of(&self.curve).0;
+        let (least, most) = (1e-4 * value, 0.5 * value);
+        let side = |way: f64| {
+            // Where the linear error is unknown, not a number, `min` takes the other.
+            let mut by = (SIDE * linear).min(0.1 * value).max(least);
+            for _ in 0..8 {
+                let cost = self.fits.cost_of(self.kind, whole, way * by)
+                    / (SIDE * SIDE * self.covariance.variance);
+                if (0.8..1.25).contains(&cost) {
+                    break;
+                }
+                // Between a square and the fourth power.
+                by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
+            }
+            by
+        };
+        side(1.0).max(side(-1.0)) / SIDE
     }
 }
 
@@ -262,10 +277,6 @@ impl Covariance {
             low == high || *k < CONTROLS && packed[*k] <= low
         };
         let moving: Vec<usize> = (0..packed.len()).filter(|k| !on_bound(k)).collect();
-        let matrix: Vec<Vec<f64>> = moving
-            .iter()
-            .map(|i| moving.iter().map(|j| solution.normal[*i][*j]).collect())
-            .collect();
         // The degrees of freedom: a parameter takes an independent sample.
         let n = fits.samples.len() as f64;
         let free = (n - packed.len() as f64 * fits.correlation).max(0.5 * n);
@@ -274,8 +285,8 @@ impl Covariance {
             |ramp: f64| fits.step * fits.step / 12.0 * (1.0 - ramp / (2.0 * fits.step)).max(0.0);
         Self {
             kind,
+            factor: Cholesky::stiffened(&solution.normal_of(&moving)),
             moving,
-            factor: Cholesky::stiffened(&matrix),
             variance: fitted.squares / free * fits.correlation,
             edges: [edge(curve.opening), edge(curve.closing)],
         }
@@ -293,28 +304,4 @@ impl Covariance {
         let edges = opening * opening * self.edges[0] + closing * closing * self.edges[1];
         (noise * self.variance + edges).sqrt()
     }
-}
-
-/// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
-///
-/// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
-/// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
-fn searched_error(fits: &FrameFits, kind: Kind, whole: Whole, linear: f64, variance: f64) -> f64 {
-    const SIDE: f64 = 1.96;
-    let value = whole.of(&fits.of(kind).solution.signal.curve).0;
-    let (least, most) = (1e-4 * value, 0.5 * value);
-    let side = |way: f64| {
-        // Where the linear error is unknown, not a number, `min` takes the other.
-        let mut by = (SIDE * linear).min(0.1 * value).max(least);
-        for _ in 0..8 {
-            let cost = fits.cost_of(kind, whole, way * by) / (SIDE * SIDE * variance);
-            if (0.8..1.25).contains(&cost) {
-                break;
-            }
-            // Between a square and the fourth power.
-            by = (by * cost.max(1e-3).powf(-1.0 / 3.0)).clamp(least, most);
-        }
-        by
-    };
-    side(1.0).max(side(-1.0)) / SIDE
 }

@@ -6,7 +6,7 @@ use crate::curve::{Exposure, Whole, fractions};
 use crate::hum::Mains;
 use crate::kind::KindFit;
 use crate::noise::{self, slow_correlation};
-use crate::search::Search;
+use crate::search::every_kind;
 use crate::signal::{Kind, Signal};
 use crate::solve::{Held, Problem};
 use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
@@ -57,7 +57,7 @@ impl FrameFits {
         let plain = Signal::plain();
         fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
         let free = fits.of(Kind::Free);
-        let mains = Mains { second: units.pulse(), hertz: mains };
+        let mains = Mains { second: units.pulse, hertz: mains };
         if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step, mains) {
             fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
         }
@@ -67,7 +67,7 @@ impl FrameFits {
     /// The same with the flicker of a lamp on the mains, where that is worth it.
     pub fn flickering(&self, crossings: &Crossings) -> Option<Self> {
         let free = self.of(Kind::Free);
-        let second = self.units.pulse();
+        let second = self.units.pulse;
         let found = columns::flickering(&self.problem, free, &self.samples, second)?;
         let mut others = self.clone();
         others.search_with(crossings, found, &mut |_| ());
@@ -76,8 +76,8 @@ impl FrameFits {
 
     /// Searches for every kind's best signal, from what `like` has beside its curve.
     fn search(&mut self, crossings: &Crossings, like: &Signal, progress: &mut dyn FnMut(f64)) {
-        let search = Search { problem: &self.problem, crossings, step: self.step };
-        self.kinds = KindFit::all(search.every_kind(like, progress), &self.samples);
+        let found = every_kind(&self.problem, crossings, self.step, like, progress);
+        self.kinds = found.into_iter().map(|best| KindFit::new(best, &self.samples)).collect();
         self.correlation = slow_correlation(&self.of(Kind::Free).residuals);
     }
 
@@ -98,8 +98,7 @@ impl FrameFits {
         let integral = self.exposure(kind);
         let each = self.samples.iter().zip(&fitted.residuals);
         each.map(|(bin, r)| {
-            let (middle, width) = (0.5 * (bin.from + bin.to), bin.to - bin.from);
-            let lamp = signal.flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+            let lamp = signal.lamp(bin.middle(), bin.width());
             integral.mean(bin.from, bin.to) + r / (signal.gain * lamp.max(0.1))
         })
         .collect()

@@ -41,7 +41,7 @@ fn ranges(bins: &[Bin], Mains { second, hertz }: Mains) -> Vec<Bounds> {
     let few = FEWEST / length;
     let band = |(low, high): Bounds| (low * second, high * second);
     let Some(hertz) = hertz else {
-        let short = MAINS.map(band).into_iter().filter(|band| band.1 < few || band.0 < few);
+        let short = MAINS.map(band).into_iter().filter(|band| band.0 < few);
         let short = short.map(|(low, high)| (low.max(LEAST / length), high.min(few)));
         // Up to a quarter of the intervals a period, as far as the tries go.
         let most = (0.25 * bins.len() as f64).min(0.5 * MOST as f64) / length;
@@ -66,8 +66,8 @@ pub fn strongest(bins: &[Bin], signal: &Signal, mains: Mains) -> Vec<Hum> {
         let all = (0..=tries as usize).map(|k| sine(&missed, low + k as f64 * apart, range));
         let best = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?.1;
         // Between its neighbours, by golden section.
-        let (mut a, mut b) =
-            ((best.frequency - apart).max(low), (best.frequency + apart).min(high));
+        let mut a = (best.frequency - apart).max(low);
+        let mut b = (best.frequency + apart).min(high);
         for _ in 0..20 {
             let (c, d) = (b - 0.618 * (b - a), a + 0.618 * (b - a));
             if sine(&missed, c, range).0 > sine(&missed, d, range).0 { b = d } else { a = c }
@@ -79,13 +79,8 @@ pub fn strongest(bins: &[Bin], signal: &Signal, mains: Mains) -> Vec<Hum> {
 
 /// What the signal misses of each bin: when, how much, and of how many samples.
 fn missed(bins: &[Bin], signal: &Signal) -> Vec<(f64, f64, f64)> {
-    let mut moves = vec![0.0; signal.len()];
-    let mut means = signal.means();
-    let miss = |bin: &Bin| {
-        let miss = bin.mean - means.over(bin.from, bin.to, &mut moves);
-        (0.5 * (bin.from + bin.to), miss, bin.samples)
-    };
-    bins.iter().map(miss).collect()
+    let each = bins.iter().zip(signal.missed(bins));
+    each.map(|(bin, missed)| (bin.middle(), missed, bin.samples)).collect()
 }
 
 /// Is a signal's hum no part of the shutter or of the noise: as strong in the dark as on the whole, and beyond what

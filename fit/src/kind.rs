@@ -16,16 +16,9 @@ pub struct KindFit {
 
 impl KindFit {
     pub fn new(solution: Solution, samples: &[Bin]) -> Self {
-        let mut moves = vec![0.0; solution.signal.len()];
-        let mut means = solution.signal.means();
-        let residuals: Vec<f64> =
-            samples.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves)).collect();
+        let residuals = solution.signal.missed(samples);
         let squares = residuals.iter().map(|r| r * r).sum();
         Self { solution, residuals, squares }
-    }
-
-    pub fn all(solutions: Vec<Solution>, samples: &[Bin]) -> Vec<Self> {
-        solutions.into_iter().map(|solution| Self::new(solution, samples)).collect()
     }
 
     /// The mean of the residuals' squares.

@@ -50,9 +50,7 @@ pub struct Movable<'a> {
 impl<'a> Movable<'a> {
     pub fn new(solution: &'a Solution, bins: &'a [Bin], keep: impl Fn(usize) -> bool) -> Self {
         let places: Vec<usize> = solution.moving().into_iter().filter(|k| keep(*k)).collect();
-        let row =
-            |i: &usize| places.iter().map(|j| solution.normal[*i.max(j)][*i.min(j)]).collect();
-        let factor = Cholesky::stiffened(&places.iter().map(row).collect::<Vec<_>>());
+        let factor = Cholesky::stiffened(&solution.normal_of(&places));
         let mut means = solution.signal.means();
         let mut moves = vec![0.0; solution.signal.len()];
         let (mut rows, mut missed) = (Vec::new(), Vec::new());
@@ -112,7 +110,7 @@ impl Score {
 /// What a capacitor's charge takes from each bin: as much as has come by then, to first order.
 pub fn charge(solution: &Solution, bins: &[Bin]) -> Vec<f64> {
     let exposure = Exposure::new(&solution.signal.curve);
-    bins.iter().map(|bin| -exposure.collected(0.5 * (bin.from + bin.to)).amount).collect()
+    bins.iter().map(|bin| -exposure.collected(bin.middle()).amount).collect()
 }
 
 /// Does a tail explain as much as the drift and the hum do that a signal was given?
@@ -130,7 +128,7 @@ pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64,
     let place = kind.parameters() + 2;
     let movable = Movable::new(solution, bins, |k| !(place..place + columns).contains(&k));
     let beside = |bin: &Bin| {
-        let t = 0.5 * (bin.from + bin.to);
+        let t = bin.middle();
         drift.unwrap_or(0.0) * t + hum.map_or(0.0, |hum| hum.at(t))
     };
     let beside: Vec<f64> = bins.iter().map(beside).collect();

@@ -36,8 +36,7 @@ pub fn missed(fits: &FrameFits, kind: Kind) -> Vec<f64> {
     let corners = signal.curve.times();
     let near = |t: f64| corners.iter().any(|corner| (t - corner).abs() < 1.5 * fits.step);
     let each = fits.samples.iter().zip(&fitted.residuals);
-    each.map(|(bin, r)| if near(0.5 * (bin.from + bin.to)) { 0.0 } else { r / signal.gain })
-        .collect()
+    each.map(|(bin, r)| if near(bin.middle()) { 0.0 } else { r / signal.gain }).collect()
 }
 
 /// Light that comes beside a curve, added up along the pulse.
@@ -52,25 +51,25 @@ impl Beside {
     pub fn new(curve: Exposure, bins: &[Bin], light: impl Iterator<Item = f64>) -> Self {
         let mut sum = 0.0;
         let more = |(bin, light): (&Bin, f64)| {
-            sum += light * (bin.to - bin.from);
+            sum += light * bin.width();
             (bin.to, sum)
         };
         Self { curve, sums: bins.iter().zip(light).map(more).collect() }
     }
 
-    /// When the curve has collected `u`, and by how much later that is with this light: `u` of all of it has to come as well, and
-    /// what there is of it up to then has come.
-    pub fn trigger(&self, u: f64) -> (f64, f64) {
+    /// By how much later the curve has collected `u` with this light: `u` of all of it has to come as well, and what there is of it
+    /// up to then has come.
+    fn later(&self, u: f64) -> f64 {
         let t = self.curve.trigger(u).0;
         let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];
         let here = until.last().map_or(0.0, |(_, sum)| *sum);
-        (t, (u * self.whole() - here) / least_open(&self.curve, t))
+        (u * self.whole() - here) / least_open(&self.curve, t)
     }
 
     /// By how much triggers move with it, the root of their mean square, as a share of the exposure.
     pub fn triggers(&self) -> f64 {
         const TRIGGERS: u32 = 16;
-        let squares = fractions(TRIGGERS).map(|u| self.trigger(u).1.powi(2)).sum::<f64>();
+        let squares = fractions(TRIGGERS).map(|u| self.later(u).powi(2)).sum::<f64>();
         (squares / f64::from(TRIGGERS)).sqrt() / self.curve.area()
     }
 

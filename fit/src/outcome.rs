@@ -235,10 +235,11 @@ impl Fit {
 
     /// The fitted signal at a time in seconds, light upwards.
     pub fn value(&self, t: f64) -> f64 {
-        let Signal { curve, dark, gain, drift, hum, flicker, .. } = self.best().signal;
+        let signal = &self.best().signal;
+        let Signal { curve, dark, gain, drift, hum, .. } = *signal;
         let since = t - self.middle;
         let hum = hum.map_or(0.0, |hum| hum.at(since));
-        let lamp = flicker.map_or(1.0, |flicker| flicker.factor(since, 0.0));
+        let lamp = signal.lamp(since, 0.0);
         dark + gain * lamp * Exposure::new(&curve).openness(t) + drift.unwrap_or(0.0) * since + hum
     }
 

@@ -80,14 +80,14 @@ impl Shape {
             Self::Tail => lagging(solution, bins, fits.step),
             Self::Slope if exposure.curve.plateau < PLATEAU * exposure.curve.length() => None,
             Self::Slope => each(&|bin| {
-                let since = 0.5 * (bin.from + bin.to) - exposure.curve.open_end();
+                let since = bin.middle() - exposure.curve.open_end();
                 -gain * exposure.mean(bin.from, bin.to) * since.max(0.0)
             }),
             Self::Dip(at) => {
                 let (from, to) = (at - 0.5 * FIFTH, at + 0.5 * FIFTH);
                 each(&|bin| {
                     let inside = (bin.to.min(to) - bin.from.max(from)).max(0.0);
-                    -gain * inside / (bin.to - bin.from)
+                    -gain * inside / bin.width()
                 })
             }
         }
@@ -219,8 +219,7 @@ impl Noise {
 
     /// The variance that it gives a pattern's score.
     fn along(&self, pattern: &[f64], bins: &[Bin], exposure: &Exposure) -> f64 {
-        let light =
-            |bin: &Bin| 1.0 + (self.in_light - 1.0) * exposure.openness(0.5 * (bin.from + bin.to));
+        let light = |bin: &Bin| 1.0 + (self.in_light - 1.0) * exposure.openness(bin.middle());
         bins.iter().zip(pattern).map(|(bin, p)| self.power * light(bin) * bin.samples * p * p).sum()
     }
 }

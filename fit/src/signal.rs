@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::bins::Bin;
 use crate::curve::{CONTROLS, Collected, Curve, Exposure, PARAMETERS, PLATEAU, START};
 use crate::ramp::{BOUNDS, STRAIGHT};
 
@@ -25,32 +26,17 @@ impl Kind {
 
     /// As a reader is told.
     pub const fn title(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Trapezoid => "straight ramps",
-            Self::Symmetric => "symmetric cubic ramps",
-            Self::Free => "free cubic ramps",
-        }
+        ["box", "straight ramps", "symmetric cubic ramps", "free cubic ramps"][self as usize]
     }
 
     /// As `--model` has it.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Trapezoid => "trapezoid",
-            Self::Symmetric => "symmetric",
-            Self::Free => "free",
-        }
+        ["box", "trapezoid", "symmetric", "free"][self as usize]
     }
 
     /// How many numbers describe its curve.
     pub const fn parameters(self) -> usize {
-        match self {
-            Self::Box => 2,
-            Self::Trapezoid => CONTROLS,
-            Self::Symmetric => CONTROLS + 4,
-            Self::Free => PARAMETERS,
-        }
+        [2, CONTROLS, CONTROLS + 4, PARAMETERS][self as usize]
     }
 
     /// By which of this kind's parameters each of a curve's is held, if any.
@@ -65,36 +51,29 @@ impl Kind {
         }
     }
 
+    /// Each of a curve's parameters that is not fixed, with the place of the one that holds it.
+    fn held(self) -> impl DoubleEndedIterator<Item = (usize, usize)> {
+        (0..PARAMETERS).filter_map(move |k| Some((k, self.holder(k)?)))
+    }
+
     /// This kind's parameters of a curve; of a curve that is not of this kind, some of them.
-    pub(super) fn pack(self, curve: &Curve) -> Vec<f64> {
-        let mut packed = vec![0.0; self.parameters()];
-        for (k, p) in curve.parameters().into_iter().enumerate().rev() {
-            if let Some(holder) = self.holder(k) {
-                packed[holder] = p;
-            }
-        }
+    fn pack(self, curve: &Curve) -> Vec<f64> {
+        let (mut packed, p) = (vec![0.0; self.parameters()], curve.parameters());
+        self.held().rev().for_each(|(k, holder)| packed[holder] = p[k]);
         packed
     }
 
     /// The curve with these parameters.
-    pub(super) fn unpack(self, packed: &[f64]) -> Curve {
+    fn unpack(self, packed: &[f64]) -> Curve {
         let mut p = Curve::trapezoid(0.0, 0.0, 0.0, 0.0).parameters();
-        for (k, p) in p.iter_mut().enumerate() {
-            if let Some(holder) = self.holder(k) {
-                *p = packed[holder];
-            }
-        }
+        self.held().for_each(|(k, holder)| p[k] = packed[holder]);
         Curve::from_parameters(&p)
     }
 
     /// Moves with this kind's parameters, from moves with a curve's.
     pub(super) fn gather(self, moves: &[f64; PARAMETERS], into: &mut [f64]) {
         into[..self.parameters()].fill(0.0);
-        for (k, m) in moves.iter().enumerate() {
-            if let Some(holder) = self.holder(k) {
-                into[holder] += m;
-            }
-        }
+        self.held().for_each(|(k, holder)| into[holder] += moves[k]);
     }
 }
 
@@ -119,8 +98,7 @@ impl Hum {
 
     /// The sine's value at a time.
     pub fn at(&self, t: f64) -> f64 {
-        let (s, c) = (TAU * self.frequency * t).sin_cos();
-        self.cosine * c + self.sine * s
+        self.mean(t, 0.0).0
     }
 
     /// Its mean over an interval, and how that moves with the frequency, the cosine and the sine.
@@ -151,11 +129,6 @@ pub struct Flicker {
 }
 
 impl Flicker {
-    /// None, as a start.
-    pub(super) fn none(frequency: f64) -> Self {
-        Self { frequency, terms: [0.0; 4] }
-    }
-
     /// Half of what the first frequency spans, as a share of the light.
     pub fn amplitude(&self) -> f64 {
         self.terms[0].hypot(self.terms[1])
@@ -171,12 +144,6 @@ impl Flicker {
         };
         let ([a, b], [c, d]) = (wave(self.frequency), wave(2.0 * self.frequency));
         [a, b, c, d]
-    }
-
-    /// By what the light is multiplied over an interval.
-    pub fn factor(&self, middle: f64, width: f64) -> f64 {
-        let waves = self.waves(middle, width);
-        1.0 + waves.iter().zip(self.terms).map(|(wave, term)| wave * term).sum::<f64>()
     }
 }
 
@@ -217,10 +184,16 @@ impl Signal {
         }
     }
 
+    /// By what its flicker multiplies the light over an interval.
+    pub(super) fn lamp(&self, middle: f64, width: f64) -> f64 {
+        let Some(flicker) = self.flicker else { return 1.0 };
+        let waves = flicker.waves(middle, width).into_iter().zip(flicker.terms);
+        1.0 + waves.map(|(wave, term)| wave * term).sum::<f64>()
+    }
+
     /// How many numbers it takes.
     pub(super) fn len(&self) -> usize {
-        let (drift, hum) = (self.drift.map_or(0, |_| 1), self.hum.map_or(0, |_| 3));
-        self.kind.parameters() + 2 + drift + hum + self.flicker.map_or(0, |_| 4)
+        self.pack().len()
     }
 
     /// Its numbers, the curve's first.
@@ -236,24 +209,21 @@ impl Signal {
     /// The same with other numbers, as `pack` orders them.
     pub(super) fn unpack(&self, packed: &[f64]) -> Self {
         let (curve, rest) = packed.split_at(self.kind.parameters());
-        let (columns, at) = (&rest[2..], self.drift.map_or(0, |_| 1));
-        let waves = at + self.hum.map_or(0, |_| 3);
+        let mut rest = rest.iter().copied();
+        let mut next = || rest.next().expect("as many numbers as `pack` gives");
         Self {
             kind: self.kind,
             curve: self.kind.unpack(curve),
-            dark: rest[0],
-            gain: rest[1],
-            drift: self.drift.map(|_| columns[0]),
-            hum: self.hum.map(|Hum { range, .. }| Hum {
-                frequency: columns[at],
-                range,
-                cosine: columns[at + 1],
-                sine: columns[at + 2],
+            dark: next(),
+            gain: next(),
+            drift: self.drift.map(|_| next()),
+            hum: self.hum.map(|hum| {
+                let [frequency, cosine, sine] = [next(), next(), next()];
+                Hum { frequency, cosine, sine, ..hum }
             }),
-            flicker: self.flicker.map(|Flicker { frequency, .. }| Flicker {
-                frequency,
-                terms: std::array::from_fn(|k| columns[waves + k]),
-            }),
+            flicker: self
+                .flicker
+                .map(|flicker| Flicker { terms: flicker.terms.map(|_| next()), ..flicker }),
         }
     }
 
@@ -273,6 +243,12 @@ impl Signal {
     pub(super) fn controls(&self) -> impl Iterator<Item = (usize, f64)> {
         let n = self.kind.parameters();
         (CONTROLS..n.max(CONTROLS)).map(|k| (k, STRAIGHT[(k - CONTROLS) % 4]))
+    }
+
+    /// What it misses of each bin.
+    pub(super) fn missed(&self, bins: &[Bin]) -> Vec<f64> {
+        let (mut means, mut moves) = (self.means(), vec![0.0; self.len()]);
+        bins.iter().map(|bin| bin.mean - means.over(bin.from, bin.to, &mut moves)).collect()
     }
 
     /// What works the signal's means out.
@@ -302,7 +278,7 @@ impl Means<'_> {
         let width = to - from;
         let openness = (end.amount - start.amount) / width;
         let middle = 0.5 * (from + to);
-        let lamp = flicker.map_or(1.0, |flicker| flicker.factor(middle, width));
+        let lamp = self.signal.lamp(middle, width);
         let each = std::array::from_fn(|k| gain * lamp / width * (end.moves[k] - start.moves[k]));
         // In the order of `Signal::pack`.
         let (of_curve, beside) = moves.split_at_mut(kind.parameters());

@@ -62,6 +62,11 @@ impl Solution {
         }
     }
 
+    /// The normal matrix of some parameters alone, in their order; above its diagonal it counts for nothing.
+    pub fn normal_of(&self, places: &[usize]) -> Vec<Vec<f64>> {
+        places.iter().map(|i| places.iter().map(|j| self.normal[*i][*j]).collect()).collect()
+    }
+
     /// The parameters that are on no bound which they would leave.
     pub fn moving(&self) -> Vec<usize> {
         let (packed, bounds) = (self.signal.pack(), self.signal.bounds());
@@ -130,16 +135,10 @@ impl Problem {
 /// The parameters a damped step on.
 fn step(here: &Solution, packed: &[f64], bounds: &[(f64, f64)], damping: f64) -> Option<Vec<f64>> {
     let moving = here.moving();
-    let matrix: Vec<Vec<f64>> = moving
-        .iter()
-        .map(|i| {
-            let damped = |j: usize| {
-                let cell = here.normal[*i][j];
-                if *i == j { cell * (1.0 + damping) + 1e-12 } else { cell }
-            };
-            moving.iter().map(|j| damped(*j)).collect()
-        })
-        .collect();
+    let mut matrix = here.normal_of(&moving);
+    for (k, row) in matrix.iter_mut().enumerate() {
+        row[k] = row[k] * (1.0 + damping) + 1e-12;
+    }
     let right: Vec<f64> = moving.iter().map(|k| -here.gradient[*k]).collect();
     let by = Cholesky::new(matrix)?.solve(&right);
     let mut to = packed.to_vec();
@@ -187,9 +186,9 @@ impl Cholesky {
         let found = (0..6).find_map(|k| raised(1e-10 * 100f64.powi(k)));
         // A diagonal alone has a root: that of the numbers that are none is left out.
         found.unwrap_or_else(|| {
-            let row =
-                |k: usize| (0..a.len()).map(move |j| if j == k { largest.sqrt() } else { 0.0 });
-            Self { lower: (0..a.len()).map(|k| row(k).collect()).collect() }
+            let mut lower = vec![vec![0.0; a.len()]; a.len()];
+            lower.iter_mut().enumerate().for_each(|(k, row)| row[k] = largest.sqrt());
+            Self { lower }
         })
     }
 

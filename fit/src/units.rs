@@ -7,7 +7,8 @@ use crate::trace::{Crossings, Frame, Trace};
 #[derive(Clone, Copy, Debug)]
 pub struct Units {
     middle: f64,
-    pulse: f64,
+    /// How many seconds the unit of time is.
+    pub pulse: f64,
     dark: f64,
     light: f64,
 }
@@ -19,7 +20,7 @@ impl Units {
     }
 
     /// A time in pulses from one in seconds.
-    pub fn time(&self, seconds: f64) -> f64 {
+    fn time(&self, seconds: f64) -> f64 {
         (seconds - self.middle) / self.pulse
     }
 
@@ -31,11 +32,6 @@ impl Units {
     /// A time in seconds from one in pulses.
     pub fn seconds(&self, t: f64) -> f64 {
         self.middle + self.pulse * t
-    }
-
-    /// How many seconds the unit of time is.
-    pub fn pulse(&self) -> f64 {
-        self.pulse
     }
 
     /// A part of the trace in these units.
@@ -61,10 +57,9 @@ impl Units {
                 cosine: cosine * self.light,
                 sine: sine * self.light,
             }),
-            flicker: signal.flicker.map(|Flicker { frequency, terms }| Flicker {
-                frequency: frequency / self.pulse,
-                terms,
-            }),
+            flicker: signal
+                .flicker
+                .map(|lamp| Flicker { frequency: lamp.frequency / self.pulse, ..lamp }),
         }
     }
 }
