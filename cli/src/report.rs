@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Write};
 use std::iter::once;
 
 use console::Term;
-use shutter_fit::rows::hidden_rows;
+use shutter_fit::report::hidden_rows;
 use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 

@@ -219,7 +219,7 @@ fn fitted(
             Some(true) => Light::Up,
             Some(false) => Light::Down,
         },
-        triggers: asked.triggers,
+        triggers: Some(asked.triggers),
         sync: recording.sync.map(Sync::Channel),
         ..Options::default()
     };

@@ -42,7 +42,7 @@ pub fn choose(options: &Options, candidates: &[Candidate], fits: &FrameFits) -> 
     }
     let kind = simplest(&|candidate| candidate.delta_bic <= 0.0);
     let mut freer = Kind::ALL[kind as usize..].iter();
-    match freer.find(|freer| structure(fits, **freer).explained) {
+    match freer.find(|freer| structure(fits, **freer).test.explained) {
         Some(freer) if *freer > kind => (*freer, Reason::Explains),
         _ => (kind, Reason::Criterion { effective: fits.effective() }),
     }

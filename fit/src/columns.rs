@@ -1,12 +1,11 @@
 //! What may be added to a shutter's signal where the samples show it: a drift, a hum, the lamp's flicker.
 
 use crate::bins::Bin;
+use crate::frame::{FrameFits, KindFit};
 use crate::hum::{self, Mains};
-use crate::kind::KindFit;
 use crate::lag::passes_for_columns;
 use crate::noise::correlation;
-use crate::signal::{Flicker, Signal};
-use crate::solve::Problem;
+use crate::signal::{Flicker, Kind, Signal};
 
 /// A column is kept if the criterion falls by more than this.
 const WORTH: f64 = 10.0;
@@ -17,23 +16,15 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 2.0;
 
-/// The fit with a drift and a hum, if they are worth it, or none where neither is.
-pub fn with_columns(
-    problem: &Problem,
-    plain: &KindFit,
-    samples: &[Bin],
-    step: f64,
-    mains: Mains,
-) -> Option<KindFit> {
+/// The freest fit with a drift and a hum, if they are worth it, or none where neither is.
+pub fn with_columns(fits: &FrameFits, mains: Mains) -> Option<KindFit> {
+    let plain = fits.of(Kind::Free);
+    let is_tail =
+        |found: &KindFit| passes_for_columns(&found.solution, &fits.problem.bins, fits.step);
     let start = Signal { drift: Some(0.0), ..plain.solution.signal };
-    let drifting = if_worth_it(problem, &start, plain, samples);
-    let drifting = drifting.filter(|found| {
-        drifts_before(found, samples) && !passes_for_columns(&found.solution, &problem.bins, step)
-    });
-    let humming = |without: &KindFit| {
-        let found = humming(problem, without, samples, mains);
-        found.filter(|found| !passes_for_columns(&found.solution, &problem.bins, step))
-    };
+    let drifting = if_worth_it(fits, &start, plain);
+    let drifting = drifting.filter(|it| drifts_before(it, &fits.samples) && !is_tail(it));
+    let humming = |without| humming(fits, without, mains).filter(|found| !is_tail(found));
     let alone = humming(plain);
     let Some(drifting) = drifting else { return alone };
     let both = humming(&drifting);
@@ -59,42 +50,28 @@ fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
 }
 
 /// With the strongest hum, if that is in the dark as well: what is in the pulse alone is the shutter's own.
-fn humming(problem: &Problem, without: &KindFit, samples: &[Bin], mains: Mains) -> Option<KindFit> {
-    let signal = without.solution.signal;
-    let all = hum::strongest(&problem.bins, &signal, mains).into_iter();
-    let found = all
-        .filter_map(|hum| {
-            let start = Signal { hum: Some(hum), ..signal };
-            if_worth_it(problem, &start, without, samples)
-        })
-        .min_by(|a, b| a.squares.total_cmp(&b.squares))?;
-    hum::is_one(&problem.bins, &found.solution.signal).then_some(found)
+fn humming(fits: &FrameFits, without: &KindFit, mains: Mains) -> Option<KindFit> {
+    let (signal, bins) = (without.solution.signal, &fits.problem.bins);
+    let with = |hum| if_worth_it(fits, &Signal { hum: Some(hum), ..signal }, without);
+    let all = hum::strongest(bins, &signal, mains).into_iter().filter_map(with);
+    let found = all.min_by(|a, b| a.squares.total_cmp(&b.squares))?;
+    hum::is_one(bins, &found.solution.signal).then_some(found)
 }
 
-/// With the flicker of a lamp on the mains, if that is worth it. A unit of time is `second` seconds.
-pub fn flickering(
-    problem: &Problem,
-    without: &KindFit,
-    samples: &[Bin],
-    second: f64,
-) -> Option<KindFit> {
-    let seen = MAINS.into_iter().filter(|hertz| hertz * second > FEWEST);
-    let found = seen.filter_map(|hertz| {
-        let flicker = Some(Flicker { frequency: hertz * second, terms: [0.0; 4] });
-        let start = Signal { flicker, ..without.solution.signal };
-        if_worth_it(problem, &start, without, samples)
+/// The freest fit with the flicker of a lamp on the mains, if that is worth it.
+pub fn flickering(fits: &FrameFits) -> Option<KindFit> {
+    let without = fits.of(Kind::Free);
+    let frequencies = MAINS.into_iter().map(|hertz| hertz * fits.units.pulse);
+    let found = frequencies.filter(|frequency| *frequency > FEWEST).filter_map(|frequency| {
+        let flicker = Some(Flicker { frequency, terms: [0.0; 4] });
+        if_worth_it(fits, &Signal { flicker, ..without.solution.signal }, without)
     });
     found.min_by(|a, b| a.squares.total_cmp(&b.squares))
 }
 
 /// The best signal near `start`, which has more columns than `without`, if that is worth it.
-fn if_worth_it(
-    problem: &Problem,
-    start: &Signal,
-    without: &KindFit,
-    samples: &[Bin],
-) -> Option<KindFit> {
-    let with = KindFit::new(problem.minimise(start), samples);
+fn if_worth_it(fits: &FrameFits, start: &Signal, without: &KindFit) -> Option<KindFit> {
+    let with = KindFit::new(fits.problem.minimise(start), &fits.samples);
     is_better(&with, without, WORTH).then_some(with)
 }
 

@@ -6,9 +6,9 @@ use crate::errors::Measured;
 use crate::signal::Signal;
 use crate::solve::Cholesky;
 use crate::trace::{
-    Edge, Edges, Frame, Pulses, Refusal, Switch, Trace, Warning, edges, sampling_interval,
+    Edge, Edges, Frame, Refusal, Starts, Switch, Trace, Warning, edges, sampling_interval,
 };
-use crate::unit::{Unit, decimals, plus_minus, short, trimmed};
+use crate::unit::{Unit, decimals, short, trimmed};
 use crate::{Record, Shot};
 
 /// Shots whose exposures differ by no more than this share are of one speed.
@@ -101,32 +101,27 @@ pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
 
 /// What a record's sync tells.
 struct Synced {
-    /// Of each frame the edge that starts it, if there is one.
-    edges: Vec<Option<Edge>>,
+    starts: Starts,
     /// What the sync does, where it was recorded; and of that record from sample to sample.
     switch: Option<Switch>,
     step: f64,
-    /// So many frames have several edges, and so many edges start no frame.
-    bounced: usize,
-    others: usize,
-    /// From a frame's first edge to its last, in seconds, at most.
-    bounces: f64,
 }
 
 impl Synced {
     fn new(sync: &Sync, frames: &[Frame]) -> Result<Self, String> {
         match sync {
             Sync::Edge(time) => {
-                let mut edges = vec![None; frames.len()];
+                let mut starts = Starts::default();
+                starts.of.resize(frames.len(), None);
                 let after = frames.iter().position(|frame| frame.crossings[1] > *time);
-                edges[after.unwrap_or(frames.len() - 1)] = Some(Edge { time: *time, error: 0.0 });
-                Ok(Self { edges, switch: None, step: 0.0, bounced: 0, others: 0, bounces: 0.0 })
+                let after = after.unwrap_or(frames.len() - 1);
+                starts.of[after] = Some(Edge { time: *time, error: 0.0 });
+                Ok(Self { starts, switch: None, step: 0.0 })
             }
             Sync::Channel(channel) => {
                 let Edges { switch, starts } = edges(channel, frames)?;
-                let (bounced, others, bounces) = (starts.bounced, starts.others, starts.bounces);
-                let (switch, step) = (Some(switch), sampling_interval(&channel.times));
-                Ok(Self { edges: starts.of, switch, step, bounced, others, bounces })
+                let step = sampling_interval(&channel.times);
+                Ok(Self { starts, switch: Some(switch), step })
             }
         }
     }
@@ -154,13 +149,13 @@ pub(crate) fn measure(
         return Ok(None);
     }
     let fitted = &shots[asked];
-    let falls = |it: &Synced| it.switch.map(|Switch { levels: [rest, on], .. }| on < rest);
+    let falls = |it: &Synced| it.switch.map(|switch| switch.falls());
     if synced.len() < records.len() || synced.iter().any(|it| falls(it) != falls(&synced[0])) {
         return refused("the sync is not the same in all traces: it falls, rises or is missing");
     }
     let Synced { switch, step, .. } = synced[fitted.record];
     let is_given = switch.is_none();
-    let edges: Vec<Option<Edge>> = synced.iter().flat_map(|it| it.edges.iter().copied()).collect();
+    let edges: Vec<Option<Edge>> = synced.iter().flat_map(|it| it.starts.of.clone()).collect();
     if is_given && edges[asked].is_none() {
         let is_own = |k: &usize| shots[*k].record == fitted.record && edges[*k].is_some();
         let first = (0..shots.len()).find(is_own).map_or(0, |k| k + 1);
@@ -178,7 +173,7 @@ pub(crate) fn measure(
         // The one shot of a given edge is the fitted one.
         let later = match is_given && records.len() == 1 {
             true => Measured { value: 0.0, error: 0.0 },
-            false => later(signal, shot.pulses, shot.frame, fitted.frame),
+            false => later(signal, shot, fitted.frame),
         };
         delays.push(start.value + later.value - time);
         edges_variance += error.powi(2);
@@ -191,7 +186,9 @@ pub(crate) fn measure(
     let by = is_late.clone().fold(0.0, |most, delay| f64::max(most, -delay));
     let (late, n, all) = (is_late.count(), delays.len(), all.len());
     if is_given && late > 0 {
-        return refused(&format!("the shutter opens {} before the edge of the sync", shown(by)));
+        let unit = Unit::fit(by);
+        let (by, unit) = (short(unit.of(by), 3), unit.name());
+        return refused(&format!("the shutter opens {by} {unit} before the edge of the sync"));
     }
     let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
     if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
@@ -199,9 +196,10 @@ pub(crate) fn measure(
             "its column changes after the opening, and as slowly as light does; is it the light's?",
         );
     }
-    let sum = |of: fn(&Synced) -> usize| synced.iter().map(of).sum::<usize>();
-    let (bounced, edges) = (sum(|it| it.bounced), sum(|it| it.others));
-    let bounces = synced.iter().map(|it| it.bounces).fold(0.0, f64::max);
+    let starts = synced.iter().map(|it| &it.starts);
+    let bounced = starts.clone().map(|it| it.bounced).sum();
+    let edges = starts.clone().map(|it| it.others).sum();
+    let bounces = starts.map(|it| it.bounces).fold(0.0, f64::max);
     let missing = if is_given { 0 } else { all - n };
     let doubts = [
         (bounced, Warning::SyncBounced { few: bounced, all: shots.len(), by: bounces }),
@@ -223,7 +221,7 @@ pub(crate) fn measure(
 
 /// By how much a frame opens later than the fitted one: by least squares, the fitted curve is shifted along the frame's opening
 /// ramp, with levels of its own. Where that leads away, the crossings tell, to half of the ramp.
-fn later(fitted: &Signal, pulses: &Pulses, frame: &Frame, like: &Frame) -> Measured {
+fn later(fitted: &Signal, &Shot { pulses, frame, .. }: &Shot, like: &Frame) -> Measured {
     let rise = |frame: &Frame| frame.crossings[..3].iter().sum::<f64>() / 3.0;
     let first = rise(frame) - rise(like);
     let exposure = Exposure::new(&fitted.curve);
@@ -268,8 +266,9 @@ pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
     let Some(delay) = delay else {
         return "unknown: --sync says when the edge comes, or in which column".into();
     };
-    let value = plus_minus(unit.of(delay.mean()), unit.of(delay.error()), unit.name());
-    let trigger = digits(unit.of(delay.trigger_error()));
+    let digits = |error: f64| short(unit.of(error), 2);
+    let value = unit.plus_minus(delay.mean(), delay.error());
+    let trigger = digits(delay.trigger_error());
     let mut told = format!("{value} to the opening, ± {trigger} to any trigger\nspread       ");
     let (Some(spread), Some(worst)) = (delay.spread(), delay.worst()) else {
         return told + "unknown: one shot does not tell how shots differ";
@@ -277,12 +276,12 @@ pub fn told(delay: Option<&Delay>, unit: Unit) -> String {
     let n = delay.shots.len();
     // The standard error of a standard deviation.
     let error = spread / (2.0 * (n - 1) as f64).sqrt();
-    let spread_told = plus_minus(unit.of(spread), unit.of(error), unit.name());
-    told += &format!("{spread_told} between {n} shots, the worst {} off", digits(unit.of(worst)));
+    let spread_told = unit.plus_minus(spread, error);
+    told += &format!("{spread_told} between {n} shots, the worst {} off", digits(worst));
     if 2.0 * delay.measuring > spread {
         told += &format!(
             "\n             each is measured to ± {} only: coarse samples or a slow edge",
-            digits(unit.of(delay.measuring)),
+            digits(delay.measuring),
         );
     }
     told
@@ -303,7 +302,7 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
     let Some(delay) = delay else {
         return format!("# delay = ? # {WHAT}, which fit --sync measures.\n");
     };
-    let (mean, digits) = (delay.mean(), |seconds| digits(unit.of(seconds)));
+    let (mean, digits) = (delay.mean(), |seconds: f64| short(unit.of(seconds), 2));
     if mean < 0.0 {
         return format!("# delay = ? # {WHAT}: the edge comes {} too late.\n", digits(-mean));
     }
@@ -324,15 +323,4 @@ pub fn line(delay: Option<&Delay>, unit: Unit, places: usize) -> String {
         _ => format!("{text}; one shot tells no spread\ndelay = {value}\n"),
     };
     lines + &edge
-}
-
-/// A time in the unit that suits it.
-fn shown(seconds: f64) -> String {
-    let unit = Unit::fit(seconds);
-    format!("{} {}", short(unit.of(seconds), 3), unit.name())
-}
-
-/// The two digits that an error has.
-fn digits(error: f64) -> String {
-    short(error, 2)
 }

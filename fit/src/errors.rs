@@ -35,7 +35,7 @@ impl Measured {
     }
 
     /// With an error more.
-    fn widen(&mut self, by: f64) {
+    pub(super) fn widen(&mut self, by: f64) {
         self.error = self.error.hypot(by);
     }
 }
@@ -140,7 +140,6 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
 struct OfKind<'a> {
     fits: &'a FrameFits,
     kind: Kind,
-    curve: Curve,
     integral: Exposure,
     covariance: Covariance,
     is_straight: bool,
@@ -158,7 +157,6 @@ impl<'a> OfKind<'a> {
         Self {
             fits,
             kind,
-            curve,
             integral,
             covariance: Covariance::new(fits, kind),
             is_straight,
@@ -187,7 +185,7 @@ impl<'a> OfKind<'a> {
 
     /// The exposure by the length.
     fn efficiency(&self, Measured { value: area, error: light }: Measured) -> Measured {
-        let length = self.curve.length();
+        let length = self.integral.curve.length();
         let value = area / length;
         // Where both are linear in the samples, what they have in common cancels; else the two errors are taken apart.
         if self.is_straight && !self.is_peak {
@@ -204,7 +202,7 @@ impl<'a> OfKind<'a> {
     /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is long. The
     /// linear error counts as well, but where a shape makes up for a shift it is too large: the length's serves as its bound.
     fn start(&self) -> Measured {
-        let (curve, value) = (&self.curve, self.curve.start);
+        let Curve { start: value, opening, closing, .. } = self.integral.curve;
         let mut moves = [0.0; PARAMETERS];
         moves[START] = 1.0;
         let linear = self.covariance.error(&moves);
@@ -212,7 +210,7 @@ impl<'a> OfKind<'a> {
             return Measured { value, error: linear };
         }
         let length = self.searched(Whole::Length, self.covariance.error(&Curve::LENGTH));
-        let hidden = length * curve.opening / (curve.opening + curve.closing);
+        let hidden = length * opening / (opening + closing);
         Measured { value, error: hidden.hypot(linear.min(length)).hypot(self.feet[0]) }
     }
 
@@ -234,7 +232,7 @@ impl<'a> OfKind<'a> {
     /// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
         const SIDE: f64 = 1.96;
-        let value = whole.of(&self.curve).0;
+        let value = whole.of(&self.integral.curve).0;
         let (least, most) = (1e-4 * value, 0.5 * value);
         let side = |way: f64| {
             // Where the linear error is unknown, not a number, `min` takes the other.

@@ -17,12 +17,13 @@ pub fn fits(
     progress: &mut dyn FnMut(f64),
 ) -> FrameFits {
     let mut fits = FrameFits::new(pulses, frame, mains, progress);
-    if structure(&fits, Kind::Free).explained {
+    if structure(&fits, Kind::Free).test.explained {
         return fits;
     }
     // A lamp's flicker is looked for where there is something to explain, and taken where it explains that.
-    let flickering = fits.flickering(&fits.units.crossings(frame));
-    if let Some(others) = flickering.filter(|others| structure(others, Kind::Free).explained) {
+    if let Some(others) =
+        fits.flickering().filter(|others| structure(others, Kind::Free).test.explained)
+    {
         return others;
     }
     // What the freest curve misses is no noise, and counts for none of it.

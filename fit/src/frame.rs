@@ -4,11 +4,10 @@ use crate::bins::{self, Bin};
 use crate::columns;
 use crate::curve::{Exposure, Whole, fractions};
 use crate::hum::Mains;
-use crate::kind::KindFit;
 use crate::noise::{self, slow_correlation};
 use crate::search::every_kind;
 use crate::signal::{Kind, Signal};
-use crate::solve::{Held, Problem};
+use crate::solve::{Held, Problem, Solution};
 use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
 use crate::units::Units;
 
@@ -21,7 +20,8 @@ pub struct FrameFits {
     /// The sampling interval.
     pub step: f64,
     /// What was solved.
-    problem: Problem,
+    pub problem: Problem,
+    crossings: Crossings,
     /// Of each kind, simplest first.
     kinds: Vec<KindFit>,
     /// How many samples stand for one that is independent of the others: by the freest kind's residuals where that explains
@@ -51,39 +51,36 @@ impl FrameFits {
         let problem = Problem { bins, prior: 4.0 * noise * noise, held: None };
         let rounding = pulses.rounding / pulses.light();
         let (kinds, correlation) = (Vec::new(), 1.0);
-        let mut fits = Self { units, samples, step, problem, kinds, correlation, rounding };
+        let mut fits =
+            Self { units, samples, step, problem, crossings, kinds, correlation, rounding };
 
         // If a column turns out to be worth it, the search comes twice, half of the way each.
-        let plain = Signal::plain();
-        fits.search(&crossings, &plain, &mut |done| progress(0.5 * done));
-        let free = fits.of(Kind::Free);
+        fits.search(&Signal::plain(), &mut |done| progress(0.5 * done));
         let mains = Mains { second: units.pulse, hertz: mains };
-        if let Some(free) = columns::with_columns(&fits.problem, free, &fits.samples, step, mains) {
-            fits.search_with(&crossings, free, &mut |done| progress(0.5 + 0.5 * done));
+        if let Some(free) = columns::with_columns(&fits, mains) {
+            fits.search_with(free, &mut |done| progress(0.5 + 0.5 * done));
         }
         fits
     }
 
     /// The same with the flicker of a lamp on the mains, where that is worth it.
-    pub fn flickering(&self, crossings: &Crossings) -> Option<Self> {
-        let free = self.of(Kind::Free);
-        let second = self.units.pulse;
-        let found = columns::flickering(&self.problem, free, &self.samples, second)?;
+    pub fn flickering(&self) -> Option<Self> {
+        let found = columns::flickering(self)?;
         let mut others = self.clone();
-        others.search_with(crossings, found, &mut |_| ());
+        others.search_with(found, &mut |_| ());
         Some(others)
     }
 
     /// Searches for every kind's best signal, from what `like` has beside its curve.
-    fn search(&mut self, crossings: &Crossings, like: &Signal, progress: &mut dyn FnMut(f64)) {
-        let found = every_kind(&self.problem, crossings, self.step, like, progress);
+    fn search(&mut self, like: &Signal, progress: &mut dyn FnMut(f64)) {
+        let found = every_kind(&self.problem, &self.crossings, self.step, like, progress);
         self.kinds = found.into_iter().map(|best| KindFit::new(best, &self.samples)).collect();
         self.correlation = slow_correlation(&self.of(Kind::Free).residuals);
     }
 
     /// The same from the columns of a fit of the freest kind, which may be better than where the search ends.
-    fn search_with(&mut self, crossings: &Crossings, free: KindFit, progress: &mut dyn FnMut(f64)) {
-        self.search(crossings, &free.solution.signal, progress);
+    fn search_with(&mut self, free: KindFit, progress: &mut dyn FnMut(f64)) {
+        self.search(&free.solution.signal, progress);
         let last = &mut self.kinds[Kind::Free as usize];
         if free.solution.cost < last.solution.cost {
             *last = free;
@@ -151,5 +148,35 @@ impl FrameFits {
         let held = Some(Held { whole, target, weight });
         let stiff = Problem { held, ..self.problem.clone() };
         self.problem.at(&stiff.minimise(&solution.signal).signal).cost - solution.cost
+    }
+}
+
+/// A kind's best signal.
+#[derive(Clone, Debug)]
+pub struct KindFit {
+    pub solution: Solution,
+    /// What each sample is missed by.
+    pub residuals: Vec<f64>,
+    /// The sum of their squares.
+    pub squares: f64,
+}
+
+impl KindFit {
+    pub fn new(solution: Solution, samples: &[Bin]) -> Self {
+        let residuals = solution.signal.missed(samples);
+        let squares = residuals.iter().map(|r| r * r).sum();
+        Self { solution, residuals, squares }
+    }
+
+    /// The mean of the residuals' squares.
+    pub fn variance(&self) -> f64 {
+        self.squares / self.residuals.len() as f64
+    }
+
+    /// Schwarz's criterion, where so many samples stand for an independent one.
+    pub fn bic(&self, correlation: f64) -> f64 {
+        let effective = self.residuals.len() as f64 / correlation;
+        let variance = self.variance().max(noise::LEAST * noise::LEAST);
+        effective * variance.ln() + self.solution.signal.len() as f64 * effective.ln()
     }
 }

@@ -44,10 +44,7 @@ pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
         "half_light_s": fit.half_light(),
         "rise_fall_s": fit.rise_and_fall(),
         "triggers": triggers(&fit.triggers),
-        "triggers_from": match fit.from {
-            From::Model => "model",
-            From::Trace => "trace",
-        },
+        "triggers_from": if fit.from == From::Model { "model" } else { "trace" },
         "model_triggers": triggers(&fit.model_triggers),
         "columns": fit.reading.as_ref().map(columns),
         "unit": unit,

@@ -3,7 +3,7 @@
 //! [`fit`] takes a trace that [`crate::trace`] has read, [`fit_records`] several of one setting, and gives a [`Fit`]. Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
-//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from `starts` with `solve`, with the
+//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with the
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `choice`: the kinds compared, and one chosen;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
@@ -21,10 +21,8 @@ mod doubts;
 mod errors;
 mod explain;
 mod frame;
-mod gaps;
 mod hum;
 mod json;
-mod kind;
 mod lag;
 mod missed;
 mod noise;
@@ -32,28 +30,28 @@ mod outcome;
 mod patterns;
 mod ramp;
 pub mod report;
-pub mod rows;
 mod running;
 mod search;
 mod shots;
 mod signal;
 mod solve;
 mod speed;
-mod starts;
 mod structure;
 pub mod trace;
 pub mod unit;
 mod units;
 
+use std::borrow::Cow;
+
 use crate::trace::{Frame, Light, Pulses, Refusal, Timing, Trace, Warning, median, pulses, undone};
 pub use curve::Curve;
 pub use delay::{Delay, Sync};
 pub use errors::Measured;
-use frame::FrameFits;
 pub use json::json;
 pub use outcome::{Candidate, Fit, Frames, From, Options, Reason, Test, Tolerance};
 pub use report::{because, text};
 pub use signal::{Flicker, Hum, Kind, Signal};
+use structure::Structure;
 
 /// The most triggers of a frame that are judged and planned.
 pub const MOST_TRIGGERS: u32 = 10_000;
@@ -124,21 +122,20 @@ pub fn fit_records(
     options: &Options,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Fit, Refusal> {
-    let n = options.triggers.clamp(1, MOST_TRIGGERS);
+    let n = options.triggers.unwrap_or(16).clamp(1, MOST_TRIGGERS);
     let frames: Vec<Frame> = Shot::all(records).iter().map(|shot| shot.frame.clone()).collect();
     let asked = shots::asked(&frames, options.frame)?;
     // Times are those of the fitted shot's own segment.
     let Shot { record, frame, .. } = Shot::all(records)[asked];
     let later = records[record].timing.later(frame.crossings[0]);
-    let mut moved = Vec::new();
+    let mut records = Cow::Borrowed(records);
     if later != 0.0 {
-        moved = records.to_vec();
-        moved[record].shift(-later);
+        records.to_mut()[record].shift(-later);
     }
-    let records = if moved.is_empty() { records } else { &moved };
+    let records = &records[..];
     let shots = Shot::all(records);
     let Shot { record, pulses, frame } = shots[asked];
-    let gap = gaps::gaps(pulses, frame)?;
+    let gap = shots::gaps(pulses, frame)?;
     let counted = Frames::new(&frames, asked);
     let differ = shots::differ(&frames, counted.scatter, pulses.relative_noise());
     let fits = &explain::fits(pulses, frame, options.mains, progress);
@@ -147,7 +144,10 @@ pub fn fit_records(
     let candidates = choice::candidates(fits, n);
     let (chosen, reason) = choice::choose(options, &candidates, fits);
     let peak = outcome::peak(options.full, pulses, &candidates[chosen as usize])?;
-    let (test, hidden) = judged(fits, chosen, reason);
+    // A kind that was taken for a tolerance need not follow every sample: there the freest is asked.
+    let judged = if let Reason::Tolerance(_) = reason { Kind::Free } else { chosen };
+    let Structure { mut test, hidden, .. } = structure::structure(fits, judged);
+    test.at = fits.units.seconds(test.at);
     let mut model = errors::results(fits, chosen, n).with_hidden(hidden);
     let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
@@ -156,7 +156,7 @@ pub fn fit_records(
             // Full light is in doubt where the model is.
             let apart = results.exposure.value - model.exposure.value;
             model = model.apart_from(&results);
-            results.exposure.error = results.exposure.error.hypot(apart);
+            results.exposure.widen(apart);
             results
         }
         None => model.clone(),
@@ -240,24 +240,4 @@ fn found(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     let open = pulses.frames.iter().map(|frame| frame.exposure).fold(0.0, f64::max);
     pulses.rounding = pulses.rounding.hypot(0.15 * error * open / seconds * pulses.light());
     Ok(pulses)
-}
-
-/// Does the chosen kind explain the trace, and by what shares of the exposure may triggers and exposure be off nevertheless? A kind that
-/// was taken for a tolerance need not follow every sample: there the freest is asked.
-fn judged(fits: &FrameFits, chosen: Kind, reason: Reason) -> (Test, [f64; 2]) {
-    let kind = match reason {
-        Reason::Tolerance(_) => Kind::Free,
-        _ => chosen,
-    };
-    let found = structure::structure(fits, kind);
-    let at = fits.units.seconds(found.at);
-    let test = Test {
-        explained: found.explained,
-        tested: found.tested,
-        sigma: found.sigma,
-        unseen: found.unseen,
-        share: found.share,
-        at,
-    };
-    (test, found.hidden)
 }

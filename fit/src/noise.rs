@@ -47,15 +47,24 @@ pub fn correlation(residuals: &[f64]) -> f64 {
 pub fn slow_correlation(residuals: &[f64]) -> f64 {
     let n = residuals.len();
     let length = (n / BLOCKS).max(1);
-    let means = residuals.chunks_exact(length).map(|few| few.iter().sum::<f64>() / length as f64);
-    let slow = length as f64 * mean_square(&means.collect::<Vec<_>>());
+    let slow = length as f64 * mean_square(&blocks(residuals, length));
     let most = (n as f64 / 20.0).max(1.0);
     correlation(residuals).max((slow / mean_square(residuals).max(f64::MIN_POSITIVE)).min(most))
 }
 
+/// Means of `length` neighbours.
+pub fn blocks(values: &[f64], length: usize) -> Vec<f64> {
+    values.chunks_exact(length).map(mean).collect()
+}
+
+/// The mean; of none 0.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
 /// By how much each is above their mean.
 pub fn from_mean(values: &[f64]) -> Vec<f64> {
-    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let mean = mean(values);
     values.iter().map(|v| v - mean).collect()
 }
 

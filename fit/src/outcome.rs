@@ -17,7 +17,7 @@ pub enum Tolerance {
 }
 
 /// What a fit is asked for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The curve's kind; chosen without.
     pub model: Option<Kind>,
@@ -29,35 +29,14 @@ pub struct Options {
     pub frame: Option<usize>,
     /// Which way light moves the signal.
     pub light: Light,
-    /// How many triggers are judged and planned: 1 to [`crate::MOST_TRIGGERS`], clamped to that.
-    pub triggers: u32,
+    /// How many triggers are judged and planned: 1 to [`crate::MOST_TRIGGERS`], clamped to that; 16 without.
+    pub triggers: Option<u32>,
     /// The mains' frequency in hertz, where that is known: a hum has it.
     pub mains: Option<f64>,
     /// The edge of the camera's sync, where that is known.
     pub sync: Option<Sync>,
     /// What is known of the trace's times.
     pub timing: Timing,
-}
-
-impl Options {
-    /// So many triggers, if no one asks for another number.
-    pub const TRIGGERS: u32 = 16;
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            model: None,
-            tolerance: None,
-            full: None,
-            frame: None,
-            light: Light::Auto,
-            triggers: Self::TRIGGERS,
-            mains: None,
-            sync: None,
-            timing: Timing::default(),
-        }
-    }
 }
 
 /// A kind's best curve.

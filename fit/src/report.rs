@@ -1,32 +1,34 @@
 //! A fit as text: what was measured, each candidate, the results with their standard errors.
 
 use std::fmt::{self, Write};
+use std::ops::Range;
 
 use crate::curve::fractions;
 use crate::delay;
 use crate::errors::Measured;
 use crate::outcome::{Fit, From, Reason, Test, Tolerance};
-use crate::rows::hidden_rows;
 use crate::signal::Kind;
 use crate::speed;
 use crate::trace::{from_opening, sampling_interval};
 use crate::unit::{MOST_PLACES, Unit, decimals, fixed, plus_minus, short, trimmed, without_dust};
 
+/// Longer tables lose their middle; half as many rows stay at each end.
+const MOST_ROWS: usize = 25;
+
+/// The rows of a table of `n` that are left out.
+pub fn hidden_rows(n: usize) -> Range<usize> {
+    if n > MOST_ROWS { MOST_ROWS / 2..n - MOST_ROWS / 2 } else { n..n }
+}
+
 /// The fit of the trace `name`, for a terminal.
 pub fn text(name: &str, fit: &Fit) -> String {
     let mut text = String::new();
-    write_text(&mut text, name, fit).expect("a string takes all");
+    write_trace(&mut text, name, fit).expect("a string takes all");
+    for part in [write_models, write_results, write_triggers] {
+        text.push('\n');
+        part(&mut text, fit).expect("a string takes all");
+    }
     text
-}
-
-fn write_text(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
-    write_trace(out, name, fit)?;
-    writeln!(out)?;
-    write_models(out, fit)?;
-    writeln!(out)?;
-    write_results(out, fit)?;
-    writeln!(out)?;
-    write_triggers(out, fit)
 }
 
 /// What was measured.
@@ -46,16 +48,13 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     }
     write!(out, "pulse        {} of {}", fit.frames.fitted, fit.frames.count)?;
     if fit.frames.count > 1 {
-        write!(
-            out,
-            "; the exposures scatter by {} %",
-            short(100.0 * without_dust(fit.frames.scatter, 1.0), 2)
-        )?;
+        let scatter = short(100.0 * without_dust(fit.frames.scatter, 1.0), 2);
+        write!(out, "; the exposures scatter by {scatter} %")?;
     }
     let (apart, rate) = (Unit::fit(step).show(step), short(1.0 / step, 4));
     writeln!(out, "\nsamples      {}, {apart} apart: {rate} Hz", times.len())?;
-    let (gain, dark) =
-        (short(signal.gain, 4), short(without_dust(fit.as_measured(signal.dark), signal.gain), 4));
+    let gain = short(signal.gain, 4);
+    let dark = short(without_dust(fit.as_measured(signal.dark), signal.gain), 4);
     let way = if fit.inverted { "below" } else { "above" };
     writeln!(out, "light        {gain} {way} the dark at {dark}")
 }
@@ -120,29 +119,25 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
 /// Whether the model explains the trace.
 fn judgement(fit: &Fit) -> String {
     let Test { explained, tested, sigma, share, at, .. } = fit.test;
-    if explained && !tested {
-        return "untested: there is too little dark to know the noise by".into();
+    match (explained, tested) {
+        (true, false) => "untested: there is too little dark to know the noise by".into(),
+        (true, true) => "the model explains the trace".into(),
+        _ => format!(
+            "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
+            short(100.0 * share.abs(), 2),
+            from_opening(at - fit.best().signal.curve.start),
+            short(sigma, 2)
+        ),
     }
-    if explained {
-        return "the model explains the trace".into();
-    }
-    format!(
-        "structure that the model has not: {} % of the light,\n             {} ({} standard deviations)",
-        short(100.0 * share.abs(), 2),
-        from_opening(at - fit.best().signal.curve.start),
-        short(sigma, 2)
-    )
 }
 
 /// What the exposure is taken from, where that is not the model.
 fn source(fit: &Fit) -> String {
+    let Measured { value, error } = fit.model_exposure;
     match fit.from {
         From::Model => String::new(),
         From::Trace => {
-            let Measured { value, error } = fit.model_exposure;
-            let unit = fit.unit();
-            let model = plus_minus(unit.of(value), unit.of(error), unit.name());
-            format!(", by the trace (the model: {model})")
+            format!(", by the trace (the model: {})", fit.unit().plus_minus(value, error))
         }
     }
 }
@@ -184,7 +179,7 @@ fn at(fit: &Fit, seconds: f64) -> String {
 /// The exposure and its standard error.
 pub fn exposure(fit: &Fit) -> String {
     let Measured { value, error } = fit.exposure;
-    plus_minus(fit.unit().of(value), fit.unit().of(error), fit.unit().name())
+    fit.unit().plus_minus(value, error)
 }
 
 /// The efficiency and its standard error, or the most that it may be.
@@ -209,11 +204,9 @@ pub fn because(fit: &Fit) -> String {
             fit.unit().show(seconds)
         ),
         Reason::Explains => "the simplest that explains the trace".into(),
-        Reason::Criterion { effective } => {
-            format!(
-                "best for its number of parameters (BIC); {} independent samples",
-                trimmed(effective, 0)
-            )
-        }
+        Reason::Criterion { effective } => format!(
+            "best for its number of parameters (BIC); {} independent samples",
+            trimmed(effective, 0)
+        ),
     }
 }

@@ -1,12 +1,13 @@
 //! Exposure and triggers from the samples themselves, by a running sum: where no model explains them, and beside the model's.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use crate::curve::fractions;
 use crate::errors::{Measured, Results};
 use crate::frame::FrameFits;
 use crate::missed::{Parts, least_open, missed};
-use crate::noise::mean_square;
+use crate::noise::{mean, mean_square};
 use crate::patterns::tail_end;
 use crate::signal::Kind;
 use crate::structure::Walk;
@@ -84,40 +85,36 @@ impl Running {
         let dark = [&missed[parts.before.clone()], &missed[parts.after.clone()]].concat();
         let walk = Walk::new(&missed, &parts, fits.step)?;
         let length = (dark.len() / 12).max(1);
-        let blocks: Vec<f64> =
-            dark.chunks(length).map(|few| few.iter().sum::<f64>() / few.len() as f64).collect();
+        let blocks: Vec<f64> = dark.chunks(length).map(mean).collect();
         let usual = median(blocks.iter().map(|b| b.abs()).collect()) / 0.6745 + 1e-6;
         let base = median(blocks.clone());
         let lit = |k: usize| {
             let few = &missed[k..(k + length).min(missed.len())];
-            (few.iter().sum::<f64>() / few.len() as f64 - base).abs() > IS_LIGHT * usual
+            (mean(few) - base).abs() > IS_LIGHT * usual
         };
-        let (mut from, mut to) = (parts.pulse.start, parts.pulse.end);
-        let starts = |range: std::ops::Range<usize>| range.step_by(length);
-        from = starts(parts.before.clone()).find(|k| lit(*k)).map_or(from, |k| k.min(from));
-        let last = starts(parts.after.clone()).rfind(|k| lit(*k));
-        to = last.map_or(to, |k| (k + length).min(missed.len()).max(to));
+        let Range { start: from, end: to } = parts.pulse;
+        let first = parts.before.clone().step_by(length).find(|k| lit(*k));
+        let from = first.map_or(from, |k| k.min(from));
+        let last = parts.after.clone().step_by(length).rfind(|k| lit(*k));
+        let to = last.map_or(to, |k| (k + length).min(missed.len()).max(to));
         // A tail is light as well, though none of its blocks stands out.
         let tail = tail_end(fits, kind);
-        to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
+        let to = tail.map_or(to, |end| fits.samples.partition_point(|bin| bin.from <= end).max(to));
         // The noise is known by what is dark now.
         let dark_now = Parts { before: 0..from, pulse: from..to, after: to..missed.len() };
         let walk = Walk::new(&missed, &dark_now, fits.step).unwrap_or(walk);
 
         let opened = fits.opened(kind);
-        let mut sum = 0.0;
-        let sums: Vec<(f64, f64)> = (from..to)
-            .map(|k| {
-                let bin = &fits.samples[k];
-                // Each half of a gap is as the sample beside it.
-                let begins =
-                    if k > from { 0.5 * (fits.samples[k - 1].to + bin.from) } else { bin.from };
-                let ends =
-                    if k + 1 < to { 0.5 * (bin.to + fits.samples[k + 1].from) } else { bin.to };
-                sum += (opened[k] - base) * (ends - begins);
-                (ends, sum)
-            })
-            .collect();
+        let (mut sum, mut sums) = (0.0, Vec::new());
+        let lit = fits.samples.get(from..to)?;
+        let mut begins = lit.first()?.from;
+        for (k, bin) in lit.iter().enumerate() {
+            // Each half of a gap is as the sample beside it.
+            let ends = lit.get(k + 1).map_or(bin.to, |next| 0.5 * (bin.to + next.from));
+            sum += (opened[from + k] - base) * (ends - begins);
+            sums.push((ends, sum));
+            begins = ends;
+        }
         let level = Self::level(fits, &opened, base, walk.power)?;
         // A median is known less well than a mean; and a level that wanders more than the noise, as a drift or a hum
         // makes it, does so in the pulse as well.
@@ -125,29 +122,27 @@ impl Running {
         let wanders =
             mean_square(&unlit.collect::<Vec<_>>()) - walk.power / (length as f64 * fits.step);
         let dark = 0.5 * PI * walk.power / (dark.len() as f64 * fits.step);
-        let start = fits.samples.get(from)?.from;
+        let start = lit[0].from;
         let early = (from < parts.pulse.start).then_some(start);
         Some(Self { sums, start, early, level, walk: walk.power, dark, wanders: wanders.max(0.0) })
     }
 
     /// Full light, by the stretch of the pulse that is flattest: what a shutter does before it rests does not count.
     fn level(fits: &FrameFits, opened: &[f64], base: f64, walk: f64) -> Option<Measured> {
-        let mean = |from: f64, to: f64| -> Option<f64> {
+        let between = |from: f64, to: f64| -> Option<f64> {
             let first = fits.samples.partition_point(|bin| bin.from + bin.to < 2.0 * from);
             let end = fits.samples.partition_point(|bin| bin.from + bin.to < 2.0 * to);
             let values = opened.get(first..end).filter(|values| !values.is_empty())?;
-            Some(values.iter().sum::<f64>() / values.len() as f64 - base)
+            Some(mean(values) - base)
         };
         // In pulses from the middle; each stretch in parts, whose scatter tells how flat it is.
         let parts = ((FLAT / fits.step / 1.5) as usize).clamp(2, MOST_PARTS);
         let part = FLAT / parts as f64;
         let stretch = |k: usize| -> Option<(f64, f64)> {
             let from = -0.5 + 0.5 * part * k as f64;
-            let means: Option<Vec<f64>> = (0..parts)
-                .map(|i| mean(from + part * i as f64, from + part * (i + 1) as f64))
-                .collect();
-            let means = means?;
-            let level = means.iter().sum::<f64>() / parts as f64;
+            let nth = |i: usize| between(from + part * i as f64, from + part * (i + 1) as f64);
+            let means: Vec<f64> = (0..parts).map(nth).collect::<Option<_>>()?;
+            let level = mean(&means);
             let scatter = means.iter().map(|m| (m - level).powi(2)).sum::<f64>();
             // A stretch of a ramp or of the dark is flat as well.
             (level > 0.6).then_some((scatter, level))
@@ -160,7 +155,7 @@ impl Running {
         let usual = walk / part * (parts - 1) as f64;
         let alike = stretches.iter().filter(|s| s.0 <= ALIKE * usual.clamp(least, 4.0 * least));
         let alike: Vec<f64> = alike.map(|(_, level)| *level).collect();
-        let middle = mean(-0.25, 0.25)?;
+        let middle = between(-0.25, 0.25)?;
         // A peak counts as full light, as it does where the model is right; the flatter it is, the better it is known.
         if fits.exposure(Kind::Free).is_peak() {
             let error = (walk / FLAT).sqrt().hypot(0.1 * (1.0 - middle));
@@ -168,7 +163,7 @@ impl Running {
         }
         let (scatter, value) = match alike.len() {
             0 => (0.0, middle),
-            n => (least, alike.iter().sum::<f64>() / n as f64),
+            _ => (least, mean(&alike)),
         };
         let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
         // Where even that is not flat, it is no rest.

@@ -1,11 +1,18 @@
-//! Several shots in a trace: which of them is fitted, and whether they are of one shutter speed.
+//! Several shots in a trace: which of them is fitted, whether they are of one shutter speed, and samples that are missing inside one:
+//! told, and refused where a ramp is lost with them.
 
-use crate::trace::{Frame, Refusal};
+use crate::trace::{Frame, Pulses, Refusal, Warning, median, sampling_interval};
 
 /// Shots whose exposures scatter by more than this are not of one shutter speed.
 const ALIKE: f64 = 0.01;
 /// Nor is that the noise, where it is so many times what the noise makes of them.
 const BEYOND_NOISE: f64 = 4.0;
+/// A step between two samples that is so many times as long as the usual one and those beside it is a gap.
+const LONG: f64 = 3.5;
+/// A gap over which the light changes by more than this share of itself has swallowed a ramp.
+const RAMP: f64 = 0.2;
+/// What is so many pulses away does not matter.
+const AROUND: f64 = 0.5;
 
 /// By how much the exposures scatter, as a share of their mean, where that is more than one shutter speed and the noise explain.
 pub fn differ(frames: &[Frame], scatter: f64, noise: f64) -> bool {
@@ -26,4 +33,34 @@ pub fn asked(frames: &[Frame], number: Option<usize>) -> Result<usize, Refusal> 
             Ok(order[(order.len() - 1) / 2])
         }
     }
+}
+
+/// The gaps of a frame.
+///
+/// # Errors
+/// A ramp is lost.
+pub fn gaps(pulses: &Pulses, frame: &Frame) -> Result<Option<Warning>, Refusal> {
+    let trace = pulses.trace.part(&frame.samples);
+    let (times, n) = (&trace.times, trace.times.len());
+    let usual = sampling_interval(times);
+    let step = |k: usize| times.get(k + 1).map_or(usual, |next| next - times[k]);
+    let is_gap =
+        |k: &usize| step(*k) > LONG * usual.max(step(k.saturating_sub(1)).min(step(k + 1)));
+    // Far from the pulse, a recorder may have waited for the next one.
+    let near = AROUND * (frame.crossings[5] - frame.crossings[0]);
+    let is_near = |k: &usize| {
+        times[k + 1] > frame.crossings[0] - near && times[*k] < frame.crossings[5] + near
+    };
+    let gaps: Vec<usize> = (1..n.saturating_sub(2)).filter(|k| is_near(k) && is_gap(k)).collect();
+    // By few samples' median on either side, against the noise.
+    let level = |few: &[f64]| median(few.to_vec());
+    for &k in &gaps {
+        let (before, after) =
+            (&trace.values[k.saturating_sub(4)..=k], &trace.values[k + 1..n.min(k + 6)]);
+        if (level(after) - level(before)).abs() > (RAMP * pulses.light()).max(4.0 * pulses.noise) {
+            return Err(Refusal::LostRamp { from: times[k], to: times[k + 1] });
+        }
+    }
+    let longest = gaps.iter().copied().max_by(|a, b| step(*a).total_cmp(&step(*b)));
+    Ok(longest.map(|k| Warning::Gap { count: gaps.len(), from: times[k], to: times[k + 1] }))
 }

@@ -7,11 +7,11 @@ use crate::unit::{decimals, short, stops};
 const FRACTIONS: [f64; 13] =
     [8000.0, 4000.0, 2000.0, 1000.0, 500.0, 250.0, 125.0, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0];
 
-/// A speed as a dial has it.
-fn named(seconds: f64) -> String {
+/// A speed as a dial has it, its part of a second with so many decimals.
+fn dial(seconds: f64, places: usize) -> String {
     // From a third of a second on, seconds are what a dial shows.
     if seconds < 0.3 {
-        format!("1/{:.0} s", 1.0 / seconds)
+        format!("1/{:.places$} s", 1.0 / seconds)
     } else {
         format!("{} s", short(seconds, 3))
     }
@@ -30,22 +30,17 @@ fn nearest(seconds: f64) -> f64 {
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
     let (nominal, called) = match fit.nominal {
-        Some(nominal) => (nominal, format!("{} nominal", named(nominal))),
+        Some(nominal) => (nominal, format!("{} nominal", dial(nominal, 0))),
         None => {
             let nearest = nearest(seconds);
-            (nearest, format!("nearest full stop {}", named(nearest)))
+            (nearest, format!("nearest full stop {}", dial(nearest, 0)))
         }
     };
     let ev = (seconds / nominal).log2();
-    let dial = if seconds < 0.3 {
-        // No digit finer than the error.
-        let parts = 1.0 / seconds;
-        let places =
-            decimals(parts * fit.exposure.error / seconds, 1).min(usize::from(parts < 100.0));
-        format!("1/{parts:.places$} s")
-    } else {
-        named(seconds)
-    };
+    // No digit finer than the error.
+    let parts = 1.0 / seconds;
+    let places = decimals(parts * fit.exposure.error / seconds, 1).min(usize::from(parts < 100.0));
+    let dial = dial(seconds, places);
     let is_told = fit.nominal.is_some() || ev.abs() < 0.75;
     is_told.then(|| format!("{dial} measured, {called}: {} EV", stops(ev)))
 }

@@ -8,7 +8,10 @@ use std::ops::Range;
 
 use crate::frame::FrameFits;
 use crate::missed::{Parts, missed};
-use crate::noise::{correlation, fast, from_mean, mean_square, normal_of, slow_correlation};
+use crate::noise::{
+    blocks, correlation, fast, from_mean, mean_square, normal_of, slow_correlation,
+};
+use crate::outcome::Test;
 use crate::patterns::{MATTERS, Pattern, Shape, patterns};
 use crate::signal::Kind;
 
@@ -28,40 +31,24 @@ const OF_UNSEEN: f64 = 0.3;
 const CUBIC: f64 = 5e-5;
 
 /// What a test says.
-#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Structure {
-    /// Does the model explain the trace?
-    pub explained: bool,
+    /// Its times are in the frame's unit.
+    pub test: Test,
     /// So many times as many standard deviations as usual are beyond chance.
     strict: f64,
-    /// Was there enough dark to know the noise by?
-    pub tested: bool,
-    /// By how many standard deviations the most telling of the tests is off.
-    pub sigma: f64,
-    /// And by how many that test may be.
+    /// By how many standard deviations the most telling of the tests may be off.
     beyond: f64,
-    /// A pattern below this share of the light may not be seen.
-    pub unseen: f64,
-    /// By how much that moves the triggers, and the exposure, as shares of the exposure.
+    /// By how much what is not seen moves the triggers, and the exposure, as shares of the exposure.
     unseen_moves: [f64; 2],
     /// By how much these may be off, though the model explains the trace: it belongs to their errors.
     pub hidden: [f64; 2],
-    /// The greatest structure, as a share of the light, and when, in the frame's unit.
-    pub share: f64,
-    pub at: f64,
-}
-
-/// Means of `length` neighbours.
-fn blocks(values: &[f64], length: usize) -> Vec<f64> {
-    values.chunks_exact(length).map(|few| few.iter().sum::<f64>() / length as f64).collect()
 }
 
 /// The test.
 pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
-    let parts = Parts::new(fits, kind);
-    let missed = missed(fits, kind);
-    let light = Light { fits, kind, parts: &parts, missed: &missed };
-    let tested = Walk::new(light.missed, &parts, fits.step).is_some();
+    let light = Light { fits, kind, parts: Parts::new(fits, kind), missed: missed(fits, kind) };
+    let parts = &light.parts;
+    let tested = Walk::new(&light.missed, parts, fits.step).is_some();
     let sides = [&parts.before, &parts.after];
     let longer = parts.before.len().max(parts.after.len());
     let sides = sides.into_iter().filter(|side| 3 * side.len() >= longer);
@@ -69,18 +56,9 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
         .map(|side| slow_correlation(&from_mean(light.of(side))))
         .fold(f64::INFINITY, f64::min);
     let strict = if wander > WANDERS { STRICT } else { 1.0 };
-    let mut found = Structure {
-        explained: true,
-        strict,
-        tested,
-        sigma: 0.0,
-        beyond: BEYOND,
-        unseen: 0.0,
-        unseen_moves: [0.0; 2],
-        hidden: [CUBIC; 2],
-        share: 0.0,
-        at: 0.0,
-    };
+    let test = Test { explained: true, tested, sigma: 0.0, unseen: 0.0, share: 0.0, at: 0.0 };
+    let (unseen_moves, hidden) = ([0.0; 2], [CUBIC; 2]);
+    let mut found = Structure { test, strict, beyond: BEYOND, unseen_moves, hidden };
     let mut length = 2;
     while parts.pulse.len() / length >= 6 {
         if let Some(sigma) = light.in_pulse(length) {
@@ -110,7 +88,7 @@ impl Structure {
             self.hide(triggers, exposure);
         }
         let (unseen, least) = (self.strict * pattern.unseen(), self.strict * pattern.least);
-        self.unseen = self.unseen.max(unseen);
+        self.test.unseen = self.test.unseen.max(unseen);
         if unseen > UNSEEN || self.strict > 1.0 {
             let [of_triggers, of_exposure] = self.unseen_moves;
             self.unseen_moves =
@@ -124,9 +102,10 @@ impl Structure {
 
     fn take(&mut self, sigma: f64, beyond: f64, (share, at): (f64, f64)) {
         let sigma = sigma / self.strict;
-        self.explained &= sigma <= beyond;
-        if sigma / beyond > self.sigma / self.beyond {
-            (self.sigma, self.beyond, self.share, self.at) = (sigma, beyond, share, at);
+        self.test.explained &= sigma <= beyond;
+        if sigma / beyond > self.test.sigma / self.beyond {
+            self.test = Test { sigma, share, at, ..self.test };
+            self.beyond = beyond;
         }
     }
 }
@@ -167,8 +146,8 @@ impl Walk {
 struct Light<'a> {
     fits: &'a FrameFits,
     kind: Kind,
-    parts: &'a Parts,
-    missed: &'a [f64],
+    parts: Parts,
+    missed: Vec<f64>,
 }
 
 impl Light<'_> {
@@ -180,18 +159,14 @@ impl Light<'_> {
         [self.of(&self.parts.before), self.of(&self.parts.after)].concat()
     }
 
-    /// The square of a step's rounding, as far as noise does not spread it: a whole plateau may be off by as much.
-    fn rounding(&self) -> f64 {
-        self.fits.rounding * self.fits.rounding
-    }
-
     fn in_pulse(&self, length: usize) -> Option<f64> {
         let (pulse, dark) = (self.of(&self.parts.pulse), self.dark());
         let (in_pulse, in_dark) = (blocks(pulse, length), blocks(&dark, length));
         if in_dark.len() < 4 {
             return None;
         }
-        let rounding = self.rounding();
+        // As far as noise does not spread a step's rounding, a whole plateau may be off by it.
+        let rounding = self.fits.rounding * self.fits.rounding;
         let slow = (mean_square(&in_pulse) - rounding).max(0.0) / (fast(pulse) + 1e-12);
         let usual = (mean_square(&in_dark) + 1e-12 / length as f64) / (fast(&dark) + 1e-12);
         let matters = self.worth(mean_square(&in_pulse).sqrt(), in_pulse.len(), length);

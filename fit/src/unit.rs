@@ -55,6 +55,11 @@ impl Unit {
         time / self.per_second()
     }
 
+    /// A time in seconds and its standard error, as [`plus_minus`] writes them.
+    pub fn plus_minus(self, value: f64, error: f64) -> String {
+        plus_minus(self.of(value), self.of(error), self.name())
+    }
+
     /// A time with its unit, to five digits.
     pub fn show(self, seconds: impl Into<f64>) -> String {
         format!("{} {}", short(self.of(seconds), 5), self.name())

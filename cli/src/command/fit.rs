@@ -437,8 +437,7 @@ fn json(speeds: &[Speed]) -> String {
 /// The fit of the shots of one setting, and what is doubtful about it.
 fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<Speed, String> {
     let more = |n: usize| if n > 1 { format!(", of {n} files") } else { String::new() };
-    let options =
-        Options { triggers: triggers.unwrap_or(Options::TRIGGERS), ..read[0].options.clone() };
+    let options = Options { triggers, ..read[0].options.clone() };
     let mut fit = fitted(records, &options).map_err(|refusal| {
         let (path, reading) = (shown(read[0].path) + &more(read.len()), &read[0].reading);
         format!("{path}: {refusal}; read: {reading}")

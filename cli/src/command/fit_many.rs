@@ -1,7 +1,7 @@
 //! `shutter fit` of several traces: the speeds of a shutter, as a tester's list has them.
 
 use shutter_fit::trace::Warning;
-use shutter_fit::unit::{plus_minus, short, stops};
+use shutter_fit::unit::{short, stops};
 use shutter_fit::{Fit, From, Measured};
 
 use crate::speeds::columns;
@@ -31,7 +31,7 @@ fn delays(speeds: &[Speed]) -> String {
         let optional = |seconds: Option<f64>| seconds.map_or("-".into(), digits);
         Some([
             printable(name),
-            plus_minus(unit.of(delay.mean()), unit.of(delay.error()), unit.name()),
+            unit.plus_minus(delay.mean(), delay.error()),
             format!("± {}", digits(delay.trigger_error())),
             delay.shots.len().to_string(),
             optional(delay.spread()),
@@ -68,7 +68,7 @@ fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {
     [
         printable(name),
         nominal.map_or("-".into(), |nominal| unit.show(nominal)),
-        plus_minus(unit.of(value), unit.of(error), unit.name()),
+        unit.plus_minus(value, error),
         nominal.map_or("-".into(), delta),
         spread,
         fit.frames.count.to_string(),

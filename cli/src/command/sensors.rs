@@ -2,7 +2,7 @@
 //! between them.
 
 use shutter_fit::Measured;
-use shutter_fit::unit::{Unit, plus_minus, stops};
+use shutter_fit::unit::{Unit, stops};
 
 use super::fit_many::Speed;
 use crate::speeds::columns;
@@ -19,15 +19,11 @@ pub fn table(sensors: &[Speed]) -> String {
             let [from, to] = [first, fit].map(|fit| fit.half_light()[place]);
             let error = ends[place][0].hypot(ends[place][1]);
             let unit = Unit::fit((to - from).abs().max(error));
-            if k == 0 {
-                "-".into()
-            } else {
-                plus_minus(unit.of(to - from), unit.of(error), unit.name())
-            }
+            if k == 0 { "-".into() } else { unit.plus_minus(to - from, error) }
         };
         let (unit, Measured { value, error }) = (fit.unit(), fit.exposure);
         let more = if k == 0 { "-".into() } else { stops((value / first.exposure.value).log2()) };
-        let exposure = plus_minus(unit.of(value), unit.of(error), unit.name());
+        let exposure = unit.plus_minus(value, error);
         rows.push([name.clone(), exposure, more, later(0), later(1), fit.chosen.title().into()]);
     }
     columns(&rows)

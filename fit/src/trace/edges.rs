@@ -39,7 +39,7 @@ pub struct Edges {
 }
 
 /// Which edges start which frames.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Starts {
     /// Of each frame the one that starts it, if there is one.
     pub of: Vec<Option<Edge>>,

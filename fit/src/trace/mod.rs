@@ -23,7 +23,7 @@ mod wav;
 pub use asked::{Column, Options};
 pub(crate) use coupling::undone;
 pub use edges::Switch;
-pub(crate) use edges::{Edge, Edges, edges};
+pub(crate) use edges::{Edge, Edges, Starts, edges};
 pub use preview::{Preview, preview};
 pub use pulse::{Crossings, Frame, Light, Pulses, pulses};
 pub(crate) use pulse::{QUARTERS, least_step};
