@@ -19,8 +19,7 @@ const FEWEST: f64 = 2.0;
 /// The freest fit with a drift and a hum, if they are worth it, or none where neither is.
 pub fn with_columns(fits: &FrameFits, mains: Mains) -> Option<KindFit> {
     let plain = fits.of(Kind::Free);
-    let is_tail =
-        |found: &KindFit| passes_for_columns(&found.solution, &fits.problem.bins, fits.step);
+    let is_tail = |found: &KindFit| passes_for_columns(&found.solution, fits.bins(), fits.step);
     let start = Signal { drift: Some(0.0), ..plain.solution.signal };
     let drifting = if_worth_it(fits, &start, plain);
     let drifting = drifting.filter(|it| drifts_before(it, &fits.samples) && !is_tail(it));
@@ -51,7 +50,7 @@ fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
 
 /// With the strongest hum, if that is in the dark as well: what is in the pulse alone is the shutter's own.
 fn humming(fits: &FrameFits, without: &KindFit, mains: Mains) -> Option<KindFit> {
-    let (signal, bins) = (without.solution.signal, &fits.problem.bins);
+    let (signal, bins) = (without.solution.signal, fits.bins());
     let with = |hum| if_worth_it(fits, &Signal { hum: Some(hum), ..signal }, without);
     let all = hum::strongest(bins, &signal, mains).into_iter().filter_map(with);
     let found = all.min_by(|a, b| a.squares.total_cmp(&b.squares))?;

@@ -6,8 +6,9 @@ use crate::frame::FrameFits;
 use crate::hum;
 use crate::lag;
 use crate::missed::{Parts, missed};
+use crate::noise::mean;
 use crate::outcome::{Fit, From, Test};
-use crate::signal::Kind;
+use crate::signal::{Kind, Signal};
 use crate::structure::{UNSEEN, Walk};
 use crate::trace::{Frame, Warning, least_step};
 
@@ -19,7 +20,6 @@ const LITTLE: f64 = 0.003;
 /// A standard error of the exposure or of a trigger beyond this share of the exposure is told.
 const WIDE: f64 = 0.02;
 
-/// All doubts about the fit of a frame.
 pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -> Vec<Warning> {
     // The sampling interval in seconds.
     let step = fits.step * fits.units.pulse;
@@ -44,7 +44,7 @@ pub fn doubts(fit: &Fit, fits: &FrameFits, frame: &Frame, full_is_given: bool) -
 
 /// Many samples at the greatest value, where the dark shows that the noise is more than a step of the values.
 fn clipped(fit: &Fit) -> Option<Warning> {
-    let (dark, gain) = (fit.best().signal.dark, fit.best().signal.gain);
+    let Signal { dark, gain, .. } = fit.best().signal;
     let values = &fit.samples.values;
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let light = values.iter().filter(|v| **v > dark + 0.5 * gain).count();
@@ -80,15 +80,14 @@ fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let [quiet, usual] = [light, dark].map(|mut differ| {
         differ.sort_by(f64::total_cmp);
         differ.truncate(differ.len() * 9 / 10);
-        differ.iter().sum::<f64>() / differ.len() as f64
+        mean(&differ)
     });
     // Twenty differences and more scatter by a half at most; a level between two steps of the values makes noise of its
     // own.
-    let least = least_step(&fit.samples.values) / fit.best().signal.gain;
-    let is_quiet = quiet < 0.25 * usual && usual.sqrt() > least;
-    let top = fit.best().signal.dark + fit.best().signal.gain;
+    let Signal { dark, gain, .. } = fit.best().signal;
+    let is_quiet = quiet < 0.25 * usual && usual.sqrt() > least_step(&fit.samples.values) / gain;
     let share = lit as f64 / parts.pulse.len() as f64;
-    is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(top) })
+    is_quiet.then(|| Warning::Clipped { share, at: fit.as_measured(dark + gain) })
 }
 
 /// A hum; of few periods it is told from the shutter's own shape by the mains' frequency alone.
@@ -115,13 +114,13 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let gain = fits.of(Kind::Free).solution.signal.gain;
     let levels = |part: &std::ops::Range<usize>, of: usize| -> Vec<f64> {
         let few = (part.len() / of).max(1);
-        let mean = |bins: &[Bin]| {
+        let level = |bins: &[Bin]| {
             bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain)
         };
-        fits.samples[part.clone()].chunks_exact(few).map(mean).collect()
+        fits.samples[part.clone()].chunks_exact(few).map(level).collect()
     };
     let [before, after] = [levels(&parts.before, 2), levels(&parts.after, 2)];
-    let dark = before.iter().sum::<f64>() / before.len().max(1) as f64;
+    let dark = mean(&before);
     let ([early, late, ..], [earlier, later, ..]) = (&after[..], &before[..]) else {
         // There is no dark at all behind the curve.
         let (first, last) = (fits.samples.first()?, fits.samples.last()?);

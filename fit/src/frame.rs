@@ -11,7 +11,6 @@ use crate::solve::{Held, Problem, Solution};
 use crate::trace::{Crossings, Frame, Pulses, sampling_interval};
 use crate::units::Units;
 
-/// A frame's fits.
 #[derive(Clone, Debug)]
 pub struct FrameFits {
     pub units: Units,

@@ -25,7 +25,6 @@ const ABOVE: [u8; 5] = [4, 5, 6, 7, 8];
 /// The most frequencies that are tried, half a period of the whole trace apart.
 const MOST: usize = 600;
 
-/// How long the bins last.
 fn length(bins: &[Bin]) -> f64 {
     bins.last().map_or(0.0, |last| last.to - bins[0].from)
 }

@@ -38,7 +38,6 @@ pub fn lagging(solution: &Solution, bins: &[Bin], step: f64) -> Option<Vec<f64>>
 pub struct Movable<'a> {
     solution: &'a Solution,
     bins: &'a [Bin],
-    /// Which.
     places: Vec<usize>,
     factor: Cholesky,
     /// How each bin moves with each.
@@ -90,21 +89,14 @@ impl<'a> Movable<'a> {
     }
 }
 
-/// How much of a pattern is in what is missed.
-pub struct Score {
-    pub along: f64,
-    pub square: f64,
-}
-
-impl Score {
-    pub fn new(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> Self {
-        let (mut along, mut square) = (0.0, f64::MIN_POSITIVE);
-        for ((bin, p), missed) in bins.iter().zip(pattern).zip(missed) {
-            along += bin.samples * p * missed;
-            square += bin.samples * p * p;
-        }
-        Self { along, square }
+/// How much of a pattern is in what is missed, and in itself.
+pub fn score(pattern: &[f64], missed: &[f64], bins: &[Bin]) -> (f64, f64) {
+    let (mut along, mut square) = (0.0, f64::MIN_POSITIVE);
+    for ((bin, p), missed) in bins.iter().zip(pattern).zip(missed) {
+        along += bin.samples * p * missed;
+        square += bin.samples * p * p;
     }
+    (along, square)
 }
 
 /// What a capacitor's charge takes from each bin: as much as has come by then, to first order.
@@ -135,7 +127,7 @@ pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64,
     let missed: Vec<f64> =
         movable.missed.iter().zip(&beside).map(|(missed, b)| missed + b).collect();
     let falls = |pattern: &[f64]| {
-        let Score { along, square } = Score::new(&movable.rest(pattern), &missed, bins);
+        let (along, square) = score(&movable.rest(pattern), &missed, bins);
         along * along.abs() / square
     };
     (columns > 0).then(|| (falls(pattern), falls(&beside).abs()))

@@ -5,9 +5,9 @@
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
 //! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with the
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
-//! - `choice`: the kinds compared, and one chosen;
+//! - `choice`: the kinds compared, and one chosen; with a flicker, where that explains more;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
-//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `explain`: or does a flicker? `running`: the results of the samples themselves, where it does not;
+//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples themselves, where it does not;
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
@@ -19,7 +19,6 @@ mod curve;
 pub mod delay;
 mod doubts;
 mod errors;
-mod explain;
 mod frame;
 mod hum;
 mod json;
@@ -138,7 +137,7 @@ pub fn fit_records(
     let gap = shots::gaps(pulses, frame)?;
     let counted = Frames::new(&frames, asked);
     let differ = shots::differ(&frames, counted.scatter, pulses.relative_noise());
-    let fits = &explain::fits(pulses, frame, options.mains, progress);
+    let fits = &choice::fits(pulses, frame, options.mains, progress);
     progress(1.0);
 
     let candidates = choice::candidates(fits, n);

@@ -9,7 +9,7 @@ use std::iter::once;
 use crate::bins::Bin;
 use crate::curve::Exposure;
 use crate::frame::FrameFits;
-use crate::lag::{LAG, Movable, Score, lagging};
+use crate::lag::{LAG, Movable, lagging, score};
 use crate::missed::{Beside, Parts};
 use crate::noise::{self, LEAST, from_mean, normal_of, ratio_of, slow_correlation};
 use crate::signal::Kind;
@@ -33,7 +33,6 @@ const LEAST_DARK: usize = 16;
 /// What is missed matters from this share of the exposure on; below, cubic ramps are taken for what they stand for.
 pub const MATTERS: f64 = 4e-4;
 
-/// What is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A tail, by the pattern of a [`lag`](crate::lag).
@@ -110,11 +109,6 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Is it there, and does it matter?
-    pub fn is_told(&self) -> bool {
-        self.matters() && self.sigma > self.shape.beyond()
-    }
-
     pub fn matters(&self) -> bool {
         self.triggers > self.shape.matters()
     }
@@ -135,8 +129,40 @@ pub fn patterns(fits: &FrameFits, kind: Kind) -> Vec<Pattern> {
 
 fn of_shapes(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) -> Vec<Pattern> {
     let Some(noise) = Noise::new(fits, kind) else { return Vec::new() };
-    let movable = Movable::new(&fits.of(kind).solution, fits.bins(), |_| true);
-    let found = |shape| pattern(fits, kind, shape, &movable, &noise);
+    let (solution, bins) = (&fits.of(kind).solution, fits.bins());
+    let (gain, exposure) = (solution.signal.gain, fits.exposure(kind));
+    let movable = Movable::new(solution, bins, |_| true);
+    let found = |shape: Shape| {
+        let light = shape.light(fits, kind)?;
+        let rest = movable.rest(&light);
+        let (along, square) = score(&rest, &movable.missed, bins);
+        let usual = noise.along(&rest, bins, &exposure).sqrt();
+        // A step of the values puts no more than this into it, which is no matter of chance.
+        let each = bins.iter().zip(&rest).map(|(bin, r)| bin.samples * r.abs());
+        let rounding = ROUNDING * fits.rounding * gain * each.sum::<f64>();
+        let (off, amount) = ((along.abs() - rounding).max(0.0) / usual, along / square);
+        let known = (1.0, noise.known);
+        let sigma = normal_of(off * off, known);
+        let surely = ratio_of(shape.beyond(), known).sqrt() + SURELY;
+        let of = |light: &[f64]| {
+            let amounts = light.iter().map(|light| amount * light / gain);
+            Beside::new(exposure, bins, amounts)
+        };
+        let raw = of(&light);
+        let (k, highest) =
+            light.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some(Pattern {
+            shape,
+            // Light that is missing behind a ramp is no tail.
+            sigma: if shape == Shape::Tail && along < 0.0 { -sigma } else { sigma },
+            // The curve may make up for some of it, but not for more than all.
+            triggers: raw.triggers().min(of(&movable.without_levels(&light)).triggers()),
+            exposure: raw.exposure(),
+            share: amount * highest / gain,
+            at: bins[k].from,
+            least: (surely * usual + rounding) / along.abs().max(1e-9 * usual),
+        })
+    };
     shapes.filter_map(found).collect()
 }
 
@@ -144,47 +170,8 @@ fn of_shapes(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) 
 pub fn tail_end(fits: &FrameFits, kind: Kind) -> Option<f64> {
     let curve = fits.of(kind).solution.signal.curve;
     let end = curve.end() + TAIL_ENDS * LAG * curve.closing;
-    of_shapes(fits, kind, once(Shape::Tail)).iter().any(Pattern::is_told).then_some(end)
-}
-
-fn pattern(
-    fits: &FrameFits,
-    kind: Kind,
-    shape: Shape,
-    movable: &Movable,
-    noise: &Noise,
-) -> Option<Pattern> {
-    let (bins, exposure) = (fits.bins(), fits.exposure(kind));
-    let gain = fits.of(kind).solution.signal.gain;
-    let light = shape.light(fits, kind)?;
-    let rest = movable.rest(&light);
-    let Score { along, square } = Score::new(&rest, &movable.missed, bins);
-    let usual = noise.along(&rest, bins, &exposure).sqrt();
-    // A step of the values puts no more than this into it, which is no matter of chance.
-    let each = bins.iter().zip(&rest).map(|(bin, r)| bin.samples * r.abs());
-    let rounding = ROUNDING * fits.rounding * gain * each.sum::<f64>();
-    let (off, amount) = ((along.abs() - rounding).max(0.0) / usual, along / square);
-    let known = (1.0, noise.known);
-    let sigma = normal_of(off * off, known);
-    let surely = ratio_of(shape.beyond(), known).sqrt() + SURELY;
-    let least = (surely * usual + rounding) / along.abs().max(1e-9 * usual);
-    let of = |light: &[f64]| {
-        let amounts = light.iter().map(|light| amount * light / gain);
-        Beside::new(exposure, bins, amounts)
-    };
-    let raw = of(&light);
-    let (k, highest) = light.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    Some(Pattern {
-        shape,
-        // Light that is missing behind a ramp is no tail.
-        sigma: if shape == Shape::Tail && along < 0.0 { -sigma } else { sigma },
-        // The curve may make up for some of it, but not for more than all.
-        triggers: raw.triggers().min(of(&movable.without_levels(&light)).triggers()),
-        exposure: raw.exposure(),
-        share: amount * highest / gain,
-        at: bins[k].from,
-        least,
-    })
+    let tail = of_shapes(fits, kind, once(Shape::Tail)).pop()?;
+    (tail.matters() && tail.sigma > tail.shape.beyond()).then_some(end)
 }
 
 /// The noise's power at the slow end, as the dark shows it.

@@ -161,10 +161,7 @@ impl Running {
             let error = (walk / FLAT).sqrt().hypot(0.1 * (1.0 - middle));
             return Some(Measured { value: 1.0, error });
         }
-        let (scatter, value) = match alike.len() {
-            0 => (0.0, middle),
-            _ => (least, mean(&alike)),
-        };
+        let (scatter, value) = if alike.is_empty() { (0.0, middle) } else { (least, mean(&alike)) };
         let apart = alike.iter().map(|level| (level - value).abs()).fold(0.0, f64::max);
         // Where even that is not flat, it is no rest.
         let uneven = ((scatter - usual).max(0.0) / parts as f64).sqrt();
@@ -179,8 +176,8 @@ impl Running {
         for &(t, sum) in &self.sums {
             if sum >= amount {
                 let part = (amount - before.1) / (sum - before.1);
-                return before.0
-                    + (t - before.0) * if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+                let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+                return before.0 + (t - before.0) * part;
             }
             before = (t, sum);
         }

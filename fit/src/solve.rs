@@ -7,7 +7,6 @@ use crate::bins::Bin;
 use crate::curve::Whole;
 use crate::signal::Signal;
 
-/// The most steps.
 const STEPS: usize = 150;
 /// The sum of squares has stopped falling where a step lowers it by less than this share.
 const LITTLE: f64 = 1e-8;
@@ -43,11 +42,6 @@ pub struct Solution {
 }
 
 impl Solution {
-    fn empty(signal: &Signal) -> Self {
-        let n = signal.len();
-        Self { signal: *signal, cost: 0.0, normal: vec![vec![0.0; n]; n], gradient: vec![0.0; n] }
-    }
-
     /// Adds the square of a miss that moves so with the parameters.
     fn add(&mut self, weight: f64, miss: f64, moves: &[f64]) {
         self.cost += weight * miss * miss;
@@ -82,8 +76,9 @@ impl Solution {
 impl Problem {
     /// The signal as it is.
     pub fn at(&self, signal: &Signal) -> Solution {
-        let mut solution = Solution::empty(signal);
-        let mut moves = vec![0.0; signal.len()];
+        let n = signal.len();
+        let (normal, gradient, mut moves) = (vec![vec![0.0; n]; n], vec![0.0; n], vec![0.0; n]);
+        let mut solution = Solution { signal: *signal, cost: 0.0, normal, gradient };
         let mut means = signal.means();
         for bin in &self.bins {
             let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;

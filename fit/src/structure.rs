@@ -44,17 +44,14 @@ pub struct Structure {
     pub hidden: [f64; 2],
 }
 
-/// The test.
 pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
     let light = Light { fits, kind, parts: Parts::new(fits, kind), missed: missed(fits, kind) };
     let parts = &light.parts;
     let tested = Walk::new(&light.missed, parts, fits.step).is_some();
-    let sides = [&parts.before, &parts.after];
     let longer = parts.before.len().max(parts.after.len());
-    let sides = sides.into_iter().filter(|side| 3 * side.len() >= longer);
-    let wander = sides
-        .map(|side| slow_correlation(&from_mean(light.of(side))))
-        .fold(f64::INFINITY, f64::min);
+    let sides = [&parts.before, &parts.after].into_iter().filter(|it| 3 * it.len() >= longer);
+    let wanders = sides.map(|side| slow_correlation(&from_mean(light.of(side))));
+    let wander = wanders.fold(f64::INFINITY, f64::min);
     let strict = if wander > WANDERS { STRICT } else { 1.0 };
     let test = Test { explained: true, tested, sigma: 0.0, unseen: 0.0, share: 0.0, at: 0.0 };
     let (unseen_moves, hidden) = ([0.0; 2], [CUBIC; 2]);
@@ -169,17 +166,13 @@ impl Light<'_> {
         let rounding = self.fits.rounding * self.fits.rounding;
         let slow = (mean_square(&in_pulse) - rounding).max(0.0) / (fast(pulse) + 1e-12);
         let usual = (mean_square(&in_dark) + 1e-12 / length as f64) / (fast(&dark) + 1e-12);
-        let matters = self.worth(mean_square(&in_pulse).sqrt(), in_pulse.len(), length);
+        // Blocks of either sign cancel, but for the root of their number.
+        let size = mean_square(&in_pulse).sqrt();
+        let amount = size * length as f64 * self.fits.step * (in_pulse.len() as f64).sqrt();
         let alike = correlation(&in_dark);
         let counts = (in_pulse.len() as f64 / alike, in_dark.len() as f64 / alike);
+        let matters = amount > MATTERS * self.fits.exposure(self.kind).area();
         matters.then(|| normal_of(slow / usual, counts))
-    }
-
-    /// Is light of this size over so many blocks enough to matter?
-    fn worth(&self, size: f64, blocks: usize, length: usize) -> bool {
-        // Blocks of either sign cancel, but for the root of their number.
-        let amount = size * length as f64 * self.fits.step * (blocks as f64).sqrt();
-        amount > MATTERS * self.fits.exposure(self.kind).area()
     }
 
     /// The block in the dark that stands out most: by how many of the usual ones, its size, and when.
