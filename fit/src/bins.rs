@@ -71,10 +71,9 @@ pub fn shared(each: &[Bin], crossings: &Crossings, step: f64) -> Vec<Bin> {
         (_, true) => 1,
         _ => 2,
     };
-    let mut count = [0usize; 3];
-    each.iter().for_each(|bin| count[place(bin)] += 1);
+    let count = |at: usize| each.iter().filter(|bin| place(bin) == at).count();
     let most = [ON_RAMP, ON_RAMP, MOST - 2 * ON_RAMP];
-    let together = [0, 1, 2].map(|k| count[k].div_ceil(most[k]).max(1));
+    let together = [0, 1, 2].map(|k| count(k).div_ceil(most[k]).max(1));
     let mut bins: Vec<Bin> = Vec::new();
     let mut last = None;
     for sample in each {

@@ -2,8 +2,8 @@
 
 use crate::bins::Bin;
 use crate::frame::{FrameFits, KindFit};
-use crate::hum::{self, Mains};
-use crate::lag::passes_for_columns;
+use crate::hum;
+use crate::lag::{falls, lagging};
 use crate::noise::correlation;
 use crate::signal::{Flicker, Kind, Signal};
 
@@ -16,10 +16,14 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 2.0;
 
-/// The freest fit with a drift and a hum, if they are worth it, or none where neither is.
-pub fn with_columns(fits: &FrameFits, mains: Mains) -> Option<KindFit> {
+/// The freest fit with a drift and a hum, if they are worth it and a tail does not explain as much; none where neither is.
+pub fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     let plain = fits.of(Kind::Free);
-    let is_tail = |found: &KindFit| passes_for_columns(&found.solution, fits.bins(), fits.step);
+    let is_tail = |KindFit { solution, .. }: &KindFit| {
+        let falls = |lagging: Vec<f64>| falls(solution, fits.bins(), &lagging);
+        let falls = lagging(solution, fits.bins(), fits.step).and_then(falls);
+        falls.is_some_and(|(by_tail, by_columns)| by_tail >= by_columns)
+    };
     let start = Signal { drift: Some(0.0), ..plain.solution.signal };
     let drifting = if_worth_it(fits, &start, plain);
     let drifting = drifting.filter(|it| drifts_before(it, &fits.samples) && !is_tail(it));
@@ -49,10 +53,10 @@ fn drifts_before(found: &KindFit, samples: &[Bin]) -> bool {
 }
 
 /// With the strongest hum, if that is in the dark as well: what is in the pulse alone is the shutter's own.
-fn humming(fits: &FrameFits, without: &KindFit, mains: Mains) -> Option<KindFit> {
+fn humming(fits: &FrameFits, without: &KindFit, mains: Option<f64>) -> Option<KindFit> {
     let (signal, bins) = (without.solution.signal, fits.bins());
     let with = |hum| if_worth_it(fits, &Signal { hum: Some(hum), ..signal }, without);
-    let all = hum::strongest(bins, &signal, mains).into_iter().filter_map(with);
+    let all = hum::strongest(bins, &signal, mains, fits.units.pulse).into_iter().filter_map(with);
     let found = all.min_by(|a, b| a.squares.total_cmp(&b.squares))?;
     hum::is_one(bins, &found.solution.signal).then_some(found)
 }

@@ -160,7 +160,6 @@ impl Exposure {
         [self.curve.start + opening, self.curve.end() - closing]
     }
 
-    /// The mean openness over an interval.
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         (self.collected(to).amount - self.collected(from).amount) / (to - from)
     }
@@ -171,7 +170,6 @@ impl Exposure {
         self.collected(f64::INFINITY)
     }
 
-    /// The openness at a time.
     pub fn openness(&self, t: f64) -> f64 {
         let [start, open_end, close_start, end] = self.curve.times();
         if t < start || t > end {

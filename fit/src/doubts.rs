@@ -1,5 +1,7 @@
 //! What is doubtful about a fit: each doubt looks at the fit by itself, and is told or not.
 
+use std::ops::Range;
+
 use crate::bins::Bin;
 use crate::curve::Exposure;
 use crate::frame::FrameFits;
@@ -67,7 +69,7 @@ fn saturated(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let [_, open, close, _] = fits.exposure(fit.chosen).curve.times();
     let from = fits.samples.partition_point(|bin| bin.from < open);
     let to = fits.samples.partition_point(|bin| bin.to <= close);
-    let differ = |range: std::ops::Range<usize>| -> Vec<f64> {
+    let differ = |range: Range<usize>| -> Vec<f64> {
         let means = fits.samples[range].windows(2);
         means.map(|pair| (pair[1].mean - pair[0].mean).powi(2)).collect()
     };
@@ -112,14 +114,14 @@ fn flicker(fit: &Fit) -> Option<Warning> {
 fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let parts = Parts::new(fits, Kind::Free);
     let gain = fits.of(Kind::Free).solution.signal.gain;
-    let levels = |part: &std::ops::Range<usize>, of: usize| -> Vec<f64> {
-        let few = (part.len() / of).max(1);
+    let levels = |part: &Range<usize>| -> Vec<f64> {
+        let few = (part.len() / 2).max(1);
         let level = |bins: &[Bin]| {
             bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain)
         };
         fits.samples[part.clone()].chunks_exact(few).map(level).collect()
     };
-    let [before, after] = [levels(&parts.before, 2), levels(&parts.after, 2)];
+    let [before, after] = [&parts.before, &parts.after].map(levels);
     let dark = mean(&before);
     let ([early, late, ..], [earlier, later, ..]) = (&after[..], &before[..]) else {
         // There is no dark at all behind the curve.
@@ -142,7 +144,7 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let Parts { before, pulse, after } = Parts::new(fits, fit.chosen);
     let gain = fits.of(fit.chosen).solution.signal.gain;
     let amount = |bin: &Bin| bin.mean * bin.width() / gain;
-    let mean = |part: std::ops::Range<usize>| {
+    let mean = |part: Range<usize>| {
         let bins = &fits.samples[part];
         bins.iter().map(amount).sum::<f64>() / bins.iter().map(Bin::width).sum::<f64>()
     };
@@ -158,9 +160,8 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let walk = Walk::new(&missed(fits, fit.chosen), &flat, fits.step)?;
     let error = (walk.power / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
     let sinks = first > second && second > third && second - last > TAIL * error;
-    let seconds =
-        fits.samples[after.clone()].iter().map(|bin| amount(bin) - dark * bin.width()).sum::<f64>()
-            * fits.units.pulse;
+    let beyond = |bin: &Bin| amount(bin) - dark * bin.width();
+    let seconds = fits.samples[after].iter().map(beyond).sum::<f64>() * fits.units.pulse;
     let is_told = sinks && first - last > 4.0 * drift && seconds > LITTLE * fit.exposure.value;
     is_told.then_some(Warning::SlowTail { share: first, with: fit.exposure.value + seconds })
 }
@@ -207,7 +208,6 @@ fn no_plateau(fit: &Fit) -> Option<Warning> {
     Exposure::new(&fit.best().signal.curve).may_be_peak().then_some(Warning::NoPlateau)
 }
 
-/// What the test does not see.
 fn unseen(fit: &Fit) -> Option<Warning> {
     let Test { tested, unseen, .. } = fit.test;
     (tested && fit.from == From::Model && unseen > UNSEEN)

@@ -40,7 +40,6 @@ impl Measured {
     }
 }
 
-/// What a curve is good for.
 #[derive(Clone, Debug)]
 pub struct Results {
     pub exposure: Measured,

@@ -3,7 +3,6 @@
 use crate::bins::{self, Bin};
 use crate::columns;
 use crate::curve::{Exposure, Whole, fractions};
-use crate::hum::Mains;
 use crate::noise::{self, slow_correlation};
 use crate::search::every_kind;
 use crate::signal::{Kind, Signal};
@@ -55,7 +54,6 @@ impl FrameFits {
 
         // If a column turns out to be worth it, the search comes twice, half of the way each.
         fits.search(&Signal::plain(), &mut |done| progress(0.5 * done));
-        let mains = Mains { second: units.pulse, hertz: mains };
         if let Some(free) = columns::with_columns(&fits, mains) {
             fits.search_with(free, &mut |done| progress(0.5 + 0.5 * done));
         }
@@ -105,12 +103,10 @@ impl FrameFits {
         &self.problem.bins
     }
 
-    /// A kind's best signal.
     pub fn of(&self, kind: Kind) -> &KindFit {
         &self.kinds[kind as usize]
     }
 
-    /// So many samples count.
     pub fn effective(&self) -> f64 {
         self.samples.len() as f64 / self.correlation
     }

@@ -3,13 +3,6 @@
 use crate::bins::Bin;
 use crate::signal::{Bounds, Hum, Signal};
 
-/// The mains as far as they are known, where a unit of time is `second` seconds.
-#[derive(Clone, Copy, Debug)]
-pub struct Mains {
-    pub second: f64,
-    pub hertz: Option<f64>,
-}
-
 /// From so many periods in a record on, it tells any frequency.
 pub const FEWEST: f64 = 3.0;
 /// The fewest periods of the mains: of fewer, a record shows a drift.
@@ -34,8 +27,9 @@ pub fn periods(bins: &[Bin], hum: &Hum) -> f64 {
     hum.frequency * length(bins)
 }
 
-/// Where the frequency of a hum may lie: the mains' alone below [`FEWEST`] periods, or where they are known.
-fn ranges(bins: &[Bin], Mains { second, hertz }: Mains) -> Vec<Bounds> {
+/// Where the frequency of a hum may lie: the mains' alone below [`FEWEST`] periods, or where they are known to have so many `hertz`. A
+/// unit of time is `second` seconds.
+fn ranges(bins: &[Bin], hertz: Option<f64>, second: f64) -> Vec<Bounds> {
     let length = length(bins);
     let few = FEWEST / length;
     let band = |(low, high): Bounds| (low * second, high * second);
@@ -55,7 +49,7 @@ fn ranges(bins: &[Bin], Mains { second, hertz }: Mains) -> Vec<Bounds> {
 }
 
 /// The sine of each range that explains most of what the signal misses.
-pub fn strongest(bins: &[Bin], signal: &Signal, mains: Mains) -> Vec<Hum> {
+pub fn strongest(bins: &[Bin], signal: &Signal, hertz: Option<f64>, second: f64) -> Vec<Hum> {
     let missed = missed(bins, signal);
     let period = length(bins).recip();
     let best_in = |range: Bounds| {
@@ -73,7 +67,7 @@ pub fn strongest(bins: &[Bin], signal: &Signal, mains: Mains) -> Vec<Hum> {
         }
         Some(sine(&missed, 0.5 * (a + b), range).1)
     };
-    ranges(bins, mains).into_iter().filter_map(best_in).collect()
+    ranges(bins, hertz, second).into_iter().filter_map(best_in).collect()
 }
 
 /// What the signal misses of each bin: when, how much, and of how many samples.

@@ -105,13 +105,6 @@ pub fn charge(solution: &Solution, bins: &[Bin]) -> Vec<f64> {
     bins.iter().map(|bin| -exposure.collected(bin.middle()).amount).collect()
 }
 
-/// Does a tail explain as much as the drift and the hum do that a signal was given?
-pub fn passes_for_columns(solution: &Solution, bins: &[Bin], step: f64) -> bool {
-    let lagging = lagging(solution, bins, step);
-    let falls = lagging.and_then(|lagging| falls(solution, bins, &lagging));
-    falls.is_some_and(|(by_tail, by_columns)| by_tail >= by_columns)
-}
-
 /// What the sum of squares falls by with a pattern in place of the signal's drift and hum, and what with these; less
 /// than nothing where the pattern would have to be turned round.
 pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64, f64)> {

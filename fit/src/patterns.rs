@@ -44,7 +44,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn all() -> impl Iterator<Item = Self> {
+    pub fn all() -> impl Iterator<Item = Self> {
         let most = ((0.5 + AROUND) / (0.5 * FIFTH)).round() as i32;
         let dips = (-most..=most).map(|k| Self::Dip(0.5 * FIFTH * f64::from(k)));
         [Self::Tail, Self::Slope].into_iter().chain(dips)
@@ -122,12 +122,8 @@ impl Pattern {
     }
 }
 
-/// All patterns in what a kind's curve misses; none where there is too little dark.
-pub fn patterns(fits: &FrameFits, kind: Kind) -> Vec<Pattern> {
-    of_shapes(fits, kind, Shape::all())
-}
-
-fn of_shapes(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) -> Vec<Pattern> {
+/// Patterns of these shapes in what a kind's curve misses; none where there is too little dark.
+pub fn patterns(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) -> Vec<Pattern> {
     let Some(noise) = Noise::new(fits, kind) else { return Vec::new() };
     let (solution, bins) = (&fits.of(kind).solution, fits.bins());
     let (gain, exposure) = (solution.signal.gain, fits.exposure(kind));
@@ -170,7 +166,7 @@ fn of_shapes(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape>) 
 pub fn tail_end(fits: &FrameFits, kind: Kind) -> Option<f64> {
     let curve = fits.of(kind).solution.signal.curve;
     let end = curve.end() + TAIL_ENDS * LAG * curve.closing;
-    let tail = of_shapes(fits, kind, once(Shape::Tail)).pop()?;
+    let tail = patterns(fits, kind, once(Shape::Tail)).pop()?;
     (tail.matters() && tail.sigma > tail.shape.beyond()).then_some(end)
 }
 

@@ -17,7 +17,6 @@ pub type Controls = [f64; 4];
 /// the rest is for a scene's rounding.
 pub const BOUNDS: [(f64, f64); 4] = [(0.0, 0.96), (0.0, 1.0), (0.04, 1.0), (0.0, 1.0)];
 
-/// The straight line.
 pub const STRAIGHT: Controls = [1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
 
 /// `∫₀ᵖ` of a product of a cubic without a constant term and a cubic's slope: the coefficients of p² to p⁶.
@@ -77,7 +76,6 @@ impl UnitRamp {
         }
     }
 
-    /// When it reaches an openness.
     pub fn reaches(&self, openness: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..40 {

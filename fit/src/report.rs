@@ -31,7 +31,6 @@ pub fn text(name: &str, fit: &Fit) -> String {
     text
 }
 
-/// What was measured.
 fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
     let (times, signal) = (&fit.samples.times, &fit.best().signal);
     let step = sampling_interval(times);
@@ -116,7 +115,6 @@ fn write_results(out: &mut String, fit: &Fit) -> fmt::Result {
     writeln!(out, "             (standard errors behind ±)")
 }
 
-/// Whether the model explains the trace.
 fn judgement(fit: &Fit) -> String {
     let Test { explained, tested, sigma, share, at, .. } = fit.test;
     match (explained, tested) {

@@ -66,7 +66,7 @@ pub fn structure(fits: &FrameFits, kind: Kind) -> Structure {
         }
         length *= 2;
     }
-    for pattern in patterns(fits, kind) {
+    for pattern in patterns(fits, kind, Shape::all()) {
         found.look_at(&pattern);
     }
     let [triggers, exposure] = found.unseen_moves.map(|moves| OF_UNSEEN * moves);
