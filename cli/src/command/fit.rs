@@ -446,7 +446,7 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     let Read { path, reading, .. } = &read[fit.record];
     fit.reading = Some(reading.clone());
     let mut warnings = Vec::new();
-    read::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
+    Warning::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
     warnings.extend(fit.warnings.iter().cloned());
     Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
 }
