@@ -418,7 +418,7 @@ fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
 fn merged(old: &Old, text: &str, file: &Path) -> Result<(String, Vec<String>), String> {
     let (text, kept) = old.kept_in(text);
     Planned::parse(&text).map_err(|fault| {
-        let (file, reason) = (file.display(), fault.reason);
+        let (file, reason) = (file.display(), fault.reason());
         format!("{file}: with what it keeps, {reason}; --force replaces it all")
     })?;
     Ok((text, kept))
