@@ -219,7 +219,14 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
         let (low, high) = range(near.map(|k| values[k]));
         let outside = (values[i] - high).max(low - values[i]);
         // A step of the values more is no spike.
-        outside > (SPIKE * noise).max(1.5 * (high - low)) + least
+        if outside <= (SPIKE * noise).max(1.5 * (high - low)) + least {
+            return false;
+        }
+        // Light has noise of its own, by which neighbours differ.
+        let differ = |part: Range<usize>| part.map(|k| (values[k + 1] - values[k]).abs());
+        let (from, to) = (i.saturating_sub(14), (i + 14).min(n - 1));
+        let around = differ(from..i.saturating_sub(2)).chain(differ((i + 2).min(to)..to));
+        outside > SPIKE * median(around.collect()) / 0.954
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
