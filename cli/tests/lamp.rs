@@ -18,7 +18,7 @@ fn planned(keys: &str) -> Planned {
 
 /// The reason why a scene with these keys is refused.
 fn refused(keys: &str) -> String {
-    Planned::parse(&format!("{SCENE}{keys}")).err().unwrap_or_else(|| panic!("{keys}")).reason
+    Planned::parse(&format!("{SCENE}{keys}")).err().unwrap_or_else(|| panic!("{keys}")).reason()
 }
 
 fn report(keys: &str) -> String {
@@ -103,7 +103,7 @@ fn fully_open_spreads_flashes_over_the_plateau() {
     let slow = refused("timer_hz = 100\nset_up = 'in_path'\nfully_open = true\ntriggers = 1\n");
     assert_eq!(slow, "the frame does not fit; no number of triggers keeps that");
     let none = SCENE.replace("close_start = 6", "close_start = 2") + &keys;
-    let reason = Planned::parse(&none).err().unwrap().reason;
+    let reason = Planned::parse(&none).err().unwrap().reason();
     assert_eq!(reason, "fully_open: this shutter begins to close as soon as it is open");
 }
 
@@ -134,7 +134,7 @@ fn what_is_for_the_other_set_up_is_refused() {
     }
     let times =
         "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3]\ntimer_hz = 1000\nmin_gap = 0\n";
-    let reason = |keys: &str| Planned::parse(&format!("{times}{keys}")).err().unwrap().reason;
+    let reason = |keys: &str| Planned::parse(&format!("{times}{keys}")).err().unwrap().reason();
     assert!(reason("set_up = 'in_path'\n").contains("comes from its curve"));
     assert!(reason("fully_open = true\n").contains("this scene has none"));
     // Nobody is left with the one set-up that is offered.
@@ -224,7 +224,7 @@ fn a_scene_without_a_timer_is_reported_in_times() {
     }
     // What is refused is told in times as well.
     let close = SCENE.replace("min_gap = 0\n", "min_gap = 1.2\n") + "triggers = 5\n";
-    let reason = Planned::parse(&close).err().unwrap().reason;
+    let reason = Planned::parse(&close).err().unwrap().reason();
     assert_eq!(
         reason,
         "triggers 0 and 1 come 1.1 ms apart, and 1.2 ms is required; up to 4 triggers keep that"

@@ -414,7 +414,7 @@ fn a_timer_of_16_bits_holds_a_frame_or_gets_a_prescaler() {
     };
     assert!(shutter::times::Times::parse(&times(31768)).is_ok());
     let fault = shutter::times::Times::parse(&times(31769)).unwrap_err();
-    assert!(fault.reason.contains("ends at tick 32769,"), "{}", fault.reason);
+    assert!(fault.reason().contains("ends at tick 32769,"), "{}", fault.reason());
 }
 
 /// Ticks of a rate that is rounded, and of times that `f32` moves, are doubted in every form that has room for it.

@@ -296,7 +296,7 @@ fn what_is_wrong_with_given_times_is_refused_at_its_place() {
         ),
     ] {
         let fault = Times::parse(&text).expect_err(&reason);
-        assert_eq!(fault.reason, reason, "{text}");
+        assert_eq!(fault.reason(), reason, "{text}");
         let at = fault.at.map(|at| text[..at].matches('\n').count() + 1);
         assert_eq!(at, line, "{reason}");
     }
@@ -318,6 +318,8 @@ fn what_is_wrong_with_given_times_is_refused_at_its_place() {
 #[test]
 fn where_a_curve_is_required_such_a_scene_is_refused_by_its_name() {
     let fault = scene::parse(GOOD).err().unwrap();
-    assert!(fault.reason.starts_with("trigger_times: this scene has times as they were measured"));
+    assert!(
+        fault.reason().starts_with("trigger_times: this scene has times as they were measured")
+    );
     assert_eq!(fault.at.map(|at| &GOOD[at..at + 13]), Some("trigger_times"));
 }

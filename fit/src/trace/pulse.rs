@@ -449,7 +449,7 @@ fn frame(
     let (from, to) = window(t, &samples, crossings, 0.5);
     let usual = sampling_interval(&t[samples.clone()]);
     // Across a gap no sample stands for more than the usual time: nothing is known of the rest.
-    let owned = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
+    let owned = |step: f64| 0.5 * if step > 4.0 * usual { usual } else { step };
     let exposure = (from..to)
         .map(|i| {
             let before = t[i] - t[i.saturating_sub(1).max(samples.start)];
