@@ -1,14 +1,17 @@
 //! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time, sampled
 //! and integrated numerically.
 
-// One table needs them.
-#[allow(dead_code)]
+// Each test needs a part.
+#![allow(dead_code)]
+
 pub mod physics;
-#[allow(dead_code)]
 pub mod unseen;
 
+use std::env;
+use std::fmt::Debug;
+use std::str::FromStr;
+
 /// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
-#[allow(dead_code)]
 pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
     let half = |from: u32, to: u32| (from..to).map(&of).collect::<Vec<T>>();
     std::thread::scope(|scope| {
@@ -16,6 +19,18 @@ pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
         let second = half(n / 2, n);
         first.join().expect("its panic has been printed").into_iter().chain(second).collect()
     })
+}
+
+/// What a variable of the environment asks for.
+pub fn asked<T: FromStr<Err: Debug>>(name: &str, otherwise: T) -> T {
+    env::var(name).map_or(otherwise, |n| n.parse().expect("a whole number"))
+}
+
+/// The value below which so large a share of all lies.
+pub fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(0.0)
 }
 
 /// Random numbers: Marsaglia's xorshift, seeded.
@@ -82,7 +97,6 @@ pub enum Disturbance {
     Hum,
     Drift,
     /// 1/f noise instead.
-    #[allow(dead_code)]
     Pink,
 }
 
