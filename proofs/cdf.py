@@ -9,9 +9,9 @@ from short import *
 
 pinned("""
 cdf.rs section 1fab1d1e cdf_on_plateau df0503df cdf_on_ramp 1939d75a from_nearer_end ec452efd on_grid af670c35 gridded 664f67ff
-ramp/mod.rs at_time 08d4d20d place_of_time 0c1e7c2b place_from 4b1484c7 fraction 21c2a107
-number/pair.rs plus 557c4757 minus 631268a2 over e34c0f49
-number/units.rs fraction_per_mass f0b1684c
+ramp/mod.rs at_time 08d4d20d place_of_time 3785d857 place_from 4b1484c7 fraction 885c8d04
+number/pair.rs plus 557c4757 minus 18c7a5c1 over e34c0f49
+number/units.rs mass_exponent 8d1444af
 """)
 
 TIME_ERROR = constant("TIME_ERROR")

@@ -10,11 +10,11 @@ from solver import *
 
 pinned("""
 octave/mod.rs offset f842a0c4 polynomial dd3fe418
-octave/bound.rs COSINES b2eeaf01 FACTOR 057c7966 count 36d8dce6 ::at 17b1ec79 errors a936ad07 single 84fae9ed
-octave/certificate.rs certificate ee423de8 PerStep::new 560c35b4 bounds 999987ea are_certain 1d3ddbaa
+octave/bound.rs COSINES b2eeaf01 FACTOR 057c7966 count 36d8dce6 ::at 17b1ec79 errors c8eb60a0 single 84fae9ed
+octave/certificate.rs certificate 76a0ae5c PerStep::new 560c35b4 bounds 999987ea are_certain 1d3ddbaa
 octave/candidate.rs candidate d3eb3555
-octave/path.rs absolute 0189ce1f parameter ab66e34c stretch 047cf925 join_parameter cec05c49 size_of_time 8fec6805
-octave/span.rs Span::new f245b7f1 stretch 5d390374 offsets 5456fc37
+octave/path.rs absolute 0189ce1f parameter ab66e34c stretch 601c8212 size_of_time 8fec6805
+octave/span.rs Span::new f245b7f1 offsets 5456fc37
 exposure.rs join_fractions bec42778
 """)
 

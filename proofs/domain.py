@@ -5,7 +5,7 @@ from box import *
 pinned("""
 domain.rs check f6cb7d9f check_section b2af6dd3 check_points 843de3a2
 exposure.rs Exposure::new 3f1397a4
-inverse.rs Inverse::new b20a0b5f last_before_line e915c97a
+inverse.rs Inverse::new 182aa4cc last_before_line e915c97a
 number/units.rs mass_exponent 8d1444af time_exponent 96eb982d ramp_exponent bb4367a6 fixed_down 12e34aed fixed_towards_0 c6a6eaa3
 ramp/mod.rs openness cf44a862
 ramp/shape.rs powers 91a002ae exposure_powers 6be3a531 area 6e0daa9d

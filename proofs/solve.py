@@ -9,7 +9,7 @@ from majorant import *
 
 pinned("""
 search/mod.rs mirrored b10620d6 Taylor::new 0c068108 short_step 6d172d31 horner 827cf319 left 099b0969 solve 61dc59b9 approach d85e9680
-ramp/mod.rs place_of_part d7e002b3 place_of_time 0c1e7c2b
+ramp/mod.rs place_of_part 011c54be place_of_time 3785d857
 number/pair.rs difference c74b730c
 """)
 

@@ -1,7 +1,7 @@
 //! From a time: the openness, the pdf, and the cdf.
 //!
-//! A cdf is the part of the exposure until a *place* ([`ramp`](crate::ramp)), that of the time, counted from the nearer
-//! end of the curve, as the inverse counts. It never steps back (proofs/cdf.py): a place is off by less than a quarter
+//! A cdf is the part of the exposure up to the time's *place* ([`ramp`](crate::ramp)). Like the inverse, it counts from
+//! the nearer end of the curve. It never steps back (proofs/cdf.py): a place is off by less than a quarter
 //! of the distance to that of the next time, measuring the part there loses far less than lies between two times, and
 //! at a join the sections on both sides use the same stored shares.
 
@@ -102,9 +102,9 @@ fn cdf_on_ramp(exposure: &Exposure, ramp: Side, t: f32) -> f32 {
     })
 }
 
-/// The fraction collected since the start, where `fraction_since(side)` is that since a side's end, in [`WHOLE`]: below
-/// half that since the start, else the rest of that since the end. These are measured apart, and may differ by a trace
-/// at half.
+/// The fraction collected since the start. `fraction_since(side)` is the one since a side's end, in [`WHOLE`]. Below
+/// half the one since the start counts, else what the one since the end leaves. They are measured apart, and may differ
+/// by a trace at half: hence `max(HALF)`.
 fn from_nearer_end(fraction_since: impl Fn(Side) -> Pair) -> f32 {
     const HALF: f32 = 0.5 * WHOLE;
     let from_start = fraction_since(Start).rounded();

@@ -1,8 +1,8 @@
-//! What is accepted: the rules of [`ShutterCurve`](crate::ShutterCurve)'s list, as comparisons; differences in `f64`.
-//! The last rule is compared in [`exposure`](crate::exposure).
+//! What is accepted: the rules of [`ShutterCurve`](crate::ShutterCurve)'s list, compared in `f64`; the last one in
+//! [`exposure`](crate::exposure).
 //!
 //! By rule 2 openness is in [0, 1] all along a ramp, and time stands still only at its ends: on a ramp of length 1,
-//! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, as much mirrored at the end, and 1/22
+//! with the Bezier's parameter `p`, `t'` is at least `3 p²` up to `p = 1/8`, mirrored at the end, and at least 1/22
 //! between. By rules 2 and 3 a ramp of a shutter has at least 1/20 of the exposure that its length would have fully
 //! open (proofs/domain.py).
 

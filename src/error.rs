@@ -64,7 +64,7 @@ pub enum CurveError {
     DensityOutOfRange,
     /// The opening ramp does not end at openness 1, or the closing ramp does not begin there.
     NotFullyOpen(Part),
-    /// The interval is below 2⁻¹⁶ of the greatest |time|: it holds at most 256 times of `f32`.
+    /// The interval is below 2⁻¹⁶ of the greatest |time|: at most 256 different `f32` times lie in it.
     IntervalUnresolved,
     /// `close_end - open_start` is outside [2⁻⁶⁴, 2⁶⁴].
     IntervalOutOfRange,

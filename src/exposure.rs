@@ -14,8 +14,6 @@ use crate::number::units::{WHOLE, WHOLE_EXPONENT};
 use crate::ramp::Ramp;
 use crate::ramp::bezier::CubicBezier;
 use crate::ramp::shape::Shape;
-#[cfg(feature = "measure")]
-use crate::search::Found;
 
 /// The error of an inverse, relative to its fraction: a quarter of the least distance between neighbouring `f32`, which
 /// so keep their order.
@@ -74,13 +72,9 @@ impl Exposure {
         self.ramp(side).end_time(side.other())
     }
 
-    pub(crate) const fn has_plateau(&self) -> bool {
-        self.plateau.hi > 0.0
-    }
-
     /// The moment by which a fraction `a` has been collected. What is collected then differs from `a` by at most
-    /// `INVERSE_ERROR · a`; where a search reaches its limit of evaluations there is no bound. Of 0, and of what is
-    /// negative, it is the end itself, though no light may fall there.
+    /// `INVERSE_ERROR · a`; where a search reaches its limit of evaluations there is no bound. Of 0, a
+    /// negative number or NaN it is the end itself, though no light may fall there.
     pub(crate) const fn moment(&self, fraction: Fraction) -> Moment {
         let (side, a) = (fraction.side, fraction.get());
         if a <= 0.0 || a.is_nan() {
@@ -112,8 +106,7 @@ impl Exposure {
         match self.sought(fraction) {
             Sought::Ramp(ramp, part) if fraction.get() > 0.0 => {
                 let error = INVERSE_ERROR * (fraction.get() * WHOLE);
-                let Found { evaluations, .. } = ramp.place_of_part(fraction.side, part, error);
-                evaluations
+                ramp.place_of_part(fraction.side, part, error).evaluations
             }
             _ => 0,
         }
@@ -128,7 +121,7 @@ impl Exposure {
             let past_near = a_in_whole.minus_loose(near);
             let past_plateau = past_near.minus(self.plateau);
             if past_plateau.rounded() <= 0.0 {
-                // Or, without a plateau, exactly at the join of the ramps.
+                // On the plateau; or exactly at the join of the ramps, if there is none.
                 return Sought::Plateau(past_near);
             }
             (side.other(), past_plateau)

@@ -82,10 +82,10 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             tops: [[0; 2]; 2],
             octaves: [[Octave::NONE; OCTAVES]; 2],
         };
-        if this.exposure.has_plateau() {
-            // The line at u = 0 and at u = 1, as if the shutter opened and closed at once, with the same exposure. It
-            // is off by a few units. An ulp of the least `u` on it, 2⁻³², takes 2⁸ of them, as by the rules of `domain`
-            // its slope is at least 2⁴⁰ (proofs/domain.py).
+        if this.exposure.plateau.hi > 0.0 {
+            // The line at u = 0 and at u = 1, as if the shutter opened and closed in no time, with the same exposure.
+            // It is off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes
+            // 2⁸ units or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
             let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
             let first =
                 fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
@@ -176,8 +176,9 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     /// The section of a fraction from a side, which has these bits.
     #[inline(always)]
     const fn section(&self, side: Side, bits: u32) -> Section {
-        // On the line: line_last_bits - line_len < bits <= line_last_bits. Beyond it `until_far` has wrapped, and its
-        // bit 31 is set. What is negative or NaN is never on the line; on either ramp it has no octave.
+        // On the line: line_last_bits - line_len < bits <= line_last_bits. Greater bits make `until_far` wrap to more
+        // than line_last_bits: with bit 31 set, but for a sign bit. Negative numbers and NaN have no octave on either
+        // ramp.
         let until_far = self.line_last_bits[side as usize].wrapping_sub(bits);
         if until_far < self.line_len[side as usize] {
             let word = in_line_units(bits);
@@ -243,7 +244,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
 
     /// The time of `u` by a search. Out of line, and with `u` itself: keeping its fraction until here would cost each
     /// direct answer 6 cycles of register saves. It returns bits, not a float, so that the caller cannot tail-call it:
-    /// all answers on ramps share one return.
+    /// all answers on ramps share one return. Unlike [`Fraction::new`], this counts every NaN from the start.
     #[cold]
     #[inline(never)]
     fn searched_bits(&self, u: f32) -> u32 {
@@ -267,7 +268,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // Then up until the upper word is full. The lower word moves by 32 - up, which may be 32.
         let up = (high ^ sign).leading_zeros().wrapping_sub(1) & 31;
         let filled = high << up | (low >> 1 >> (31 - up)) as i32 | (low << up != 0) as i32;
-        // Two factors: their product may not be a normal number.
+        // Two factors: their product may not be normal. The answer is, or 0, as a unit is at least 2⁻¹²⁵.
         filled as f32 * f32::from_bits((127 - moved - up) << 23) * self.time_of_word
     }
 
@@ -292,7 +293,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         if least <= far { self.least_served(side, side, least) } else { least }
     }
 
-    /// What [`least_direct`](Self::least_direct) is with one ramp's octaves, if it is `least` without them.
+    /// [`least_direct`](Self::least_direct), down from `least` by a ramp's octaves, to the first without a polynomial.
     const fn least_served(&self, side: Side, ramp: Side, mut least: f64) -> f64 {
         let part = build::range(&self.exposure, side, ramp);
         let top = octave::top(self.tops[side as usize][ramp as usize]);

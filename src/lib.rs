@@ -1,5 +1,5 @@
-//! Computes when a camera's shutter has collected a given fraction of its exposure, so that firmware can fire a flash
-//! for each equal share. In `f32`, without `std`, allocation or dependencies.
+//! Computes when a camera's shutter has collected a given fraction of its exposure, so that firmware can fire one
+//! flash per equal share of it. In `f32`, without `std`, allocation or dependencies.
 //!
 //! A [`ShutterCurve`] is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier. The crate treats its
 //! openness over time as a probability density, and inverts the integral.
@@ -23,6 +23,8 @@
 //!
 //! # Which call
 //!
+//! A *frame* is the triggers, or the pulses, of one exposure. A *tick* is one count of your timer.
+//!
 //! | you want | call |
 //! |---|---|
 //! | a shutter from two [`CubicBezier`]s, from straight ramps, in RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
@@ -33,41 +35,42 @@
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
 //! | the ticks of a frame, every gap checked: in a constant, or at run time | [`ticks`], [`ticks_into`] |
 //! | one tick after the other, as in an interrupt handler | [`trigger_ticks`] |
-//! | how many triggers keep a gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
+//! | how many triggers fit with a minimum gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
 //! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses`], [`pulses_into`] |
 //!
 //! # From a measured shutter
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
 //! crate's repository fits the trace, and writes a module for the firmware: the ticks of a frame, the delay from the
-//! camera's sync, and the curve as a `static`. It also needs what no trace shows: set-up, edge and timer.
+//! camera's sync, and the curve as a `static`. What no trace shows you tell it: how shutter and lamp are set up, which
+//! edge of the sync counts, and the timer's rate.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
-//! shutter plan leaf.toml --emit rust --curve --to leaf.rs
+//! shutter plan leaf.toml --set-up emulated --sync-falls true --timer-hz 1MHz --emit rust --curve --to leaf.rs
 //! ```
 //!
-//! In the firmware, say `mod leaf;` and fire when the timer reads each of `leaf::due(edge)`, where `edge` is its count
-//! at the sync.
+//! In the firmware, add `mod leaf;` and fire whenever the timer reaches one of the counts in `leaf::due(edge)`, where
+//! `edge` is the timer's count at the sync.
 //!
 //! # Accuracy
 //!
 //! On every accepted curve the *backward error* is at most 0.5 ulp: a change of `u` by 0.5 ulp or less makes the answer
 //! exact, but for its rounding to an `f32`. On typical curves the time is within 0.69 ulp of the exact one. Times and
 //! ticks never step back, and every machine with IEEE arithmetic gives the same bits. The page [`accuracy`] has every
-//! promise and what holds it.
+//! promise and what backs it.
 //!
 //! # Cost
 //!
-//! A `static` curve takes 1144 bytes of flash and no time at start-up. On a Cortex-M4F an [`inverse_cdf`] takes some 60
-//! to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark at both
-//! ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 1.9 million
-//! instructions there. The README compares other methods, and says when not to use this crate.
+//! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of a Cortex-M4F, an [`inverse_cdf`]
+//! takes some 50 to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark
+//! at both ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 2.9
+//! million cycles. The README compares other methods, and says when not to use this crate.
 //!
 //! # Features and minimum Rust
 //!
-//! Both features are off by default: `heapless-v0_9` for a frame in a `heapless::Vec`, `defmt` for `Format` of the
-//! public types. The crate needs Rust 1.88; raising the minimum bumps the minor version.
+//! Off by default: `heapless-v0_9` for a frame in a `heapless::Vec`, `defmt` for `Format` of the public types. The
+//! crate needs Rust 1.88. A minor version may raise that, and change the last bits of answers within what is promised.
 //!
 //! [`new`]: ShutterCurve::new
 //! [`linear`]: ShutterCurve::linear
@@ -111,8 +114,8 @@
 // Hints to the compiler stay where they pay, on a Cortex-M4F at level 3: without any `inline(always)` a schedule takes
 // 22 % more cycles, and an inverse of a `static` 10 %; without any `inline(never)` the code is 26 % larger.
 //
-// Masks such as `i & 31`, and branches to an end that is never reached, show the compiler that an index or a shift is
-// in range, so that no panic links.
+// Masks such as `i & 31`, branches to an end that is never reached, and `wrapping_` where nothing wraps but what a
+// comment says, show the compiler that an index, a shift or a sum is in range, so that no panic links.
 mod cdf;
 mod domain;
 mod error;

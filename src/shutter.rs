@@ -11,8 +11,8 @@ use crate::trigger::iterator::{PulseTicks, TriggerTicks};
 use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
-/// A shutter: computes when it has collected a given fraction of its exposure, and when to fire flashes of equal
-/// shares.
+/// A shutter's openness over time, which answers when a given fraction of the exposure has been collected, and when to
+/// fire flashes of equal shares.
 ///
 /// Its openness over time, `0 <= f <= 1`, is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
 /// It is treated as a probability density.
@@ -21,8 +21,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
 ///    (a box), and the plateau may have none (a triangle).
-/// 2. Inner control times lie between their ramp's ends, and every openness in [0, 1]. Inner times may be out of order,
-///    but the first may pass the second by at most 15/16 of the ramp.
+/// 2. Inner control times lie between their ramp's ends, and every openness is in [0, 1]. The first inner
+///    time may be later than the second by at most 15/16 of the ramp.
 /// 3. Ramps that have length are fully open, at openness 1, where they meet the plateau or each other.
 /// 4. The interval is 2⁻⁶⁴ to 2⁶⁴ long, and at least 2⁻¹⁶ of its greatest |time|.
 /// 5. A ramp or a plateau has no length, or at least 2⁻²⁴ of the greatest |time|.
@@ -32,15 +32,12 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// Times are in seconds, or all times and rates in one other unit ([Units](crate#units)).
 ///
-/// `OCTAVES` is the number of polynomials for each half of the fractions [0, 1], 8 unless
+/// `OCTAVES` is the most polynomials for each half of the fractions [0, 1], 8 unless
 /// [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number. With 8, about one
 /// `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376 bytes, and 96 more
 /// for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the compiler's limit on
 /// evaluation.
 ///
-/// Fractions are counted from the nearer end. The first polynomial answers down to about half of a ramp's largest
-/// fraction, the next down to a quarter, and so on. Below the last, and where the curve is too difficult for a
-/// polynomial, a search answers.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) inverse: Inverse<OCTAVES>,
@@ -159,7 +156,8 @@ impl ShutterCurve {
 }
 
 impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
-    /// The shutter with these ramps, in another size: the more `OCTAVES`, the fewer answers need a search.
+    /// The shutter with these ramps and a chosen number of `OCTAVES`: more of them take more memory and leave fewer
+    /// answers to a search.
     ///
     /// ```
     /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
@@ -171,7 +169,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// The rule of [`ShutterCurve`]'s list that the ramps break.
+    /// A [`CurveError`] that names the [rule](Self) that the ramps break.
     pub const fn with_octaves(
         opening: CubicBezier,
         closing: CubicBezier,
@@ -194,19 +192,19 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.exposure.end_time(Side::Start)
     }
 
-    /// When it is fully open; see [`open_start`](Self::open_start).
+    /// When the shutter is fully open.
     #[must_use]
     pub const fn open_end(&self) -> f32 {
         self.inverse.exposure.join_time(Side::Start)
     }
 
-    /// When it starts to close; see [`open_start`](Self::open_start).
+    /// When the shutter starts to close.
     #[must_use]
     pub const fn close_start(&self) -> f32 {
         self.inverse.exposure.join_time(Side::End)
     }
 
-    /// When it is closed; see [`open_start`](Self::open_start).
+    /// When the shutter is closed.
     #[must_use]
     pub const fn close_end(&self) -> f32 {
         self.inverse.exposure.end_time(Side::End)
@@ -220,9 +218,6 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// assert_eq!([1.5, 4.5, 8.25, 9.5].map(|t| curve.openness(t)), [0.5, 1.0, 0.25, 0.0]);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
-    ///
-    /// [`open_start`]: Self::open_start
-    /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn openness(&self, t: f32) -> f32 {
         cdf::openness(&self.inverse.exposure, t)
@@ -263,26 +258,23 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// `open_start` for 0, and `close_end` for 1. It never steps back as `u` grows.
     ///
     /// On the plateau the formula is `t = open_end + A u - A₀`, where `A` is the [`exposure`](Self::exposure) and `A₀`
-    /// the opening ramp's part of it. It is not `t = A u`, unless `A₀` happens to equal `open_end`.
+    /// the opening ramp's part of it.
     ///
     /// ```
     /// # use shutter_curve::ShutterCurve;
-    /// // A ramp of 0.2 has the area 0.1, and the whole is 0.1 + 0.5 + 0.15 = 0.75. Half of that is collected at 0.475,
-    /// // not at 0.375.
+    /// // A ramp of 0.2 has the area 0.1, and the whole is 0.1 + 0.5 + 0.15 = 0.75. Half of that is collected at 0.475.
     /// let curve = ShutterCurve::linear(0.0, 0.2, 0.7, 1.0)?;
     /// assert_eq!(curve.exposure(), 0.75);
     /// assert_eq!(curve.inverse_cdf(0.5), 0.475);
     /// # Ok::<(), shutter_curve::CurveError>(())
     /// ```
-    ///
-    /// [`open_start`]: Self::open_start
-    /// [`close_end`]: Self::close_end
     #[must_use]
     pub fn inverse_cdf(&self, u: f32) -> f32 {
         self.inverse.inverse_cdf(u)
     }
 
-    /// The effective exposure time `A = ∫ f dt`: as long as a fully open shutter takes for the same light.
+    /// The effective exposure time `A = ∫ f dt`: how long a fully open shutter would take to collect
+    /// the same light.
     ///
     /// ```
     /// use shutter_curve::ShutterCurve;
@@ -322,8 +314,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// The most triggers of a frame in which none needs a search. The README has the most cycles that such a tick
-    /// takes.
+    /// How many triggers a frame may have so that each tick takes a short, bounded time: none needs a search.
+    /// `docs/internals/cost.md` has the cycles. Pulses may need one.
     ///
     /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves; one octave more gives up to about
     /// twice that. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the
@@ -349,9 +341,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         direct_triggers(&self.inverse)
     }
 
-    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer. Ticks
-    /// never step back. They count from [`open_start`](Self::open_start): add the timer's count at that moment, with
-    /// `wrapping_add`.
+    /// The `n` triggers that split the exposure evenly, each in the middle of its share, in ticks of a timer; their
+    /// gaps are not checked. Ticks never step back. They count from [`open_start`](Self::open_start): add the timer's
+    /// count at that moment, with `wrapping_add`.
     ///
     /// Their times, to within an ulp of the fractions, are
     /// `(0..n).map(|i| curve.inverse_cdf((2 * i + 1) as f32 / (2 * n) as f32))`.
@@ -383,7 +375,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 
     /// Fills `ticks` with a checked frame: the ticks of [`trigger_ticks`](Self::trigger_ticks), no two closer than
-    /// `min_gap`.
+    /// `min_gap` ticks. Where that is 0, triggers may share a tick.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
@@ -414,7 +406,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.ticks_into(ticks, min_gap)
     }
 
-    /// The frame of [`ticks_into`](Self::ticks_into) as an array. In a constant, it is checked at compile time.
+    /// The ticks of `N` triggers as an array, every gap checked to be at least `min_gap` ticks. In a constant, it is
+    /// checked at compile time.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -438,8 +431,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// The frame of [`ticks_into`](Self::ticks_into) with `n` triggers, as a `heapless::Vec`. Needs the feature
-    /// `heapless-v0_9`.
+    /// The ticks of `n` triggers in a `heapless::Vec`, every gap checked to be at least `min_gap` ticks. Needs the
+    /// feature `heapless-v0_9`.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
@@ -467,8 +460,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// How many triggers, up to `wanted`, keep a gap of `min_gap` ticks. If the answer is less than `wanted`, one more
-    /// trigger would not keep it. The answer is at least 1, unless none are wanted.
+    /// A number of triggers, up to `wanted`, that keep a gap of `min_gap` ticks; unless it is `wanted`, one more would
+    /// not keep it. The answer is at least 1, unless none are wanted.
     ///
     /// It tries frames, usually a few, each up to its first gap that is too small. For a gap of 0 it tries none.
     ///
@@ -495,7 +488,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
     /// the same dose through the shutter, `duty · A / n`. A pulse covers the part `duty` (above 0, at most 1) of its
-    /// share of the exposure, in the middle: from `F⁻¹((i + 1/2 - duty/2) / n)` to `F⁻¹((i + 1/2 + duty/2) / n)`.
+    /// share of the exposure, in the middle: from the time of the fraction `(i + 1/2 - duty/2) / n` to that of
+    /// `(i + 1/2 + duty/2) / n`.
     ///
     /// Pulses are in order, never overlap, and none has a negative length; at a duty of 1 they touch. A pulse shorter
     /// than a tick may go on and off at the same tick. Ticks are counted and rounded as in
@@ -555,7 +549,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         frame.pulses_into(pulses, limits)
     }
 
-    /// The frame of [`pulses_into`](Self::pulses_into) as an array. In a constant, it is checked at compile time.
+    /// `N` pulses as an array, each pulse and gap checked against `limits`. In a constant, it is checked at compile
+    /// time.
     ///
     /// ```
     /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, valid};
@@ -596,7 +591,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     }
 }
 
-/// The curve of a constructor, or a panic with the reason: in a `const` or `static`, a compile error.
+/// Unwraps a constructor's result, so that an invalid curve in a `const` or `static` is a compile error.
 ///
 /// ```
 /// use shutter_curve::{valid, ShutterCurve};
@@ -604,7 +599,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 /// assert_eq!(CURVE.exposure(), 0.75);
 /// ```
 ///
-/// ```compile_fail
+/// ```compile_fail,E0080
 /// use shutter_curve::{valid, ShutterCurve};
 /// // error[E0080]: evaluation panicked: times out of order: ...
 /// static CURVE: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.75, 0.25, 1.0));
@@ -612,6 +607,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 ///
 /// # Panics
 /// If `curve` is an error; meant for constants, where that stops the build.
+#[must_use]
 #[track_caller]
 pub const fn valid<const OCTAVES: usize>(
     curve: Result<ShutterCurve<OCTAVES>, CurveError>,

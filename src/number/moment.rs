@@ -14,7 +14,7 @@ pub(crate) const fn rounded_sum(base: f32, way: Pair, exponent: i32, back: bool)
     let scale = if back { -scale } else { scale };
     let way = way.scaled(up);
     let (hi, lo) = (way.hi * scale, way.lo * scale);
-    // Below 2⁻⁷⁸, `lo` and what `hi` loses may be subnormal.
+    // Below 2⁻⁷⁸, `lo` and what the sum loses may be subnormal.
     if base.abs() + hi.abs() < power_of_two(-78) {
         return rounded_small_sum(base, way, scale);
     }

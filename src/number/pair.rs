@@ -2,9 +2,9 @@
 //!
 //! Every machine computes the same bits: plain sums and products, none fused, and what each loses (Knuth 1969, Dekker
 //! 1971). Functions that round state their error for operands whose `lo` is at most half an ulp of `hi`;
-//! `proofs/pairs.py` proves it, and more for a greater `lo`. Answers of `sum`, `plus`, `minus` and `from_f64` have such
-//! a `lo`; that of `minus_loose` may exceed `hi`; other ones are a few ulp. Nothing may overflow or become subnormal:
-//! callers scale by powers of two.
+//! `proofs/pairs.py` proves it, and what holds for a greater `lo`. Answers of `sum`, `plus`, `minus` and `from_f64`
+//! have such a `lo`; that of `minus_loose` may exceed `hi`; other ones are a few ulp. Nothing may overflow or become
+//! subnormal: callers scale by powers of two.
 
 use crate::number::units::power_of_two;
 
@@ -52,7 +52,7 @@ impl Pair {
     // proofs/pairs.py: minus
     #[inline(always)]
     pub(crate) const fn minus(self, other: Self) -> Self {
-        self.plus(other.negated())
+        self.plus(other.scaled(-1.0))
     }
 
     /// `self - other`, as exact as [`minus`](Self::minus); `lo` may exceed `hi` where the two nearly cancel.
@@ -62,22 +62,18 @@ impl Pair {
         Self { hi, lo: lo + (self.lo - other.lo) }
     }
 
-    /// `self - other` in single precision: one rounding and 2⁻⁴⁸ of the greater one, if within a factor of two.
+    /// `self - other` in single precision, with its sign; within a factor of two, to one rounding and 2⁻⁴⁸ of the
+    /// greater.
     #[inline(always)]
     pub(crate) const fn difference(self, other: Self) -> f32 {
         (self.hi - other.hi) + (self.lo - other.lo)
     }
 
-    /// `3 self`; `lo` is rounded once.
+    /// `3 self`; `lo` is rounded twice.
     #[inline(always)]
     pub(crate) const fn thrice(self) -> Self {
         let Self { hi, lo } = Self::sum(self.hi, 2.0 * self.hi);
         Self { hi, lo: lo + 3.0 * self.lo }
-    }
-
-    #[inline(always)]
-    pub(crate) const fn negated(self) -> Self {
-        Self { hi: -self.hi, lo: -self.lo }
     }
 
     /// `-self` if `sign` is the sign bit, `self` if it is 0.

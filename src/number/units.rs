@@ -5,7 +5,7 @@
 //! |---|---|---|---|
 //! | a place along a ramp | one of its ends | [`LAST_PLACE`], 2³⁰, at the other | `f32`, pair |
 //! | a fraction of the exposure, *in [`WHOLE`]* | either end of the curve | 2¹⁰⁴ | pair |
-//! | a mass, the fraction collected on one ramp | one of its ends | 2⁸⁰ to 2⁸¹, by [`mass_per_fraction`] | pair |
+//! | a mass, the fraction collected on one ramp | one of its ends | 2⁸⁰ to 2⁸¹, by [`mass_exponent`] | pair |
 //! | a time on a ramp | one of its ends | 2⁶⁴ to 2⁶⁵, by [`ramp_exponent`] | pair |
 //! | a time on the curve, *in units* | time 0 | ±2⁶², by [`time_exponent`] | `i64` |
 
@@ -33,19 +33,10 @@ pub(crate) const LEAST_TOP: u32 = (1.0 / (1 << 28) as f32).to_bits();
 /// The bits of tops are multiples of this, an eighth of a power of two, so that each top fits a `u8`.
 pub(crate) const EIGHTH: u32 = 1 << 20;
 
-/// The factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰ to 2⁸¹ of mass,
-/// so that all coefficients keep their bits. A ramp without length has no mass, and any factor will do.
-pub(crate) const fn mass_per_fraction(share: f32) -> f32 {
-    power_of_two(mass_exponent(share))
-}
-
-/// `1 / mass_per_fraction(share)`
-pub(crate) const fn fraction_per_mass(share: f32) -> f32 {
-    power_of_two(-mass_exponent(share))
-}
-
-/// The exponent of [`mass_per_fraction`]. A share is 0, or at least 2⁻³⁰ of [`WHOLE`] (proofs/domain.py).
-const fn mass_exponent(share: f32) -> i32 {
+/// The exponent of the factor from [`WHOLE`] to the unit of mass of a ramp with this share, in WHOLE. The ramp has 2⁸⁰
+/// to 2⁸¹ of mass, so that all coefficients keep their bits. A share is at least 2⁻³⁰ of WHOLE (proofs/domain.py); or 0
+/// on a ramp without length, which has no mass, so that any factor will do.
+pub(crate) const fn mass_exponent(share: f32) -> i32 {
     let exponent = exponent(share);
     if exponent < 0 { 0 } else { 80 - exponent }
 }

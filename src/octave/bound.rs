@@ -42,30 +42,15 @@ const SLACK: f32 = 1.0 + 1.0 / (1 << 16) as f32;
 pub(crate) const KINDS: usize = 2;
 
 /// A sample's position counts 2⁻²⁰ of a position, its time 2⁻²⁴ of a step.
-const POSITION_BITS: i32 = 20;
-const TIME_BITS: i32 = 24;
+pub(crate) const POSITION_BITS: i32 = 20;
+pub(crate) const TIME_BITS: i32 = 24;
 /// What a sample's time loses at most, by three products and four numbers that are cut (`proofs/certificate.py`).
 pub(crate) const SAMPLE_OFF: f32 = 7.0 / (1 << TIME_BITS) as f32;
 
-/// A stretch in integers, which take a tenth of the time where doubles are emulated.
-pub(crate) struct Sampled {
-    position: [i64; 7],
-    time: [i64; 4],
-}
-
-impl Sampled {
-    /// Of a stretch. None for a NaN, and for numbers greater than those of any served stretch.
-    pub(crate) const fn new(position: &[f64; 7], time_steps: &[f64; 4]) -> Option<Self> {
-        let (mut sampled, mut time) = ([0; 7], [0; 4]);
-        let is_sampled =
-            count(position, POSITION_BITS, &mut sampled) & count(time_steps, TIME_BITS, &mut time);
-        if is_sampled { Some(Self { position: sampled, time }) } else { None }
-    }
-}
-
-/// Counts coefficients in units of `2^-bits`. Are all below 2⁶⁰ units, so that no value on the stretch is beyond 2⁶³?
+/// Counts coefficients in units of `2^-bits`: where doubles are emulated, integers take a tenth of their time. Are all
+/// below 2⁶⁰ units, so that no value on the stretch is beyond 2⁶³? A NaN is not.
 #[inline(never)]
-const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
+pub(crate) const fn count(c: &[f64], bits: i32, counted: &mut [i64]) -> bool {
     let (mut are_counted, mut k) = (true, 0);
     while k < c.len() && k < counted.len() {
         counted[k] = fixed_towards_0(c[k], -bits);
@@ -90,11 +75,13 @@ pub(crate) const fn at(c: &[i64], s: i32) -> i64 {
 }
 
 /// A lower and an upper bound of the greatest error of each kind along a stretch, by every `stride`-th point: of the
-/// error in time in steps, of that in exposure over its limit. Samples are off by at most `noise` steps.
+/// error in time in steps, of that in exposure over its limit. `position` and `time` are counted. Samples are off by at
+/// most `noise` steps.
 #[inline(never)]
 pub(crate) const fn errors(
     octave: &Octave,
-    along: &Sampled,
+    position: &[i64; 7],
+    time: &[i64; 4],
     weights: &[[f32; 4]; KINDS],
     noise: f32,
     stride: usize,
@@ -106,9 +93,9 @@ pub(crate) const fn errors(
         loop {
             // The nearest position; it wraps.
             let half = 1 << (POSITION_BITS - 1);
-            let position = ((at(&along.position, s) + half) >> POSITION_BITS) as i32;
-            let value = octave.polynomial(octave.offset(position));
-            let error = (((value as i64) << TIME_BITS) - at(&along.time, s)).unsigned_abs();
+            let nearest = ((at(position, s) + half) >> POSITION_BITS) as i32;
+            let value = octave.polynomial(octave.offset(nearest));
+            let error = (((value as i64) << TIME_BITS) - at(time, s)).unsigned_abs();
             // By words: converting a `u64` is a slow call on a small processor.
             let error = (error >> 32) as u32 as f32 * WORD + error as u32 as f32;
             let error = error / (1 << TIME_BITS) as f32;

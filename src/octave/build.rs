@@ -20,8 +20,8 @@ pub(crate) const fn range(exposure: &Exposure, side: Side, ramp: Side) -> [f64; 
     if !ramp.is(side) {
         return [far, 0.5];
     }
-    // The line begins above FINE. If the near ramp's join is below that, what is between them is on the plateau. But
-    // the look-up takes all that is neither on the line nor on the far ramp for the near ramp. So that gets no octaves.
+    // The line begins above FINE. What lies between a join below that and FINE is on the plateau, but neither on the
+    // line nor on the far ramp: the look-up takes it for the near ramp, which therefore gets no octaves.
     let would_take_plateau = near < far && near < FINE as f64;
     let to = if near < 0.5 { near } else { 0.5 };
     [0.0, if would_take_plateau { 0.0 } else { to }]
@@ -45,8 +45,8 @@ pub(crate) const fn build(
         let (top, count) = on_ramp(&View { exposure, shapes, side, ramp, unit_exponent }, rest);
         // This fits a byte: a stored top is below 8 = 2³, so less than 31 · 8 = 248 eighths above LEAST_TOP = 2⁻²⁸.
         // - A first top is below 1. The near ramp's is stored times 2ⁿ, if the far ramp has n octaves.
-        // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above the near ramp's join and
-        //   above LEAST_TOP / 2.
+        // - Let n be at least 1. The far ramp's last top, its first one times 2 / 2ⁿ, is above both joins and above
+        //   LEAST_TOP / 2.
         // - Let j be the near ramp's join, or the far ramp's if the near one has no octaves. The near ramp's first top
         //   is below 2 j or 2 LEAST_TOP. So it is below 4 times the far ramp's last top, and times 2ⁿ below 8 times its
         //   first one.
@@ -113,7 +113,7 @@ const fn try_top(
 /// The octave of a span, without a polynomial if the candidate has no certificate.
 #[inline(never)]
 const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
-    let stretch = span.stretch(path, view.join_parameter());
+    let stretch = path.stretch(span, view.ramp.is(view.side));
     let Some(candidate) = candidate(view, span, &stretch) else { return Octave::NONE };
     let errors = certificate(view, &candidate, span, &stretch);
     if errors.are_certain() { candidate.octave } else { Octave::NONE }
@@ -123,8 +123,8 @@ const fn certified(view: &View, path: &Path, span: &Span) -> Octave {
 /// more.
 #[inline(never)]
 const fn top_beyond([from, to]: [f64; 2], eighths: u32) -> u32 {
-    // At or above the range's end. `inverse_cdf` takes the ramp from the join as counted from the start, even for an
-    // `a` from the end; the two are rounded apart, so an `a` just beyond this end may be looked up here.
+    // Rounded up, so that an `a` at the range's end is found. One just beyond may be looked up here, too: for an `a`
+    // from the end `inverse_cdf` takes the ramp from the join as counted from the start, and the two are rounded apart.
     let end = floor_bits(to);
     let end = if (f32::from_bits(end) as f64) < to { end + 1 } else { end };
     let least = if end > LEAST_TOP { end.div_ceil(EIGHTH) * EIGHTH } else { LEAST_TOP };

@@ -4,7 +4,9 @@
 //! over the area, the error in exposure. With what rounding adds, both are held against their limits.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{FIRST_STRIDE, KINDS, SAMPLE_OFF, Sampled, errors};
+use crate::octave::bound::{
+    FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors,
+};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Stretch, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -74,15 +76,18 @@ pub(crate) const fn certificate(
     if (x0 + x2 + x4 + x6).abs() + (x1 + x3 + x5).abs() >= MOST_OFFSET {
         return ErrorOverLimit::REFUSED;
     }
-    let Some(sampled) = Sampled::new(&stretch.position, &time_steps) else {
+    let (mut position, mut time) = ([0; 7], [0; 4]);
+    if !(count(&stretch.position, POSITION_BITS, &mut position)
+        & count(&time_steps, TIME_BITS, &mut time))
+    {
         return ErrorOverLimit::REFUSED;
-    };
+    }
     // Rounding counts twice: a sample has its own, and so has the answer, in `bounds`. A sample's position is rounded
     // by 1/2 and a trace.
     let noise = per_step.rounding_steps + 0.5002 * slope_bound_steps * per_position as f32;
     let mut stride = FIRST_STRIDE;
     loop {
-        let (least, most) = errors(octave, &sampled, &weights, noise, stride);
+        let (least, most) = errors(octave, &position, &time, &weights, noise, stride);
         let bounds = per_step.bounds(most);
         // More samples cannot help where those seen are too wrong.
         if bounds.are_certain() || stride == 1 || !per_step.bounds(least).are_certain() {
@@ -157,9 +162,8 @@ impl PerStep {
         let slowest = slowest - most / (1 << 20) as f32;
         // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a
         // parabola that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or
-        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch: the
-        // part up to its end would take two ulp of exposure ([`Span::half`]), and it is bounded by less than half of
-        // one here.
+        // `way` is the whole stretch, 2. From the exact time to the polynomial's, `s` does not leave the stretch: up
+        // to its end there are two ulp of exposure ([`Span::half`]), and an accepted bound is below half of one.
         let mut way = error / most;
         while way < 2.0 && way * slowest < error && way * way * way * t3 < 4.0 * error {
             way *= 2.0;

@@ -6,6 +6,7 @@
 use crate::exposure::Exposure;
 use crate::fraction::Side;
 use crate::number::units::WORD;
+use crate::octave::span::Span;
 use crate::ramp::shape::Shape;
 
 /// [`root`] ends with a step below this share of `x`, about as close as an `f32` comes, or after [`MOST_ROUNDS`].
@@ -43,11 +44,6 @@ impl View<'_> {
         scale(&mut fraction, 1.0 / exposure.area, 1.0);
         fraction[0] = u0;
         Path { openness: shape.openness_powers(), time: [t0, t1, t2, t3], fraction }
-    }
-
-    /// The ramp's `p` at its join: 1 on the near ramp; 0 on the far one, whose join faces the side.
-    pub(crate) const fn join_parameter(&self) -> f64 {
-        if self.ramp.is(self.side) { 1.0 } else { 0.0 }
     }
 
     /// What an error in time is relative to, at a time since the side's end: the time itself, or the farther end's if
@@ -113,17 +109,12 @@ impl Path {
         }
     }
 
-    /// The stretch that has all fractions from `from` to `to`, in an octave with this power. `join_parameter` is that
-    /// of the ramp's join, 0 or 1.
+    /// The stretch that has all fractions of a span. Its last `p` may be the ramp's join, or else its first.
     #[inline(never)]
-    pub(crate) const fn stretch(
-        &self,
-        from: f64,
-        to: f64,
-        power: f32,
-        join_parameter: f64,
-    ) -> Stretch {
-        let (first, last) = (self.parameter(from, false), self.parameter(to, true));
+    pub(crate) const fn stretch(&self, span: &Span, joins_last: bool) -> Stretch {
+        let Span { middle, half, power, .. } = *span;
+        let first = self.parameter((middle - half) as f64, false);
+        let last = self.parameter((middle + half) as f64, true);
         let (middle, half) = (0.5 * (first + last), 0.5 * (last - first));
         let Self { mut openness, mut time, fraction: mut position } = *self;
         recentred(&mut openness, middle, half);
@@ -135,7 +126,7 @@ impl Path {
             openness,
             time,
             position,
-            is_joined: first == join_parameter || last == join_parameter,
+            is_joined: if joins_last { last == 1.0 } else { first == 0.0 },
         }
     }
 }

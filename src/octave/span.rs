@@ -2,12 +2,11 @@
 
 use crate::number::units::{LEAST_TOP, WORD, exponent, fixed_down, power_of_two};
 use crate::octave::SHIFT_MASK;
-use crate::octave::path::{Path, Stretch};
 
 /// [`Span::new`] halves `width` while `half <= FILLED * width`: so it ends with `half <= 0.48 width`. If it halves
 /// nothing, `half` is at most a quarter of the top, which is at most 15/8 of the power. A word of offsets ends at 0.5
 /// width. Of the 0.02 between, the center's error takes 0.009: `middle` is rounded by 2⁸ positions, the shift takes the
-/// place of 31, and each is at most 2¹⁷ offsets.
+/// place of 31, and a position is at most 2¹⁷ offsets.
 // proofs/octaves.py
 const FILLED: f32 = 0.24;
 const MOST_SHIFT: u32 = 17;
@@ -54,12 +53,6 @@ impl Span {
     pub(crate) const fn center(&self) -> i64 {
         fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64)
             | self.shift as i64
-    }
-
-    /// The stretch of a ramp that has all of these fractions. `join_parameter` is the `p` of the ramp's join.
-    pub(crate) const fn stretch(&self, path: &Path, join_parameter: f64) -> Stretch {
-        let Self { middle, half, power, .. } = *self;
-        path.stretch((middle - half) as f64, (middle + half) as f64, power, join_parameter)
     }
 
     /// `(center, per_position)`: the offset, in widths, is `(position - center) per_position`.

@@ -107,7 +107,7 @@ impl CubicBezier {
 }
 
 /// The time at a `fraction` of the interval from `start` to `end`; or its ramp's end, if that is passed by no more than
-/// rounding explains. Fraction, interval and ramp are each rounded by 2⁻²⁴ at most.
+/// rounding explains. Fraction, interval and ramp are each rounded by at most 2⁻²⁴ of `|start| + |end|`.
 const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32 {
     let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
     // From the nearer end, so that 0 and 1 are exact.

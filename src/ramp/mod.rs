@@ -12,15 +12,14 @@ use crate::number::moment::Moment;
 use crate::number::pair::Pair;
 use crate::number::series::Series;
 use crate::number::units::{
-    LAST_PLACE, WHOLE, exponent, fraction_per_mass, mass_per_fraction, power_of_two,
-    power_of_two_f64, ramp_exponent,
+    LAST_PLACE, WHOLE, exponent, mass_exponent, power_of_two, power_of_two_f64, ramp_exponent,
 };
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
-/// The error of a place, as a share of the time `d` from the ramp's nearer end: at most a quarter of the distance
-/// between neighbouring times, which so keep their order. Where the curve does not cross time 0, `d <= |t|`, so
-/// neighbours of `t` are at least 2⁻²⁴ `d` away. Else times are on a grid, at least 2⁻²⁶ `d` apart
+/// The error of a place, in time, as a share of the time `d` from the ramp's nearer end: at most a quarter of the
+/// distance between neighbouring times, which so keep their order. Where the curve does not cross time 0, `d <= |t|`,
+/// so neighbours of `t` are at least 2⁻²⁴ `d` away. Else times are on a grid, at least 2⁻²⁶ `d` apart
 /// ([`cdf`](crate::cdf)).
 const TIME_ERROR: f32 = 1.0 / (1 << 28) as f32;
 
@@ -59,7 +58,7 @@ impl Ramp {
     pub(crate) const fn new([start, end]: [f32; 2], shape: &Shape, area: f64) -> Self {
         let share = Pair::from_f64(shape.area() / area * WHOLE as f64);
         let ramp_units_per_time = power_of_two_f64(-ramp_exponent(start, end));
-        let mass_per_area = mass_per_fraction(share.hi) as f64 * WHOLE as f64 / area;
+        let mass_per_area = power_of_two_f64(mass_exponent(share.hi)) * WHOLE as f64 / area;
         let first = RampEnd { at: start, time_c: [Pair::ZERO; 2], mass_c: [Pair::ZERO; 5] };
         let mut ramp = Self {
             ends: [first, RampEnd { at: end, ..first }],
@@ -122,13 +121,13 @@ impl Ramp {
     /// error are fractions in [`WHOLE`]. The search starts from the end whose mass is nearer.
     #[inline(always)]
     pub(crate) const fn place_of_part(&self, side: Side, part: Pair, error: f32) -> Found {
-        let per_fraction = mass_per_fraction(self.share.hi);
+        let per_fraction = power_of_two(mass_exponent(self.share.hi));
         let mass = part.scaled(per_fraction);
-        let rest = -mass.minus_loose(self.share.scaled(per_fraction)).rounded();
+        let rest = self.share.scaled(per_fraction).minus_loose(mass).rounded();
         let anchor = if mass.hi <= rest {
-            Anchor::same_end(self.mass_in_single(side), mass.hi)
+            Anchor { place: 0.0, c: self.mass_in_single(side), sought: mass.hi }
         } else {
-            Anchor::other_end(self.mass_in_single(side.other()), rest)
+            Anchor { place: LAST_PLACE, c: self.mass_in_single(side.other()), sought: rest }
         };
         solve(self.mass_since(side), mass, &anchor, error * per_fraction)
     }
@@ -161,12 +160,12 @@ impl Ramp {
     const fn place_of_time(&self, side: Side, target: Pair) -> Pair {
         let series = self.time_since(side);
         let c = [series.c[0].hi, series.c[1].hi, series.last.hi];
-        // Next to the end time is `c[0] place`. `+ 1.0` is for a time below LEAST_PLACE of the ramp's units, which
-        // counts where `c[0]` is 0 or small.
+        // Next to the end time is `c[0] place`. Where `c[0]` is small, `+ 1.0` has a time below LEAST_PLACE units count
+        // as the end, too.
         if target.hi < LEAST_PLACE * (c[0] + 1.0) {
             return Pair::ZERO;
         }
-        let anchor = Anchor::same_end(c, target.hi);
+        let anchor = Anchor { place: 0.0, c, sought: target.hi };
         solve(series, target, &anchor, TIME_ERROR * target.hi).place
     }
 }
@@ -195,7 +194,7 @@ impl RampPoint<'_> {
     #[inline(always)]
     pub(crate) const fn fraction(&self, side: Side) -> Pair {
         let mass = self.ramp.mass_since(side).at_pair(self.place_from(side));
-        mass.scaled(fraction_per_mass(self.ramp.share.hi))
+        mass.scaled(power_of_two(-mass_exponent(self.ramp.share.hi)))
     }
 
     /// The openness `f 2^exponent`, as `(f, exponent)`.
@@ -205,7 +204,7 @@ impl RampPoint<'_> {
         let f = if self.side.is_end() { [f3, f2, f1, f0] } else { [f0, f1, f2, f3] };
         // The greatest f becomes 2⁶⁰ to 2⁶¹, so that each `lo` is normal where it counts. By rules 3 and 6 it was 2⁻²¹
         // or more, so `up` is at most 81. (Next to an end the place may become subnormal: what that loses is far below
-        // 2⁻³⁸.)
+        // the error of an openness, 2⁻³⁸ of the greatest.)
         let up = 60 - f.iter().fold(-127, |most, f| exponent(*f).max(most));
         let f = f.map(|f| f * power_of_two(up));
         let d = [Pair::sum(f[1], -f[0]), Pair::sum(f[2], -f[1]), Pair::sum(f[3], -f[2])];

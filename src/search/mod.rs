@@ -51,26 +51,14 @@ const MOVED: f32 = 1.0 / (1 << 16) as f32;
 /// Where a search starts: an end of the ramp, and the series from there.
 pub(crate) struct Anchor<const N: usize> {
     /// 0, or [`LAST_PLACE`] at the other end than that from which the pairs count: from there distances count back.
-    place: f32,
+    pub(crate) place: f32,
     /// The series by powers of the distance from here.
-    c: [f32; N],
+    pub(crate) c: [f32; N],
     /// What it has to reach, at least 0.
-    sought: f32,
+    pub(crate) sought: f32,
 }
 
 impl<const N: usize> Anchor<N> {
-    /// The end from which the pairs count.
-    #[inline(always)]
-    pub(crate) const fn same_end(c: [f32; N], sought: f32) -> Self {
-        Self { place: 0.0, c, sought }
-    }
-
-    /// The other end.
-    #[inline(always)]
-    pub(crate) const fn other_end(c: [f32; N], sought: f32) -> Self {
-        Self { place: LAST_PLACE, c, sought }
-    }
-
     /// The distance of a place from here, and the place at a distance.
     #[inline(always)]
     const fn mirrored(&self, x: f32) -> f32 {

@@ -10,29 +10,24 @@ use crate::trigger::ticks::Ticks;
 /// [`ShutterCurve::trigger_ticks`](crate::ShutterCurve::trigger_ticks). It runs from either end, and skips to any
 /// trigger at once.
 ///
-/// If the curve is a `static`, the iterator can live in a `static` too, from which an interrupt handler takes one tick
-/// at a time:
+/// If the curve is a `static`, the iterator is `'static` too, and the state of an interrupt handler can hold it:
 ///
 /// ```
 /// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
-/// use std::sync::Mutex;
 ///
 /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 /// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
-/// static FRAME: Mutex<Option<TriggerTicks<'static>>> = Mutex::new(None);
 ///
-/// fn begin() -> Result<(), ScheduleError> {
-///     *FRAME.lock().unwrap() = Some(SHUTTER.trigger_ticks(16, 1_000_000)?);
-///     Ok(())
+/// fn begin() -> Result<TriggerTicks<'static>, ScheduleError> {
+///     SHUTTER.trigger_ticks(16, 1_000_000)
 /// }
 ///
-/// fn on_interrupt(base: u32, set_compare: impl Fn(u32)) {
-///     if let Some(tick) = FRAME.lock().unwrap().as_mut().and_then(Iterator::next) {
+/// fn on_interrupt(frame: &mut TriggerTicks<'static>, base: u32, set_compare: impl Fn(u32)) {
+///     if let Some(tick) = frame.next() {
 ///         set_compare(base.wrapping_add(tick));
 ///     }
 /// }
-/// # begin()?;
-/// # on_interrupt(5, |tick| assert_eq!(tick, 5 + 1083));
+/// # on_interrupt(&mut begin()?, 5, |tick| assert_eq!(tick, 5 + 1083));
 /// # Ok::<(), ScheduleError>(())
 /// ```
 #[derive(Clone)]
@@ -68,14 +63,12 @@ macro_rules! iterate {
             // Inlined into the caller's loop: most programs have only one, so the code is there once.
             #[inline(always)]
             fn next(&mut self) -> Option<$item> {
-                let i = self.left.next()?;
-                Some(self.frame.at(i))
+                self.left.next().map(|i| self.frame.at(i))
             }
 
             #[inline]
             fn nth(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth(n)?;
-                Some(self.frame.at(i))
+                self.left.nth(n).map(|i| self.frame.at(i))
             }
 
             #[inline]
@@ -87,14 +80,12 @@ macro_rules! iterate {
         impl<const OCTAVES: usize> DoubleEndedIterator for $name<'_, OCTAVES> {
             #[inline]
             fn next_back(&mut self) -> Option<$item> {
-                let i = self.left.next_back()?;
-                Some(self.frame.at(i))
+                self.left.next_back().map(|i| self.frame.at(i))
             }
 
             #[inline]
             fn nth_back(&mut self, n: usize) -> Option<$item> {
-                let i = self.left.nth_back(n)?;
-                Some(self.frame.at(i))
+                self.left.nth_back(n).map(|i| self.frame.at(i))
             }
         }
 

@@ -5,8 +5,8 @@ use crate::fraction::{Fraction, Side};
 use crate::inverse::Inverse;
 use crate::number::units::DOUBLE_WORD;
 
-/// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that it tells before from
-/// after.
+/// An interval has at most 2^`TICK_BITS` ticks: half of what a timer of 32 bits counts, so that the timer tells before
+/// from after.
 const TICK_BITS: i32 = 31;
 /// The most triggers in a frame: so `2i + 1` and `2n` are whole numbers of 24 bits, exact as `f32`.
 pub(crate) const MOST_TRIGGERS: u32 = 1 << 22;
@@ -170,7 +170,7 @@ impl TickScale {
     pub(crate) const fn new(start_units: i64, length: u64, timer_hz: u32, exponent: i32) -> Self {
         // An interval has 2⁴⁵ units at least (`domain::LEAST_INTERVAL`), and 2⁶² at most.
         let up = length.leading_zeros().wrapping_sub(1) & 31;
-        // One bit is not worth a shift of 64, which takes several instructions: most curves need none.
+        // One bit is not worth a 64-bit shift, which takes several instructions: most curves need none.
         let up = if up > 1 { up } else { 0 };
         let zeros = timer_hz.leading_zeros() & 31;
         // Half ticks are delay · rate · 2^(exponent + 1), and the product is delay · rate · 2^(up + zeros - 32). All of
@@ -185,9 +185,9 @@ impl TickScale {
     // proofs/ticks.py: tick
     #[inline(always)]
     pub(crate) const fn tick(&self, time_units: i64) -> u32 {
-        // No time is outside the interval: there a polynomial would err by all of `u`, or of `1 - u`, and its
-        // certificate allows half an ulp; the line begins after the start, is rounded down, and ends at the curve's end
-        // at most; and a search stops at `Moment::until`.
+        // No time is outside the interval, so nothing wraps. A polynomial there would err by all of `u`, or of `1 - u`,
+        // and its certificate allows half an ulp; the line begins after the start, is rounded down, and ends at the
+        // curve's end at most; a search stops at `Moment::until`.
         let delay = time_units.wrapping_sub(self.start_units) as u64;
         let delay = if self.up > 1 { delay << (self.up & 31) } else { delay };
         let (high, low) = (delay >> 32, delay & 0xFFFF_FFFF);

@@ -72,7 +72,7 @@ impl Truth {
 impl View<'_> {
     /// What was built of a span: the polynomial, and the stretch that it is held against.
     fn built(&self, span: &Span, path: &Path) -> (Candidate, Stretch) {
-        let stretch = span.stretch(path, self.join_parameter());
+        let stretch = path.stretch(span, self.ramp.is(self.side));
         (candidate(self, span, &stretch).expect("it was built"), stretch)
     }
 

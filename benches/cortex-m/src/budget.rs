@@ -1,5 +1,4 @@
-//! The budgets that CI asserts; counts repeat exactly with the same compiler. Those in cycles were scaled once, when the model was
-//! changed, by what it then made of the same code: see docs/internals/tried.md.
+//! The budgets that CI asserts; counts repeat exactly with the same compiler.
 
 use measured::{CURVE_BYTES, DEFAULT, Function, Inputs, ROWS};
 

@@ -8,7 +8,7 @@
 //! fetch: <https://compendium.i-0.nl/docs/instruction-alignment/rules> has one cycle for three or more such instructions
 //! in a row; that it is one for every three is what longer programs show. Flash and RAM answer without wait states.
 //!
-//! `docs/internals/tried.md` says how this compares with cycles that others have published.
+//! `docs/internals/tried.md` holds this against cycles that others have measured.
 
 use crate::disassembly::{Instruction, registers};
 

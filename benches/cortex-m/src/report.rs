@@ -1,11 +1,11 @@
 //! The whole report, as Markdown, in `docs/internals/cost.md`; and what most readers want, which it begins with.
 
 use measured::baseline::{self, InverseTable, StraightRamps, TextbookNewton};
-use measured::{CURVE_BYTES, DEFAULT, Function, OCTAVES, ROWS, TRAPEZOID, TRIGGERS, TYPICAL};
+use measured::{CURVE_BYTES, DEFAULT, Function, OCTAVES, ROWS, TRAPEZOID, TRIGGERS};
 
 use crate::Result;
 use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
-use crate::measure::{Measured, On, Ran, series};
+use crate::measure::{Measured, On, series};
 
 use Function::{
     Cdf, Construct, InverseCdf, NearerEnd, Newton, Openness, Schedule, SqrtFpu, SqrtLibm,
@@ -17,13 +17,11 @@ const METHOD: &str = "## How it is measured
 A call's figures are from its first instruction to its return, over 512 uniform `u` (or times), with all but the call itself inlined.
 
 *Instructions* are counted in QEMU and exact: of a Cortex-M33 and a riscv32imafc with an FPU, of a Cortex-M0+ and a riscv32imc in soft
-float. *Cycles* are modelled (`benches/cortex-m/src/model.rs`) after the Cortex-M4's Technical Reference Manual and what boards show of
-branches and the fetch. Take them to be within 10 % at zero wait states, probably 1 to 4 % low; two wait states without a cache cost
-up to 1.4 times as much. [tried.md](tried.md) says how the model was chosen and held against boards.
+float. *Cycles* are modelled. Take them to be within 10 % at zero wait states, probably 1 to 4 % low ([how the model was
+chosen](tried.md#the-model-of-cycles)); two wait states without a cache cost up to 1.4 times as much.
 
-*Worst* is over the hard curves and cases of the tests, each with some 870 hard inputs: ends of sections, powers of two, and those of
-20 000 that take most evaluations. Of triggers it is over a frame of 64, step by step and as a whole, and over first triggers near a hard
-input, on intervals of one to two million ticks. A refused frame costs no more.";
+*Worst* is over the tests' hard curves and cases, each with some 870 hard inputs, those of 20 000 that take most evaluations among them; of
+triggers over frames of 64, and first triggers near a hard input. A refused frame costs no more.";
 
 /// The calls as the reader knows them, with their numbers of octaves; the last are the baselines.
 const CALLS: [(&str, Function, usize); 15] = [
@@ -163,9 +161,7 @@ fn names(cores: &[&Measured]) -> String {
 fn overview(cores: &[&Measured]) -> [String; 2] {
     let m4f = cores[0];
     let rows = CALLS.map(|(name, function, octaves)| {
-        let on_rows =
-            (0..ROWS.len()).map(|row| Some(m4f.on(function, row, octaves)?.cycles().mean));
-        let means = on_rows.chain([m4f.typical(function, octaves, Ran::cycles)]);
+        let means = (0..=TRAPEZOID).map(|row| Some(m4f.on(function, row, octaves)?.cycles().mean));
         let counts = [
             m4f.worst(function, octaves).map(|(cycles, _)| cycles),
             m4f.worst_direct(function, octaves).map(|(cycles, _)| cycles),
@@ -176,28 +172,22 @@ fn overview(cores: &[&Measured]) -> [String; 2] {
         format!("{name} | {} | {}", figures(means), figures(counts))
     });
     let header = format!(
-        "call | {} | typical | worst | direct | code, bytes | data, bytes",
-        ROWS.join(" | ")
+        "call | {} | worst | direct | code, bytes | data, bytes",
+        ROWS[..=TRAPEZOID].join(" | ")
     );
     let calls = table(&header, 1, rows);
 
-    let mut rows = Vec::new();
-    for (row, curve) in ROWS[..=TRAPEZOID].iter().enumerate() {
-        for (name, function, octaves) in CALLS {
-            // *Trapezoid* stands for straight ramps, which alone have other methods than *soft*.
-            let is_told =
-                row != TRAPEZOID || function == Static || function.is_for_straight_ramps();
-            if !is_told || !TOLD.contains(&octaves) {
-                continue;
-            }
-            let on = |core: &&Measured| Some(core.on(function, row, octaves)?.instructions().mean);
-            let counts: Vec<_> = cores.iter().map(|core| on(core).map(grouped)).collect();
-            if counts.iter().any(Option::is_some) {
-                rows.push(format!("{curve}: {name} | {}", figures(counts)));
-            }
-        }
-    }
-    let everywhere = table(&format!("mean instructions | {}", names(cores)), 1, rows);
+    let told = CALLS.into_iter().filter(|(.., octaves)| TOLD.contains(octaves));
+    let rows = told.map(|(name, function, octaves)| {
+        let is_straight = function.is_for_straight_ramps();
+        let curves = if is_straight { TRAPEZOID..=TRAPEZOID } else { 0..=TRAPEZOID - 1 };
+        let counts = cores.iter().map(|core| {
+            let on = |row| Some(grouped(core.on(function, row, octaves)?.instructions().mean));
+            Some(curves.clone().map(on).collect::<Option<Vec<_>>>()?.join("; "))
+        });
+        format!("{name} | {}", figures(counts))
+    });
+    let everywhere = table(&format!("soft; all ramp | {}", names(cores)), 1, rows);
 
     [calls, everywhere]
 }
@@ -209,19 +199,18 @@ fn introduction(cores: &[&Measured]) -> String {
     let [_, everywhere] = overview(&cores[1..]);
     format!(
         "Mean cycles of a Cortex-M4F, by a model, over uniform `u` or times, with `OCTAVES = 8` if no other number is named. *Soft* collects a third
-of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps; *typical* is the mean over {TYPICAL} curves. *Worst* is the
-worst call found on the tests' hard curves; a density that is dark at both ends may take some five times as many evaluations. *Direct* is
-the worst that needs no search. A schedule is of {TRIGGERS} triggers, checked. Square roots serve
-straight ramps alone. Calls go through an opaque reference; in the second row each curve is a `static`, as in firmware, and the worst is
-over typical curves.
+of its exposure on ramps, *all ramp* all of it, *trapezoid* a third on straight ramps. *Worst* is the worst call found on the tests' hard
+curves; a density that is dark at both ends may take some five times as many evaluations. *Direct* is the worst that needs no search. A
+schedule is of {TRIGGERS} triggers, checked. Calls go through an opaque reference; in the second row each curve is a `static`, as in firmware,
+and the worst is over typical curves.
 
 {calls}
 
-The same on other cores, in instructions:
+Mean instructions on other cores, of square roots on *trapezoid*:
 
 {everywhere}
 
-[speed-vs-error.md](speed-vs-error.md) says what the other methods are, and has the errors of all."
+[speed-vs-error.md](speed-vs-error.md) says what the other methods are, and has all errors."
     )
 }
 
@@ -234,25 +223,28 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
     let calls = calls.map(|(name, function, octaves)| (name.to_string(), *function, *octaves));
     let mut rows = Vec::new();
     for (name, function, octaves) in building.into_iter().chain(calls) {
-        let mut row = |what: &str, of: &dyn Fn(&Measured) -> Option<f64>| {
-            let counts = figures(cores.iter().map(|core| of(core).map(grouped)));
-            rows.push(format!("{name} | {what} | {counts}"));
-        };
         if function == Construct {
-            row("instructions", &|core| Some(core.on(function, 0, octaves)?.instructions().mean));
+            let counts = cores
+                .iter()
+                .map(|core| Some(grouped(core.on(function, 0, octaves)?.instructions().mean)));
+            rows.push(format!("{name}: instructions | {}", figures(counts)));
         }
-        row("code", &|core| core.code_bytes(function, octaves).map(f64::from));
-        row("stack", &|core| core.stack_said(function, octaves).map(f64::from));
+        let bytes = cores.iter().map(|core| {
+            let [code, stack] =
+                [core.code_bytes(function, octaves)?, core.stack_said(function, octaves)?];
+            Some([code, stack].map(|bytes| grouped(f64::from(bytes))).join("; "))
+        });
+        rows.push(format!("{name} | {}", figures(bytes)));
     }
-    let table = table(&format!("| | {}", names(cores)), 2, rows);
+    let table = table(&format!("bytes of code; stack | {}", names(cores)), 1, rows);
     let cycles = cores[0].on(Construct, 0, DEFAULT).map(|ran| grouped(ran.cycles().mean));
     format!(
         "## Building a curve at run time, flash and stack
 
-The compiler builds a `static` curve, at no cost at run time. Built on the microcontroller, *soft* takes these instructions, most of
-them in doubles, which all of these cores compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. Optimised for size
-(`opt-level = \"z\"`), building takes {} bytes of code on a Cortex-M4F. Code is a call's own and all that it reaches, so calls share
-some. Stack is the deepest path by the compiler's figures. `.data` and `.bss` hold {} bytes.
+The compiler builds a `static` curve. Built on the microcontroller, *soft* takes these instructions, most of them in doubles, which all
+of these cores compute in software; on a Cortex-M4F {} cycles with `OCTAVES = 8`. Optimised for size (`opt-level = \"z\"`), building takes {}
+bytes of code there. Code is all that a call reaches, so calls share some; stack is the deepest path by the compiler's figures. `.data`
+and `.bss` hold {} bytes.
 
 {table}",
         figures([cycles]),

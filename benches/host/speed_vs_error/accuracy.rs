@@ -1,7 +1,6 @@
 //! The error of every method, on the typical curves.
 
 use crate::methods::{METHODS, Method, leaf};
-use crate::support::cases::judge;
 use crate::support::curves::{Kind, Rng, named, random_typical};
 use crate::support::oracle::{Curve, Exact};
 
@@ -12,8 +11,8 @@ const SEED: u64 = 4;
 pub struct Figures {
     /// On how many curves it was measured.
     pub curves: usize,
-    /// The greatest |t - exact| in ulp(t), and the mean.
-    pub forward: (f64, f64),
+    /// The greatest |t - exact| in ulp(t).
+    pub forward: f64,
     /// The greatest error as a fraction of the interval, and the mean of those at uniform fractions.
     pub of_interval: (f64, f64),
     /// The greatest error in ulp(u), once half an ulp(t) is forgiven.
@@ -22,9 +21,6 @@ pub struct Figures {
     pub steps_back: f64,
     /// NaN, outside the interval, or off by more than 1 % of it.
     pub failures: f64,
-    /// At the `u` that are likely to break a solver: the greatest error beyond the rounding of the time, as a fraction of the
-    /// interval, and steps back.
-    pub hard: (f64, f64),
 }
 
 /// The named typical curves, and random ones.
@@ -47,7 +43,6 @@ const fn is_uniform(sample: usize) -> bool {
 /// Of so many samples a curve, and as many neighbours of the first, on each curve that a method serves.
 pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
     let mut all = vec![Figures::default(); METHODS.len()];
-    let mut measured = [0u32; METHODS.len()];
     for (index, curve) in curves.iter().enumerate() {
         let (exact, mut rng) = (Exact::new(curve), Rng::new(SEED, index as u64));
         // Uniform, and towards both ends on a scale of octaves: where tables and absolute tolerances fail.
@@ -66,7 +61,7 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
         let first = us[0].0.min(0.999).to_bits();
         let (start, end) = (curve.open_start(), curve.close_end());
         let length = f64::from(end) - f64::from(start);
-        for ((method, figures), measured) in METHODS.iter().zip(&mut all).zip(&mut measured) {
+        for (method, figures) in METHODS.iter().zip(&mut all) {
             let Some(inverse) = method.build(curve) else { continue };
             figures.curves += 1;
             for (i, &(u, truth)) in us.iter().enumerate() {
@@ -78,10 +73,7 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
                 figures.of_interval.1 += if is_uniform(i) { error(t) } else { 0.0 };
                 // No error is relative to a time of 0.
                 if truth.hi != 0.0 {
-                    let error = exact.forward_ulp(t, truth);
-                    figures.forward.0 = figures.forward.0.max(error);
-                    figures.forward.1 += error;
-                    *measured += 1;
+                    figures.forward = figures.forward.max(exact.forward_ulp(t, truth));
                 }
                 figures.backward = figures.backward.max(exact.judge(u, t).backward);
             }
@@ -89,18 +81,13 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
             let times: Vec<f32> = neighbours.map(|u| inverse.inverse_cdf(u)).collect();
             let back = times.windows(2).filter(|pair| pair[1] < pair[0]);
             figures.steps_back += back.count() as f64;
-            let verdict = judge(&exact, |u| mended(curve, inverse.inverse_cdf(u)));
-            figures.hard.0 = figures.hard.0.max(verdict.of_interval);
-            figures.hard.1 += f64::from(verdict.steps_back) * 1e6 / f64::from(verdict.count);
         }
     }
-    for (figures, measured) in all.iter_mut().zip(measured) {
+    for figures in &mut all {
         let count = (figures.curves * samples) as f64;
-        figures.forward.1 /= f64::from(measured);
         figures.of_interval.1 /= 0.5 * count;
         figures.failures *= 1e6 / count;
         figures.steps_back *= 1e6 / count;
-        figures.hard.1 /= figures.curves as f64;
     }
     all
 }

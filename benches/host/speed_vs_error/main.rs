@@ -21,7 +21,6 @@ mod timing;
 
 use methods::CURVES;
 use report::Measured;
-use support::rendering::{PULSES, Picture, Pulses};
 
 /// Where documents are; what other runs left is read from there.
 const DOCS: &str = "docs/internals";
@@ -52,17 +51,12 @@ fn main() -> Result {
 
 fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
     let curves = accuracy::curves(random);
-    let scene = Picture::new(&CURVES[0].1);
-    let rendering = (6..=12)
-        .step_by(2)
-        .map(|k| (1 << k, PULSES.map(|pulses| rendered(&scene, pulses, 1 << k))));
     let measured = Measured {
         curves: curves.len(),
         samples,
         figures: accuracy::measure(&curves, samples),
         times: CURVES.map(|(_, curve)| timing::times(&curve, repeats)),
         cost: std::fs::read_to_string(format!("{DOCS}/cost.md"))?,
-        rendering: rendering.collect(),
         search: table::read(&format!("{DOCS}/{SEARCH}"))?,
         every_f32: table::read(&format!("{DOCS}/{EVERY_F32}"))?,
     };
@@ -73,13 +67,6 @@ fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
     std::fs::write(&report, report::write(&measured))?;
     println!("{}\nwrote {report} and its pictures", report::ratios(&measured));
     Ok(())
-}
-
-/// The root-mean-square error of a picture in `n` pulses; of several, where they are random.
-fn rendered(scene: &Picture, pulses: Pulses, n: u32) -> f64 {
-    let seeds = if pulses == Pulses::Random { 16 } else { 1 };
-    let squares = (0..seeds).map(|seed| scene.error(&scene.exposed(pulses, n, seed)).1.powi(2));
-    (squares.sum::<f64>() / seeds as f64).sqrt()
 }
 
 fn save<T: serde::Serialize>(folder: &str, name: &str, rows: &[T]) -> Result {

@@ -175,23 +175,6 @@ impl Method {
         }
     }
 
-    pub const fn bytes(self) -> usize {
-        match self {
-            Octaves0 => size_of::<ShutterCurve<0>>(),
-            Octaves4 => size_of::<ShutterCurve<4>>(),
-            Octaves8 => size_of::<ShutterCurve<8>>(),
-            Octaves16 => size_of::<ShutterCurve<16>>(),
-            Nearer => size_of::<NearerEnd>(),
-            Textbook => size_of::<TextbookNewton>(),
-            Bracketed => size_of::<Parts<f32>>(),
-            Doubles => size_of::<Parts<f64>>(),
-            Table256 => size_of::<InverseTable<256>>(),
-            Table1024 => size_of::<InverseTable<1024>>(),
-            CubicTable => size_of::<MonotoneCubicTable<64>>(),
-            RootLibm | RootMicromath | RootFpu => size_of::<StraightRamps>(),
-        }
-    }
-
     /// Does something with the inverse of a curve, if it has one. Tables are made from exact entries, so that only their
     /// own error is seen.
     pub fn on<T: Task>(self, c: &Curve, task: T) -> Option<T::Answer> {

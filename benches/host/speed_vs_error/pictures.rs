@@ -38,6 +38,7 @@ fn picture(path: &str, size: (u32, u32), title: &str, draw: impl FnOnce(&Area)) 
     }
     // What is said of each dot and is so without being said.
     let svg = svg.replace(" stroke=\"none\" stroke-width=\"1\"/>", "/>");
+    let svg = svg.replace(" opacity=\"1\"", "");
     std::fs::write(path, dressed(&svg, drawn, size, title)).expect("the picture is written");
 }
 
@@ -229,11 +230,12 @@ pub fn worst_cases(path: &str, curves: u64) {
                 let verdict = judge(&Exact::new(&curve), |u| ours.inverse_cdf(u));
                 (place(verdict.at), verdict.backward)
             });
-            // One dot where many would lie on each other.
+            // Of those in a cell of an octave and 1/75 ulp, the greatest.
+            let mut points: Vec<(f64, f64)> = points.collect();
+            points.sort_by(|a, b| b.1.total_cmp(&a.1));
             let mut seen = HashSet::new();
-            let cell = |(x, y): (f64, f64)| ((4.0 * x) as u32, (150.0 * y) as u32);
-            let dots = points.filter(|at| seen.insert(cell(*at)));
-            draw(&mut graph, dots.map(|at| Circle::new(at, 4, color.mix(0.5).filled())));
+            points.retain(|(x, y)| seen.insert((*x as u32, (75.0 * y) as u32)));
+            draw(&mut graph, points.into_iter().map(|at| Circle::new(at, 4, color.filled())));
         }
         draw(
             &mut graph,

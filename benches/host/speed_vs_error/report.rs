@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use crate::accuracy::{Figures, mended, of_triggers};
-use crate::methods::Method::{Nearer, Table256, Textbook};
+use crate::methods::Method::{Nearer, Textbook};
 use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
-use crate::support::rendering::{PULSES, Pulses};
+use crate::support::rendering::Pulses;
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -25,55 +25,20 @@ pub struct Measured {
     pub times: [Times; CURVES.len()],
     /// The text of `docs/internals/cost.md`.
     pub cost: String,
-    /// The error of the pictures in so many pulses.
-    pub rendering: Vec<(u32, [f64; 3])>,
     pub search: Vec<Row>,
     pub every_f32: Vec<Row>,
 }
 
 pub fn write(measured: &Measured) -> String {
     let sections = [
-        introduction(measured),
         methods(measured),
         forwards(measured),
         hard_cases(),
         search(measured),
         every_f32(measured),
-        rendering(measured),
+        PURPOSE.into(),
     ];
     sections.join("\n\n") + "\n"
-}
-
-fn introduction(measured: &Measured) -> String {
-    format!(
-        "# Speed against error
-
-Written by `cargo bench -p benches -- --write-docs`; nothing here is typed by hand. Times are from one {} core of
-an ordinary machine, medians of interleaved repeats, in short runs, over 65 536 random `u`, so that no branch on `u` is ever
-predicted; on another machine trust the ratios.
-
-Errors are measured against double-double arithmetic on {} typical curves (those of `tests/data` and random ones), {}
-fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
-
-- *forward* and *backward*: as [accuracy.md](../accuracy.md) has them, in ulp of `t` and of `u`;
-- *of the interval*: the distance from the exact time as a share of the interval, its mean over the uniform half;
-- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time;
-- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in the
-  other columns a time outside the interval counts as its nearer end, and NaN as its start.
-
-The time of `inverse_cdf` as a share of that of *{}*, the fastest of the others whose errors are of the same order:
-
-{}
-
-![Error against cost](frontier.svg)
-
-Full dots are the greatest error, rings the mean.",
-        std::env::consts::ARCH,
-        measured.curves,
-        measured.samples,
-        Nearer.name(),
-        ratios(measured),
-    )
 }
 
 /// The times of this crate's methods on *soft* and *all ramp*, as shares of the careful Newton's.
@@ -102,94 +67,86 @@ pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> 
     rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
+/// The names of the columns of times. A box has no ramps, where methods differ.
+fn timed() -> String {
+    let names = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
+    names.collect::<Vec<_>>().join(" | ")
+}
+
 fn methods(measured: &Measured) -> String {
-    let costs = METHODS.iter().map(|method| {
-        // A box has no ramps, where methods differ.
+    let rows = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let times = measured.times[..=TRAPEZOID].iter().map(|(times, _)| time(times, *method));
         let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-        let head = [method.name().to_owned(), method.bytes().to_string()];
-        head.into_iter().chain(times).collect()
-    });
-    let timed = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
-    let timed = timed.collect::<Vec<_>>().join(" | ");
-    let costs = table(&format!("method | bytes | {timed}"), 1, costs);
-    let errors = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let numbers = [
-            figures.forward.0,
-            figures.forward.1,
+        let errors = [
+            figures.forward,
             figures.of_interval.0,
-            figures.of_interval.1,
             figures.backward,
             figures.steps_back,
             figures.failures,
         ];
-        [method.name().into()].into_iter().chain(numbers.map(number)).collect()
-    });
-    let header = "method | forward: max | mean | of the interval: max | mean | backward, ulp(u) \
-                  | steps back | failures";
-    let errors = table(header, 1, errors);
-    let aimed = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let (most, back) = figures.hard;
         let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
-        vec![method.name().into(), number(most), number(back), triggers]
+        let head = [method.name().to_owned()];
+        head.into_iter().chain(times).chain(errors.map(number)).chain([triggers]).collect()
     });
-    let aimed = table("method | aimed and tiny `u` | steps back | a leaf's triggers", 1, aimed);
+    let header = format!(
+        "method | {} | ulp(t) | of the interval | ulp(u) | steps back | failures | a leaf's triggers",
+        timed()
+    );
+    let table = table(&header, 1, rows);
     format!(
-        "## The methods
+        "# Speed against error
 
-The first four are this crate. *{nearer}* is what one writes without it, with care: sextics in powers of p from both ends
-of each ramp, in `f32` but built in `f64`; `u` counted from the nearer end; and Newton's steps inside a bracket, from where a
-straight ramp has its answer, until the residual is 3e-7 of the target, and one more. The others are written from public
-descriptions: Newton in `f32` on sextics in powers of p, from 0.5, at most 10 steps or to 1e-6, then 21 bisections (a renderer);
-Newton inside a bracket until an absolute 1e-6 (another renderer); Newton in doubles; and tables of the exact inverse at equally
-spaced `u`, joined by lines or by monotone cubics. The last three are for straight ramps alone, which take one square root, from
-the nearer end: by `libm`, whose code needs no FPU, by `micromath`, and by the FPU's instruction.
+Written by `cargo bench -p benches -- --write-docs`. Times are medians from one {arch} core, over 65 536 random `u`, so that no
+branch on `u` is predicted; on another machine trust the ratios.
 
-### Cost
+![Error against cost](frontier.svg)
 
-The curves are those of [cost.md](cost.md), which has cycles.
+Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the curves, and cycles and bytes.
 
-{costs}
+## The methods
 
-### Error
+The first four are this crate. *{nearer}* is what one writes without it, with care: sextics from both ends of each ramp, in
+`f32` but built in `f64`, and Newton's steps inside a bracket. *Textbook* and *bracketed* Newton are those of two renderers, with
+an absolute tolerance of 1e-6. Tables have exact entries at equally spaced `u`. Square roots, from the nearer end, are for straight
+ramps alone. `tests/support` has them all, in `baseline.rs` and `peers.rs`.
 
-{errors}
+{table}
 
-The square roots are judged on the {straight} of these curves whose ramps are straight, from 0 to 1 and back.
+Errors are the greatest on {curves} typical curves, by double-double arithmetic, at {samples} fractions each: half of them uniform, a
+quarter towards either end by octaves, where tables and absolute tolerances fail. Square roots are judged on the {straight} straight ones.
 
-The largest errors, as shares of the interval, where it is harder and where it is easier. *Aimed and tiny* `u` are some 1000 on each of
-the same curves, next to joins and kinks and as small as an `f32` can be; the rounding of the time to an `f32` is forgiven there.
-*A leaf's triggers* are frames of up to 64 on the leaf shutter of `cli/traces/leaf.csv`: what firmware asks.
-
-{aimed}
+- *ulp(t)*, *ulp(u)*: forward and backward error, as in [accuracy.md](../accuracy.md)
+- *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
+- *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in other columns a
+  time outside counts as the nearer end, and NaN as the start
+- *a leaf's triggers*: error as a share of the interval, in frames of up to 64 on the curve of `cli/traces/leaf.csv`
 
 ![Worst cases](worst-cases.svg)
 
-Each random curve's worst `u`, over about 1000 that are likely to be bad. Where several lie at one place, it has one dot.",
+Each random curve's worst `u` of about 1000 that are likely to be bad. Of those that lie close together, the greatest is drawn.",
+        arch = std::env::consts::ARCH,
         nearer = Nearer.name(),
+        curves = measured.curves,
+        samples = measured.samples,
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
     )
 }
 
 fn forwards(measured: &Measured) -> String {
-    let rows =
-        CURVES[..=TRAPEZOID].iter().zip(&measured.times).map(|((name, ..), (_, forwards))| {
-            let cells =
-                forwards.iter().flat_map(|(time, error)| [format!("{time:.1}"), number(*error)]);
-            [(*name).into()].into_iter().chain(cells).collect()
-        });
-    let names = FORWARDS.map(|(name, _)| format!("{name}, ns | error")).join(" | ");
-    let table = table(&format!("curve | {names}"), 1, rows);
+    let rows = FORWARDS.iter().enumerate().map(|(i, (name, _))| {
+        let on = || measured.times[..=TRAPEZOID].iter().map(|(_, forwards)| forwards[i]);
+        let times = on().map(|(time, _)| format!("{time:.1}"));
+        let error = number(on().map(|(_, error)| error).fold(0.0, f64::max));
+        [(*name).into()].into_iter().chain(times).chain([error]).collect()
+    });
+    let table = table(&format!("| {} | greatest error", timed()), 1, rows);
     format!(
         "## Openness and cdf
 
-Against the usual solver of animation curves in `f32`: 8 Newton steps from the time itself to an absolute 1e-6, then
-bisection. Nanoseconds a sample at random times, and the greatest error seen, absolute: of the openness, and of the
-fraction of the exposure.
+Against the usual solver of animation curves in `f32`: 8 Newton steps to an absolute 1e-6, then bisection. Errors are absolute.
+No table gives the place of a time, so this crate searches for it, to the promised ulp.
 
-{table}
-
-Both need `p` for a `t`, which no table gives: this crate solves by its own search, to the promised ulp."
+{table}"
     )
 }
 
@@ -197,24 +154,24 @@ Both need `p` for a `t`, which no table gives: this crate solves by its own sear
 fn hard_cases() -> String {
     let judged = |curve: &Curve, us: &[f32]| {
         let exact = Exact::new(curve);
-        let others = [Nearer, Textbook, Table256].map(|method| {
+        let others = [Nearer, Textbook].map(|method| {
             let inverse = method.build(curve).expect("it serves every curve");
             judge_on(&exact, |u| mended(curve, inverse.inverse_cdf(u)), us).of_interval
         });
         let ours = shutter::<8>(curve);
         let own = judge_on(&exact, |u| ours.inverse_cdf(u), us);
-        [others[0], others[1], others[2], own.of_interval, own.backward]
+        [others[0], others[1], own.of_interval, own.backward]
     };
     let cases = CASES.iter().map(|case| {
         let curve = case.curve();
         (case.name, judged(&curve, &breaking_us(&Exact::new(&curve))))
     });
     let (told, others): (Vec<_>, Vec<_>) =
-        cases.partition(|(_, figures)| figures[..3].iter().any(|error| *error > 0.01));
-    let row = |name: String, figures: [f64; 5]| {
+        cases.partition(|(_, figures)| figures[..2].iter().any(|error| *error > 0.01));
+    let row = |name: String, figures: [f64; 4]| {
         [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>()
     };
-    let most = |all: Vec<[f64; 5]>| {
+    let most = |all: Vec<[f64; 4]>| {
         std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max))
     };
     let name = format!("{} others, the worst of each column", others.len());
@@ -227,14 +184,13 @@ fn hard_cases() -> String {
     let name = format!("{} aimed curves, the worst of each column", aimed.len());
     let aimed = row(name, most(aimed));
     let told = told.into_iter().map(|(name, figures)| row(name.into(), figures));
-    let header = "case | Newton, nearer end | textbook Newton | table of 256 | this crate | its backward error, ulp(u)";
+    let header = "case | Newton, nearer end | textbook Newton | this crate, 8 octaves | its ulp(u)";
     let table = table(header, 1, told.chain([others, aimed]));
     format!(
         "## Hard cases
 
-The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, and the
-backward error of this crate with 8 octaves, where another method errs by more than 1 %. Each case is judged in
-`tests/promises.rs`; `tests/support/aimed.rs` draws curves that meet difficulties exactly, and the `u` next to them.
+The greatest error over about 1000 `u` a curve, beyond the rounding of the time to an `f32` and as a share of the interval, where a
+Newton errs by more than 1 %. *Aimed* curves meet difficulties exactly (`tests/support/aimed.rs`).
 
 {table}"
     )
@@ -244,23 +200,19 @@ fn search(measured: &Measured) -> String {
     let (bred, aimed): (Vec<_>, Vec<_>) =
         measured.search.iter().partition(|row| row["is_bred"] == "true");
     let [tried, each] = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
-    let bred = table("aim | worst found", 1, bred.iter().map(|row| shown(row, "what worst")));
+    let bred = bred.iter().map(|row| shown(row, "what worst").join(": "));
+    let bred = bred.collect::<Vec<_>>().join("\n- ");
     let steps = ["steps_back", "cdf_steps_back", "tick_steps_back"];
     let steps: f64 = steps.into_iter().map(|column| sum(&aimed, column)).sum();
-    let [backward, evaluations, cdf, density, ticks] =
-        ["backward", "evaluations", "cdf", "density", "ticks"].map(|column| most(&aimed, column));
     format!(
         "### Found by search
 
-`cargo bench -p benches -- --search N` draws random curves, three of four of them hard, and climbs from the worst of them by
-moving control points. {tried} valid curves were tried, each on about 650 `u`; the errors in ulp(t), the evaluations and the round
-trip are those of every seventh of these. `search.csv` has the curves.
+`cargo bench -p benches -- --search N` climbs from the worst of random curves by moving control points. The worst of {tried}
+(`search.csv`), each on about 650 `u` (every seventh for all but ulp(u) and steps back):
 
-{bred}
+- {bred}
 
-Then it judges all that is promised on {families} families of curves that meet difficulties exactly (`tests/support/aimed.rs`), {each}
-of each, with `OCTAVES` = 0 and 8. Promises broken: {broken}. Steps back: {steps}. At worst {backward} ulp(u), {evaluations} evaluations,
-{cdf} ulp of the cdf, {density} of openness and pdf, {ticks} tick.",
+On {families} families of aimed curves, {each} of each, {broken} promises were broken, with {steps} steps back.",
         families = aimed.len(),
         broken = sum(&aimed, "breaches"),
     )
@@ -281,8 +233,7 @@ fn most(rows: &[&Row], column: &str) -> String {
 
 fn every_f32(measured: &Measured) -> String {
     let all: Vec<_> = measured.every_f32.iter().collect();
-    let [answers, seconds] = ["count", "seconds"].map(|column| sum(&all, column));
-    let minutes = seconds / 60.0;
+    let minutes = sum(&all, "seconds") / 60.0;
     let mut kinds: Vec<_> = all.iter().map(|row| [&row["function"], &row["octaves"]]).collect();
     kinds.sort();
     kinds.dedup();
@@ -304,38 +255,24 @@ fn every_f32(measured: &Measured) -> String {
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all 1 065 353 217 `f32` in [0, 1] with 8 octaves, and with other
-counts for all from 2<sup>-20</sup> up, below which the same solver serves them all. It asks `cdf` and `openness` at all times of a
-curve (within 2<sup>-64</sup> of a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the
-oracle judges samples and the worst of each 4 million (*judged*). These {answers} answers took {minutes:.0} minutes on two busy cores.
-`every-f32.csv` has each curve.
+`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1] with 8 octaves, with other counts for those from
+2<sup>-20</sup> up, below which one solver serves them all; and `cdf` and `openness` at all times of a curve (next to a time 0
+inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
+(*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
 
 {table}
 
-The error of the inverse is its backward error, that of `cdf` and `openness` in ulp at some time within an ulp of the one asked for,
-an ulp of the cdf being at least that of 2<sup>-24</sup>."
+Errors are backward for the inverse; of `cdf` and `openness` those at the best time within an ulp of the one asked for."
     )
 }
 
-fn rendering(measured: &Measured) -> String {
-    let rows = measured.rendering.iter().map(|(n, errors)| {
-        [n.to_string()].into_iter().chain(errors.iter().map(|error| number(*error))).collect()
-    });
-    let table = table(&format!("pulses | {}", PULSES.map(name).join(" | ")), 0, rows);
-    format!(
-        "## What it is for
+const PURPOSE: &str = "## What it is for
 
-A bright bar moves while the shutter is open, and is lit by pulses. Equal pulses at this crate's trigger times come
-within 1/n of the exact integral at every pixel (`tests/statistics.rs`). Equally spaced pulses must be dimmed by the
-openness, which a lamp of equal pulses cannot do, and random ones are far noisier.
+A bright bar moves while the shutter is open, and is lit by pulses. Equal ones at this crate's triggers come within 1/n of the
+exact integral at every pixel (`tests/statistics.rs`). Equally spaced ones must be dimmed by the openness, which a lamp of equal
+pulses cannot do; random ones are far noisier.
 
-![A moving bar in pulses](rendering.svg)
-
-Root-mean-square error over the picture, soft curve (random: mean of 16 seeds):
-
-{table}"
-    )
-}
+![A moving bar in pulses](rendering.svg)";
 
 pub fn name(pulses: Pulses) -> &'static str {
     match pulses {

@@ -214,7 +214,7 @@ fn ticks_that_may_be_others_are_doubted() {
     assert!(told.contains("\"1.5 Hz, planned as 2: 20 ticks off at the end\""), "{told}");
 }
 
-/// As docs/firmware.md computes it: a share of 6.2541 ms / 16 is 9772 ticks; a frame takes 12.958 ms.
+/// As docs/firmware.md says: a share of 6.2541 ms / 16 is 9772 ticks; a frame takes 12.958 ms.
 #[test]
 fn the_report_tells_when_a_drift_matters() {
     for (hz, frames) in [("25000000", 7542), ("1000000", 302)] {
