@@ -13,15 +13,11 @@ use shutter::lamp::Lamp;
 use shutter::plan::{Plan, Trigger};
 use shutter::planned::Planned;
 
-use crate::refusals::{BOX, MEASURED, with};
-use crate::support::{Folder, SCENES, keys, number, scenes};
+use crate::refusals::{BOX, MEASURED};
+use crate::support::{Folder, SCENES, has, keys, number, planned, scenes};
 
 fn text(form: Form, name: &str, plan: &Planned) -> String {
     emit(form, name, plan, false).unwrap()
-}
-
-fn planned(scene: &str, changes: &str) -> Planned {
-    Planned::parse(&with(scene, changes)).unwrap()
 }
 
 fn plan(planned: &Planned) -> &Plan {
@@ -41,12 +37,20 @@ fn output(command: &mut Command) -> String {
 }
 
 /// The triggers or pulses, as the test programs print them.
-fn lines(plan: &Plan) -> String {
-    let line = |trigger: &Trigger| match trigger.pulse {
+fn lines(planned: &Planned) -> String {
+    match planned {
+        Planned::Curve(plan) => plan.triggers.iter().map(line).collect(),
+        Planned::Times(times) => {
+            times.triggers.iter().map(|it| format!("{}\n", it.ticks)).collect()
+        }
+    }
+}
+
+fn line(trigger: &Trigger) -> String {
+    match trigger.pulse {
         Some((on, off)) => format!("{on} {off}\n"),
         None => format!("{}\n", trigger.ticks),
-    };
-    plan.triggers.iter().map(line).collect()
+    }
 }
 
 /// Runs the compiler in a folder, without a warning.
@@ -117,7 +121,7 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
             );
         }
         main += "println!(\"{:08x}\", curve::SHUTTER.exposure().to_bits()); }\n";
-        expected += &format!("{}{:08x}\n", lines(plan), plan.curve.exposure().to_bits());
+        expected += &format!("{}{:08x}\n", lines(&planned), plan.curve.exposure().to_bits());
         curves.push(format!("{module}_curve"));
         alone.push(module);
     }
@@ -133,18 +137,21 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
 fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
     let folder = Folder::new("rust_speeds");
     let (late, lit) = (speeds("delay = 4.247; sync_falls = true"), speeds("duty = 0.3"));
+    let times = several(Form::Rust, "times", &measured(), false).unwrap();
+    folder.write("times.rs", times);
     folder.write("late.rs", several(Form::Rust, "late", &late, false).unwrap());
     folder.write("lit.rs", several(Form::Rust, "lit", &lit, true).unwrap());
     let one = text(Form::Rust, "one", &late[0].1);
     let by = concat!("// Made by `shutter plan` ", env!("CARGO_PKG_VERSION"), ".\n");
     assert!(one.starts_with(by), "{one}");
     folder.write("one.rs", one);
-    is_clean(&folder, "lib.rs", &["late", "lit"], &["--extern", the_crate()]);
+    is_clean(&folder, "lib.rs", &["late", "lit", "times"], &["--extern", the_crate()]);
     // Private modules of which next to nothing is used.
-    let main = r#"mod late; mod lit; mod one;
+    let main = r#"mod late; mod lit; mod one; mod times;
         fn main() {
             println!("{} {}", late::box_::DELAY_TICKS, late::shutter_1_500::COUNT);
             for speed in &late::SPEEDS { println!("{} {} {:?}", speed.name, speed.delay_ticks, speed.ticks); }
+            for speed in &times::SPEEDS { println!("{} {:?}", speed.delay_ticks, speed.ticks); }
             for speed in &lit::SPEEDS {
                 let pulses = speed.shutter.pulse_ticks(u32::try_from(speed.pulses.len()).unwrap(), 0.3, lit::TIMER_HZ).unwrap();
                 assert!(pulses.map(|pulse| (pulse.on, pulse.off)).eq(speed.pulses.iter().copied()));
@@ -155,6 +162,7 @@ fn speeds_are_an_array_of_rust_and_nothing_unused_is_warned_of() {
         let ticks: Vec<_> = plan(speed).triggers.iter().map(|trigger| trigger.ticks).collect();
         expected += &format!("{name} 4247 {ticks:?}\n");
     }
+    expected += "4247 [1000, 1500, 2100]\n4000 [1000, 2000, 3000, 4000]\n";
     assert_eq!(ran(&folder, main, &["--extern", the_crate()]), expected);
 }
 
@@ -203,7 +211,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
             "printf(\"%lu\\n\", (unsigned long){upper}_TIMER_HZ);
             for (unsigned i = 0; i < {upper}_COUNT; i++) printf({print});\n"
         );
-        expected += &format!("{}\n{}", plan.timer.hz, lines(plan));
+        expected += &format!("{}\n{}", plan.timer.hz, lines(planned));
         if let Some(delay) = plan.delay {
             body += &format!(
                 "printf(\"%lu %d\\n\", (unsigned long){upper}_DELAY_TICKS, {upper}_SYNC_FALLS);\n"
@@ -243,24 +251,20 @@ fn speeds(changes: &str) -> Vec<(String, Planned)> {
 
 #[test]
 fn speeds_are_an_array_of_c() {
-    for (folder, changes, delay, print) in [
-        (
-            "speeds",
-            "delay = 4.247; sync_falls = true",
-            "camera_speeds[s].delay_ticks",
-            "\"%lu\\n\", (unsigned long)camera_speeds[s].ticks[i]",
-        ),
-        (
-            "lit",
-            "duty = 0.3",
-            "0",
-            "\"%lu %lu\\n\", (unsigned long)camera_speeds[s].on[i], (unsigned long)camera_speeds[s].off[i]",
-        ),
+    let delay = "camera_speeds[s].delay_ticks";
+    let ticks = "\"%lu\\n\", (unsigned long)camera_speeds[s].ticks[i]";
+    let pulse = "\"%lu %lu\\n\", (unsigned long)camera_speeds[s].on[i], (unsigned long)camera_speeds[s].off[i]";
+    let names = ["shutter_1_500", "box", "slow_speed"];
+    for (folder, plans, names, delay, print) in [
+        ("late", speeds("delay = 4.247; sync_falls = true"), &names[..], delay, ticks),
+        ("lit", speeds("duty = 0.3"), &names, "0", pulse),
+        ("times", measured().into(), &["bounce", "good"], delay, ticks),
     ] {
-        let (folder, plans) = (Folder::new(folder), speeds(changes));
+        let folder = Folder::new(folder);
         folder.write("camera.h", several(Form::C, "camera", &plans, false).unwrap());
         // The same scene by itself is the same text.
-        folder.write("slow.h", text(Form::C, &plans[2].0, &plans[2].1));
+        let (name, slow) = &plans[plans.len() - 1];
+        folder.write("slow.h", text(Form::C, name, slow));
         let includes =
             ["camera.h", "slow.h", "camera.h"].map(|file| format!("#include \"{file}\"\n"));
         let body = format!(
@@ -269,10 +273,9 @@ fn speeds_are_an_array_of_c() {
                 for (unsigned i = 0; i < camera_speeds[s].count; i++) printf({print});
             }}"
         );
-        let names = ["shutter_1_500", "box", "slow_speed"];
         let expected = plans.iter().zip(names).map(|((_, speed), name)| {
             let delay = speed.delay().map_or(0, |delay| delay.ticks);
-            format!("{name} 1000000 {delay}\n{}", lines(plan(speed)))
+            format!("{name} 1000000 {delay}\n{}", lines(speed))
         });
         assert_eq!(compiled(&folder, &includes.concat(), &body), expected.collect::<String>());
     }
@@ -436,37 +439,17 @@ fn measured() -> [(String, Planned); 2] {
     })
 }
 
-#[test]
-fn times_without_a_curve_stand_beside_a_curve() {
-    let folder = Folder::new("beside");
-    let speeds = measured();
-    let times = &speeds[0].1;
-    for (form, file) in [(Form::Rust, "camera.rs"), (Form::C, "camera.h")] {
-        let alone = text(form, "bounce", times);
-        assert!(alone.contains("no curve: trigger times as measured"), "{alone}");
-        folder.write(file, several(form, "camera", &speeds, false).unwrap());
-    }
-    let none = emit(Form::Rust, "bounce", times, true).unwrap_err();
-    assert!(none.contains("and no curve"), "{none}");
-    let main = "mod camera; fn main() { for speed in &camera::SPEEDS { println!(\"{} {:?}\", speed.delay_ticks, speed.ticks); } }";
-    let expected = "4247 [1000, 1500, 2100]\n4000 [1000, 2000, 3000, 4000]\n";
-    assert_eq!(ran(&folder, main, &[]), expected);
-    let main = "for (unsigned s = 0; s < CAMERA_SPEEDS; s++) {
-            printf(\"%d [\", (int)camera_speeds[s].delay_ticks);
-            for (unsigned i = 0; i < camera_speeds[s].count; i++) printf(\"%d, \", (int)camera_speeds[s].ticks[i]);
-            printf(\"]\\n\");
-        }";
-    let printed = compiled(&folder, "#include \"camera.h\"\n", main);
-    assert_eq!(printed.replace(", ]", "]"), expected);
-}
-
 /// The names of the columns.
 const HEAD: &str = "scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n";
 
 #[test]
-fn times_without_a_curve_are_rows_and_objects() {
+fn times_without_a_curve_are_told_to_be_so() {
     let speeds = measured();
     let [times, curve] = [0, 1].map(|i| &speeds[i].1);
+    for form in [Form::Rust, Form::C] {
+        has(&text(form, "bounce", times), &["no curve: trigger times as measured"], &[]);
+    }
+    has(&emit(Form::Rust, "bounce", times, true).unwrap_err(), &["and no curve"], &[]);
     let csv = text(Form::Csv, "bounce", times);
     let rows = "bounce,0,,0.0020004,1000,,5247,,,\nbounce,1,,0.0025,1500,500,5747,,,\n\
                 bounce,2,,0.0031,2100,600,6347,,,\n";

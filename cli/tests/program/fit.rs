@@ -1,5 +1,4 @@
-//! `shutter fit`: every format of the same trace gives the same shutter, what cannot be fitted is refused with a reason and
-//! leaves nothing behind, and what is doubtful is told.
+//! `shutter fit`: what cannot be fitted is refused with a reason and leaves nothing behind, and what is doubtful is told.
 
 use std::fmt::Write;
 use std::fs;
@@ -7,11 +6,12 @@ use std::fs;
 use serde_json::Value;
 use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
-use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
-use shutter_fit::unit::Unit;
+use shutter_fit::trace::{self, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
 
-use crate::generator::{Case, Disturbance, Random, SHUTTERS, Shutter, Truth, each, traced, truth};
+use crate::generator::{
+    Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth,
+};
 use crate::refusals::MEASURED;
 use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
 
@@ -21,12 +21,6 @@ fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
 
 fn plainly(trace: &Trace) -> Fit {
     fitted(trace, &Options::default()).unwrap()
-}
-
-/// Of a trace with a known truth.
-fn of_case(case: &Case, options: &Options) -> Fit {
-    let Case { times, values, .. } = case;
-    fitted(&Trace { times: times.clone(), values: values.clone() }, options).unwrap()
 }
 
 /// Reads a file and fits it.
@@ -39,76 +33,6 @@ fn is_the_trapezoid(fit: &Fit) {
     assert_eq!(fit.chosen, Kind::Trapezoid);
     assert!((fit.exposure.value - 0.005).abs() < 5e-6, "{:?}", fit.exposure);
     assert!((fit.triggers[7].value + fit.triggers[8].value - 0.011).abs() < 5e-6);
-}
-
-/// Columns and rates that the file does not tell; the exports of instruments are in fit/tests.
-#[test]
-fn what_is_asked_for_is_read() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let values = rows(&trace, |_, v| format!("{v:.5}"));
-    let mixed = rows(&trace, |t, v| format!("7,{v:.5},{:.2}", t * 1e6));
-    let named = String::from("# a comment\n\"n\",\"sensor\",\"clock\"\n") + &mixed;
-    let commas = String::from("Volt\n") + &values.replace('.', ",");
-    let rate = trace::Options { rate: Some(1e5), ..Default::default() };
-    let columns = |columns: [&str; 2]| trace::Options {
-        columns: columns.map(Column::parse).into(),
-        unit: Some(Unit::Microsecond),
-        ..Default::default()
-    };
-    for (text, options) in [
-        (values, &rate),
-        (commas, &rate),
-        (named, &columns(["clock", "sensor"])),
-        (mixed, &columns(["3", "2"])),
-    ] {
-        let (fit, warnings) = through(&text, options);
-        assert_eq!((warnings, &fit.warnings), (Vec::new(), &Vec::new()));
-        is_the_trapezoid(&fit);
-    }
-}
-
-/// Encodings, rows that are broken, come late or come twice: each is read, and told with its line.
-#[test]
-fn other_files_of_the_same_trace_are_read() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("t (µs),V\n") + &rows(&trace, |t, v| format!("{:.2},{v:.5}", t * 1e6));
-    let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
-    let wide = |bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        let units: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
-        units.into_iter().flat_map(bytes).collect()
-    };
-    let marked = [&[0xef, 0xbb, 0xbf], text.as_bytes()].concat();
-    let broken = rows(&trace, |t, v| match (t * 1e5).round() as u32 {
-        300 => format!("{t:.6},NaN"),
-        301 => format!("{t:.6},"),
-        302 => "oops,0.5".into(),
-        303 => format!("{t:.6},1e300"),
-        304 => "\n".into(),
-        305 => format!("{t:.6},inf"),
-        _ => format!("{t:.6},{v:.5}"),
-    });
-    let reason = "the value is NaN".into();
-    let overload = Warning::Overload { count: 1, line: 308 };
-    let broken_rows = Warning::BrokenRows { count: 4, line: 302, reason };
-    let sorted = rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-    let mut lines: Vec<&str> = sorted.lines().collect();
-    lines.swap(100, 900);
-    lines.insert(500, lines[499]);
-    // Line 1 is the header.
-    let unsorted = [Warning::Unsorted { line: 103 }, Warning::Duplicates { count: 1, line: 502 }];
-    let named = |rows: &str| format!("time_s,v\n{rows}").into_bytes();
-    for (bytes, told) in [
-        (latin, vec![]),
-        (wide(u16::to_le_bytes), vec![]),
-        (wide(u16::to_be_bytes), vec![]),
-        (marked, vec![]),
-        (named(&broken), vec![broken_rows, overload]),
-        (named(&lines.join("\n")), unsorted.into()),
-    ] {
-        let (fit, warnings) = through(&bytes, &trace::Options::default());
-        assert_eq!(warnings, told);
-        is_the_trapezoid(&fit);
-    }
 }
 
 fn told(fit: &Fit, is: impl Fn(&Warning) -> bool) -> bool {
@@ -375,7 +299,7 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
     let case =
         traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
     let within =
-        |tolerance| of_case(&case, &Options { tolerance: Some(tolerance), ..Options::default() });
+        |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
     assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
     assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
     let loose = within(Tolerance::Share(0.05));
@@ -395,7 +319,7 @@ fn correlated_samples_count_for_fewer() {
             let mut random = Random::new(seed);
             let truth = truth(Shutter::Trapezoid, &mut random);
             let case = traced(truth, disturbance, 3000, 0.01, &mut random);
-            let fit = of_case(&case, &Options::default());
+            let fit = case.fitted(&Options::default());
             let shutter_fit::Reason::Criterion { effective } = fit.reason else { panic!() };
             let share = effective / fit.samples.times.len() as f64;
             assert!((least..=most).contains(&share), "{disturbance:?} {seed}: {share}");
@@ -411,9 +335,9 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
         let mut random = Random::new(seed);
         let truth = truth(Shutter::LiquidCrystal, &mut random);
         let case = traced(truth, Disturbance::White, 2000, 0.003, &mut random);
-        let fit = of_case(&case, &Options::default());
+        let fit = case.fitted(&Options::default());
         for (i, trigger) in fit.triggers.iter().enumerate() {
-            let truth = case.truth.trigger((i as f64 + 0.5) / 16.0) * case.scale;
+            let truth = case.trigger((i as f64 + 0.5) / 16.0);
             covered += f64::from((trigger.value - truth).abs() <= 1.96 * trigger.error);
             stated += trigger.error / fit.exposure.value;
             all += 1.0;
@@ -435,8 +359,8 @@ fn the_exposure_is_known_without_a_plateau_too() {
         let truth = Truth::new(Box::new(ramp), Box::new(ramp), [start, peak, peak, end]);
         let (n, noise) = (random.scale(400.0, 1000.0) as usize, random.scale(0.003, 0.02));
         let case = traced(truth, Disturbance::White, n, noise, &mut random);
-        let fit = of_case(&case, &Options::default());
-        let (exposure, truth) = (fit.exposure, case.truth.exposure() * case.scale);
+        let fit = case.fitted(&Options::default());
+        let (exposure, truth) = (fit.exposure, case.exposure());
         assert!(exposure.error < 0.03 * truth, "{seed}: {exposure:?}");
         assert!(fit.efficiency.error < 0.1, "{seed}: {:?}", fit.efficiency);
         (exposure.value - truth).abs() <= 1.96 * exposure.error
@@ -489,7 +413,7 @@ fn the_scene_gives_the_same_triggers() {
         let mut random = Random::new(40 + k as u64);
         let truth = truth(shutter, &mut random);
         let case = traced(truth, Disturbance::White, 1000, 0.005, &mut random);
-        let fit = of_case(&case, &Options::default());
+        let fit = case.fitted(&Options::default());
         for zero in [Zero::Trace, Zero::Open] {
             let plan = planned(&fit, zero);
             let start = if zero == Zero::Open { fit.best().signal.curve.start } else { 0.0 };
@@ -506,22 +430,13 @@ fn the_scene_gives_the_same_triggers() {
 fn every_corner_of_the_control_numbers_is_a_scene() {
     each(16, |corner| {
         let controls: [f64; 4] = std::array::from_fn(|k| f64::from(corner >> k & 1));
-        let ramp = move |z: f64| {
-            let cubic =
-                |a: f64, b: f64, p: f64| 3.0 * p * (1.0 - p) * ((1.0 - p) * a + p * b) + p * p * p;
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..50 {
-                let p = 0.5 * (low + high);
-                if cubic(controls[0], controls[2], p) < z { low = p } else { high = p }
-            }
-            cubic(controls[1], controls[3], low)
-        };
-        let truth = Truth::new(Box::new(ramp), Box::new(ramp), [0.2, 0.4, 0.5, 0.8]);
+        let [opening, closing] = [bezier(controls), bezier(controls)];
+        let truth = Truth::new(opening, closing, [0.2, 0.4, 0.5, 0.8]);
         let mut random = Random::new(corner.into());
         let case = traced(truth, Disturbance::White, 600, 0.0, &mut random);
         for model in [Kind::Symmetric, Kind::Free] {
             let options = Options { model: Some(model), ..Options::default() };
-            planned(&of_case(&case, &options), Zero::Trace);
+            planned(&case.fitted(&options), Zero::Trace);
         }
     });
 }

@@ -1,6 +1,6 @@
 //! The tests of the program in one, which is compiled and linked once.
 
-#[path = "../../../fit/tests/generator/mod.rs"]
+#[path = "../../../fit/tests/traces/generator.rs"]
 mod generator;
 
 mod emit;

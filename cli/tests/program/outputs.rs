@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};
 
 use crate::refusals::{TRAPEZOID, with};
-use crate::support::{Folder, Run, leaf};
+use crate::support::{Folder, Run, has, leaf};
 
 /// A folder with a scene and a trace of straight ramps.
 fn folder(name: &str) -> Folder {
@@ -345,13 +345,6 @@ fn what_cannot_be_written_leaves_nothing() {
         refuses(&folder, &[("plan --set-ups ok.svg --out locked/new.svg", "permission denied")]);
     }
     fs::set_permissions(&locked, PermissionsExt::from_mode(0o755)).unwrap();
-}
-
-/// The text has all of these, and none of those.
-#[track_caller]
-fn has(text: &str, all: &[&str], none: &[&str]) {
-    all.iter().for_each(|words| assert!(text.contains(words), "{words}\n{text}"));
-    none.iter().for_each(|words| assert!(!text.contains(words), "{words}\n{text}"));
 }
 
 #[test]

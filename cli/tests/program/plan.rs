@@ -10,19 +10,10 @@ use shutter::planned::Planned;
 use shutter_curve::ShutterCurve;
 
 use crate::refusals::{BOX, MEASURED, TRAPEZOID, with};
-use crate::support::{Folder, SCENES, run, scene, scenes, table};
+use crate::support::{Folder, SCENES, has, planned, report, run, scene, scenes, table};
 
 fn path(scene: &str) -> String {
     format!("{SCENES}/{scene}.toml")
-}
-
-fn plan(scene: &str, changes: &str) -> Planned {
-    let text = with(scene, changes);
-    Planned::parse(&text).unwrap_or_else(|fault| panic!("{}", fault.locate("scene", &text)))
-}
-
-fn report(plan: &Planned) -> String {
-    shutter::report::text("scene", plan, 80)
 }
 
 #[test]
@@ -117,7 +108,7 @@ fn both_set_ups_are_drawn_with_their_doses() {
 
 #[test]
 fn a_picture_has_a_title_and_colours_for_the_dark() {
-    let svg = shutter::picture::svg("a & b <c>", &plan(TRAPEZOID, "triggers = 1")).unwrap();
+    let svg = shutter::picture::svg("a & b <c>", &planned(TRAPEZOID, "triggers = 1")).unwrap();
     let title = "<title>Openness and exposure of the shutter a &amp; b &lt;c> over time, with its triggers</title>";
     assert_eq!(svg.lines().nth(1), Some(title));
     assert!(svg.contains("1 trigger in the middle of the exposure"));
@@ -184,7 +175,7 @@ fn a_timers_rate_and_bits_are_told() {
         ),
         ("timer_hz = 25000000; timer_bits = 32", "25000000 Hz"),
     ] {
-        let facts = shutter::facts::lines("leaf", &plan(MEASURED, keys));
+        let facts = shutter::facts::lines("leaf", &planned(MEASURED, keys));
         assert!(facts.contains(&("timer", told.into())), "{facts:?}");
     }
 }
@@ -204,13 +195,13 @@ fn ticks_that_may_be_others_are_doubted() {
         let [a, b, c, d] = [0.0, 0.002, 0.006, 0.008].map(|t| start + t);
         let curve = format!("open_start = {a}; open_end = {b}; close_start = {c}; close_end = {d}");
         let frame = format!("triggers = 4; min_gap = 0; set_up = 'emulated'; timer_hz = {hz}");
-        let plan = plan(TRAPEZOID, &format!("{curve}; {frame}"));
+        let plan = planned(TRAPEZOID, &format!("{curve}; {frame}"));
         assert_eq!(serde_json::from_str::<Value>(&json(&plan)).unwrap()["doubts"], json!(doubts));
         let module = emit(Form::Rust, "scene", &plan, false).unwrap();
         assert_eq!(module.matches("\n// doubt ").count(), doubts.len(), "{module}");
     }
     let slow = "open_start = 0\ntrigger_times = [20, 40]\nmin_gap = 0\nset_up = 'emulated'\n";
-    let told = json(&plan(slow, "timer_hz = 1.5"));
+    let told = json(&planned(slow, "timer_hz = 1.5"));
     assert!(told.contains("\"1.5 Hz, planned as 2: 20 ticks off at the end\""), "{told}");
 }
 
@@ -218,7 +209,7 @@ fn ticks_that_may_be_others_are_doubted() {
 #[test]
 fn the_report_tells_when_a_drift_matters() {
     for (hz, frames) in [("25000000", 7542), ("1000000", 302)] {
-        let told = report(&plan(MEASURED, &format!("timer_hz = {hz}")));
+        let told = report(&planned(MEASURED, &format!("timer_hz = {hz}")));
         let line = "\ndrift        a tick a second moves the delay by 1 % of a share in ";
         assert!(told.contains(&format!("{line}{frames} frames\n")), "{told}");
     }
@@ -230,7 +221,7 @@ fn a_unit_scales_all_times() {
     let curve = "duty = 0.5; set_up = 'in_path'; triggers = 7; timer_hz = 1000";
     let csv = |plan: &Planned| emit(Form::Csv, "x", plan, false).unwrap();
     let plain =
-        plan(TRAPEZOID, &format!("min_gap = 0.05; nominal = 0.5; min_pulse = 0.01; {curve}"));
+        planned(TRAPEZOID, &format!("min_gap = 0.05; nominal = 0.5; min_pulse = 0.01; {curve}"));
     for (unit, factor) in
         [("ms", 1e3), ("µs", 1e6), ("μs", 1e6), ("us", 1e6), ("ns", 1e9), ("s", 1.0)]
     {
@@ -243,7 +234,7 @@ fn a_unit_scales_all_times() {
             ("min_pulse", 0.01),
         ];
         let times = times.map(|(key, time)| format!("{key} = {}; ", time * factor)).concat();
-        let scaled = plan(TRAPEZOID, &format!("unit = \"{unit}\"; {times}{curve}"));
+        let scaled = planned(TRAPEZOID, &format!("unit = \"{unit}\"; {times}{curve}"));
         assert_eq!(csv(&scaled), csv(&plain), "{unit}");
         assert!(report(&scaled).contains("ΔEV +0.58"), "{}", report(&scaled));
     }
@@ -300,7 +291,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
             format!("open_end = {open}; close_start = {close}; close_end = {end}; delay = {delay}");
         let changes =
             format!("unit = \"{unit}\"; {times}; triggers = 3; min_gap = 0; sync_falls = true");
-        let plan = plan(TRAPEZOID, &changes);
+        let plan = planned(TRAPEZOID, &changes);
         let out = report(&plan);
         let fact = format!(
             "delay        {delay} {unit} from the sync's falling edge to the start of opening\n"
@@ -315,9 +306,10 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
         assert!(svg.contains(&format!("delay {delay} {unit}")), "and the delay");
     }
     // An edge far before the curve would squeeze it: it is told, not drawn to scale.
-    let svg = shutter::picture::svg("late", &plan(TRAPEZOID, "min_gap = 0; delay = 100")).unwrap();
+    let svg =
+        shutter::picture::svg("late", &planned(TRAPEZOID, "min_gap = 0; delay = 100")).unwrap();
     assert!(svg.contains("sync 100 s before"));
-    let out = report(&plan(TRAPEZOID, ""));
+    let out = report(&planned(TRAPEZOID, ""));
     let none = "delay        none known: ticks count from the start of opening";
     assert!(out.contains(none) && !out.contains("from edge"), "{out}");
     // The longest that fits, and one as good as none, of whose zero no sign is kept.
@@ -360,7 +352,7 @@ fast    375 ms       750 ms  +1.00        75 %  500 ms    7 of 7
 
 #[test]
 fn facts_of_a_trapezoid_are_those_of_its_geometry() {
-    let out = report(&plan(TRAPEZOID, "nominal = 0.75"));
+    let out = report(&planned(TRAPEZOID, "nominal = 0.75"));
     let direct = ShutterCurve::<8>::linear(0.0, 0.25, 0.75, 1.0).unwrap().direct_triggers();
     for fact in [
         "times        T1 0.25 s opening, T2 0.5 s fully open, T3 0.25 s closing\n",
@@ -371,10 +363,10 @@ fn facts_of_a_trapezoid_are_those_of_its_geometry() {
         "triggers     7; up to 7 keep the gap\n",
         &format!("direct       frames of up to {direct} triggers never need a search\n"),
     ] {
-        assert!(out.contains(fact), "{fact}\n{out}");
+        has(&out, &[fact], &[]);
     }
     // One is not many.
-    let out = report(&plan(TRAPEZOID, "triggers = 1; min_gap = 0.5"));
+    let out = report(&planned(TRAPEZOID, "triggers = 1; min_gap = 0.5"));
     assert!(out.contains("triggers     1; 1 keeps the gap"), "{out}");
 }
 
@@ -389,7 +381,7 @@ fn pulses_come_around_the_triggers_or_take_equal_shares() {
         // Half a tick of an odd length comes after the trigger.
         ("triggers = 1; pulse = 0.003", &[[499, 502]]),
     ] {
-        let out = report(&plan(BOX, lamp));
+        let out = report(&planned(BOX, lamp));
         let edges = |row: Vec<&str>| [4, 5].map(|i| row[i].parse::<u32>().unwrap());
         assert_eq!(table(&out).into_iter().map(edges).collect::<Vec<_>>(), pulses, "{lamp}");
     }
@@ -400,7 +392,7 @@ fn pulses_come_around_the_triggers_or_take_equal_shares() {
 fn doses_are_equal_through_the_curve() {
     let triangle =
         "open_end = 0.5; close_start = 0.5; timer_hz = 100_000_000; min_gap = 0; duty = 0.3";
-    let plan = plan(TRAPEZOID, triangle);
+    let plan = planned(TRAPEZOID, triangle);
     let collected = |ticks: u32| {
         let t = f64::from(ticks) / 1e8;
         if t < 0.5 { t * t } else { 0.5 - (1.0 - t) * (1.0 - t) }
@@ -418,15 +410,15 @@ fn doses_are_equal_through_the_curve() {
 fn settings_of_the_command_line_count() {
     let folder = Folder::new("settings");
     let curve = "unit = 'ms'\nopen_start = 0\nopen_end = 0\nclose_start = 10\nclose_end = 10\n";
-    let planned = |scene: &str, args: &str| {
+    let ran = |scene: &str, args: &str| {
         folder.write("box.toml", scene);
         folder.run(&format!("plan box.toml {args}"))
     };
     let whole = format!("{curve}triggers = 24\ntimer_hz = 84_000_000\nmin_gap = 0.1\nduty = 0.3\n");
     let settings = "--triggers 24 --timer-hz 84MHz --min-gap 100us --duty 0.3";
-    let expected = planned(&whole, "").prints(&["timer        84000000 Hz\n", "0.1 ms"]);
-    assert_eq!(planned(curve, settings), expected);
-    assert_eq!(planned(&format!("{curve}pulse = 0.2\ntimer_hz = 1000\n"), settings), expected);
+    let expected = ran(&whole, "").prints(&["timer        84000000 Hz\n", "0.1 ms"]);
+    assert_eq!(ran(curve, settings), expected);
+    assert_eq!(ran(&format!("{curve}pulse = 0.2\ntimer_hz = 1000\n"), settings), expected);
     for (args, reason) in [
         ("--triggers 2000", "\n  The command line sets some of this scene.\n"),
         ("--min-gap 100", "write a time as in 0, 1.5ms"),
@@ -437,9 +429,9 @@ fn settings_of_the_command_line_count() {
         ("--duty 1.5", "duty: above 0 and at most 1 is required"),
         ("--triggers 0", "--triggers"),
     ] {
-        planned(&whole, args).refused(reason);
+        ran(&whole, args).refused(reason);
     }
-    let out = planned(&whole, "--timer-hz 32.768kHz").out;
+    let out = ran(&whole, "--timer-hz 32.768kHz").out;
     assert_eq!(out.matches("32768 Hz").count(), 1);
 }
 

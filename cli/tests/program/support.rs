@@ -9,6 +9,7 @@ use shutter::planned::Planned;
 use shutter_fit::trace::Trace;
 
 use crate::generator::Random;
+use crate::refusals::with;
 
 /// The scenes that ship.
 pub const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
@@ -27,6 +28,24 @@ pub fn scenes() -> Vec<(String, Planned)> {
 
 pub fn scene(name: &str) -> Planned {
     Planned::parse(&fs::read_to_string(format!("{SCENES}/{name}.toml")).unwrap()).unwrap()
+}
+
+/// The plan of a scene with changes.
+#[track_caller]
+pub fn planned(scene: &str, changes: &str) -> Planned {
+    let text = with(scene, changes);
+    Planned::parse(&text).unwrap_or_else(|fault| panic!("{}", fault.locate("scene", &text)))
+}
+
+pub fn report(plan: &Planned) -> String {
+    shutter::report::text("scene", plan, 80)
+}
+
+/// The text has all of these words, and none of those.
+#[track_caller]
+pub fn has(text: &str, all: &[&str], none: &[&str]) {
+    all.iter().for_each(|words| assert!(text.contains(words), "{words}\n{text}"));
+    none.iter().for_each(|words| assert!(!text.contains(words), "{words}\n{text}"));
 }
 
 /// How a run ended, and what it wrote; no code where it was killed.
@@ -64,16 +83,14 @@ impl Run {
     /// It ended well, and printed these words.
     #[track_caller]
     pub fn prints(self, words: &[&str]) -> Self {
-        words
-            .iter()
-            .for_each(|it| assert!(self.out.contains(it), "{it}:\n{}{}", self.out, self.err));
+        has(&self.out, words, &[]);
         self.well()
     }
 
     /// It ended well, and told these words.
     #[track_caller]
     pub fn tells(self, words: &[&str]) -> Self {
-        words.iter().for_each(|it| assert!(self.err.contains(it), "{it}: {}", self.err));
+        has(&self.err, words, &[]);
         self.well()
     }
 

@@ -17,8 +17,7 @@ use crate::generator::{
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style;
-use shutter_fit::trace::Trace;
-use shutter_fit::{Fit, Kind, Measured, Options, fit};
+use shutter_fit::{Kind, Measured, Options, fit};
 
 /// An interval of so many standard errors to either side holds 95 % of all values, if these are normal.
 const INTERVAL: f64 = 1.96;
@@ -40,22 +39,17 @@ struct Row {
     time: Duration,
 }
 
-fn trace(case: &Case) -> Trace {
-    Trace { times: case.times.clone(), values: case.values.clone() }
-}
-
 fn row(shutter: Shutter, case: &Case) -> Option<Row> {
-    let trace = trace(case);
     let clock = Instant::now();
-    let fit = fit(&trace, &Options::default(), &mut |_| ()).ok()?;
+    let fit = fit(&case.trace, &Options::default(), &mut |_| ()).ok()?;
     let time = clock.elapsed();
-    let exposure = case.truth.exposure() * case.scale;
+    let exposure = case.exposure();
     let holds =
         |m: Measured, truth: f64| (m.value - truth).abs() <= INTERVAL * m.error + 1e-5 * truth;
     let (mut squares, mut greatest, mut covered) = (0.0, 0.0, 0.0);
     let n = fit.triggers.len() as f64;
     for (i, trigger) in fit.triggers.iter().enumerate() {
-        let truth = case.truth.trigger((i as f64 + 0.5) / n) * case.scale;
+        let truth = case.trigger((i as f64 + 0.5) / n);
         let error = (trigger.value - truth).abs() / exposure;
         squares += error * error / n;
         greatest = f64::max(greatest, error);
@@ -312,7 +306,7 @@ fn a_trace_without_noise_is_met_exactly() {
     let mut random = Random::new(5);
     let truth = truth(Shutter::Trapezoid, &mut random);
     let case = traced(truth, Disturbance::White, 2000, 0.0, &mut random);
-    let fitted: Fit = fit(&trace(&case), &Options::default(), &mut |_| ()).unwrap();
-    let exposure = case.truth.exposure() * case.scale;
+    let fitted = case.fitted(&Options::default());
+    let exposure = case.exposure();
     assert!((fitted.exposure.value / exposure - 1.0).abs() < 1e-4);
 }

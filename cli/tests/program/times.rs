@@ -161,6 +161,7 @@ fn the_plan_says_that_there_is_no_curve_and_shows_the_times() {
 #[test]
 fn where_a_curve_is_required_such_a_scene_is_refused_by_its_name() {
     let fault = scene::parse(TIMES).err().unwrap();
-    assert!(fault.reason.starts_with("trigger_times: this scene has times as they were measured"));
+    let told = "trigger_times: this scene has times as they were measured";
+    assert!(fault.locate("a.toml", TIMES).contains(told));
     assert_eq!(fault.at.map(|at| &TIMES[at..at + 13]), Some("trigger_times"));
 }

@@ -4,12 +4,12 @@
 // Each test needs a part.
 #![allow(dead_code)]
 
-pub mod physics;
-pub mod unseen;
-
 use std::env;
 use std::fmt::Debug;
 use std::str::FromStr;
+
+use shutter_fit::trace::Trace;
+use shutter_fit::{Fit, Options, fit};
 
 /// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
 pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
@@ -78,15 +78,10 @@ pub enum Shutter {
     Cubic,
 }
 
-pub const SHUTTERS: [Shutter; 7] = [
-    Shutter::Box,
-    Shutter::Trapezoid,
-    Shutter::Leaf,
-    Shutter::Iris,
-    Shutter::LiquidCrystal,
-    Shutter::Symmetric,
-    Shutter::Cubic,
-];
+pub const SHUTTERS: [Shutter; 7] = {
+    use Shutter::*;
+    [Box, Trapezoid, Leaf, Iris, LiquidCrystal, Symmetric, Cubic]
+};
 
 /// What disturbs a trace beside white noise, or instead of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -168,7 +163,8 @@ impl Truth {
     }
 }
 
-fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
+/// A cubic Bezier with these inner control points.
+pub fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
     let cubic = |a: f64, b: f64, p: f64| {
         let r = 1.0 - p;
         3.0 * r * r * p * a + 3.0 * r * p * p * b + p * p * p
@@ -238,10 +234,26 @@ pub fn truth(shutter: Shutter, random: &mut Random) -> Truth {
 /// A trace with its truth, which is in the time of the trace.
 pub struct Case {
     pub truth: Truth,
-    pub times: Vec<f64>,
-    pub values: Vec<f64>,
+    pub trace: Trace,
     /// The times are these many times the truth's.
     pub scale: f64,
+}
+
+impl Case {
+    /// The fit of the trace.
+    pub fn fitted(&self, options: &Options) -> Fit {
+        fit(&self.trace, options, &mut |_| ()).expect("a fit")
+    }
+
+    /// When so much of the light has come, in the time of the trace.
+    pub fn trigger(&self, u: f64) -> f64 {
+        self.truth.trigger(u) * self.scale
+    }
+
+    /// In the time of the trace.
+    pub fn exposure(&self) -> f64 {
+        self.truth.exposure() * self.scale
+    }
 }
 
 pub fn case(shutter: Shutter, disturbance: Disturbance, random: &mut Random) -> Case {
@@ -294,5 +306,5 @@ pub fn traced(
         values.push(dark + light * (f + noise * last + beside));
     }
     let times = (0..n).map(|i| scale * (i as f64 + 0.5) * step).collect();
-    Case { truth, times, values, scale }
+    Case { truth, trace: Trace { times, values }, scale }
 }
