@@ -23,10 +23,6 @@ def plus(*polynomials):
     return [sum(p[k] for p in polynomials if k < len(p)) for k in range(max(map(len, polynomials)))]
 
 
-def by(p, factor):
-    return [factor * c for c in p]
-
-
 def times(p, q):
     out = [0 * ONE] * (len(p) + len(q) - 1)
     for i, x in enumerate(p):
@@ -35,22 +31,12 @@ def times(p, q):
     return out
 
 
-def slope(p):
-    return [k * c for k, c in enumerate(p)][1:]
-
-
-def integral(p):
-    return [0 * ONE] + [c / (k + 1) for k, c in enumerate(p)]
-
-
-def sizes(p):
-    return [abs(c) for c in p]
-
-
-def at(p, x):
-    return sum(c * x**k for k, c in enumerate(p))
-
-
+by = lambda p, factor: [factor * c for c in p]
+slope = lambda p: [k * c for k, c in enumerate(p)][1:]
+integral = lambda p: [0 * ONE] + [c / (k + 1) for k, c in enumerate(p)]
+sizes = lambda p: [abs(c) for c in p]
+at = lambda p, x: sum(c * x**k for k, c in enumerate(p))
+order = lambda p: next(k for k, c in enumerate(p) if c != 0)
 # Bernstein's polynomials of degree 3.
 WEIGHTS = [[0 * ONE] * k + [ONE * comb(3, k) * comb(3 - k, j) * (-1) ** j for j in range(4 - k)] for k in range(4)]
 SINGLE = [tuple(int(i == k) for i in range(4)) for k in range(4)]
@@ -80,10 +66,6 @@ def least(p, start, end):
             moved[j] += start * moved[j + 1]
     moved = [c * (end - start) ** k for k, c in enumerate(moved)]
     return min(sum(Fraction(comb(i, k), comb(n, k)) * moved[k] for k in range(i + 1)) for i in range(n + 1))
-
-
-def order(p):
-    return next(k for k, c in enumerate(p) if c != 0)
 
 
 def holds(factor, left, right, ramps, until=None, parts=128):

@@ -5,8 +5,9 @@ cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 """
 
 import numpy as np
+from z3 import *
 
-from solver import *
+from common import *
 
 pinned("""
 octave/mod.rs offset f842a0c4 polynomial dd3fe418
@@ -73,9 +74,7 @@ proven(f"SLACK has {float(more / U):g} roundings of 2^-24: samples off their poi
 # --- What samples lose in integers: a coefficient less than a unit as it is cut, and so each product as it is rounded down; |s| is at
 # most 1, so nothing that is lost grows.
 a, b = Ints("a b")
-solver = Solver()
-solver.add((a * 2**32 + b) / 2**30 != 4 * a + b / 2**30)
-require(solver.check() == unsat, "the product by words")
+require_valid("the product by words", (a * 2**32 + b) / 2**30 == 4 * a + b / 2**30)
 lost = Fraction(4 + 3, 2 ** constant("TIME_BITS"))
 position, allowed = Fraction(1, 2) + Fraction(7 + 6, 2 ** constant("POSITION_BITS")), Fraction("0.5002")
 require(constant("SAMPLE_OFF") == lost and position <= allowed < Fraction(1001, 2000), "samples")

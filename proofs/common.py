@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 from fractions import Fraction
-from math import log2 as double_log2
+from math import log2
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -96,18 +96,8 @@ def constant(name):
 
 
 def exactly(number):
-    """A number as Gappa reads it, rounded down to 60 bits where it has more."""
-    number, places = Fraction(number), 0
-    while number.denominator != 1 and number * 2**places < 2**60:
-        places += 1
-        if (number * 2**places).denominator == 1:
-            break
-    return f"{int(number * 2**places)}b-{places}"
-
-
-def log2(x):
-    x = Fraction(x)
-    return double_log2(x.numerator) - double_log2(x.denominator)
+    """A number as Gappa reads it; below 2^-80 it is rounded down."""
+    return f"{int(number * 2**80)}b-80"
 
 
 started = time.monotonic()
@@ -140,4 +130,19 @@ def gappa_claim(claim, script, bound, slack=Fraction(1, 50)):
     """Gappa proves `script(bound)`, and does not prove it for a bound that is less by the share `slack`."""
     require(gappa(script(Fraction(bound))), claim)
     require(not gappa(script(Fraction(bound) * (1 - slack))), f"{claim}: a tighter bound is proven, too: say that one")
+    proven(claim)
+
+
+def require_valid(claim, formula, *but_not):
+    """z3 proves the formula; and finds an exception to each of those that say a little more."""
+    from z3 import Not, Solver, sat, unsat
+
+    for expected, stated in [(unsat, formula), *((sat, more) for more in but_not)]:
+        solver = Solver()
+        solver.add(Not(stated))
+        require(solver.check() == expected, f"{claim}{': more than this holds' * (expected == sat)}")
+
+
+def valid(claim, formula, *but_not):
+    require_valid(claim, formula, *but_not)
     proven(claim)

@@ -1,6 +1,8 @@
 """The first guess: the division by a constant, and that logarithms fit their words. By exact arithmetic and z3."""
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 search/guess.rs guess e18650f6 divided eed4515e rough_log 9e8a10e6 RECIPROCALS 9fa5011a

@@ -18,12 +18,8 @@ def add(*bounds):
     return total
 
 
-def scale(bound, factor):
-    return {term: number * factor for term, number in bound.items()}
-
-
-def by(bound, x=0, s=0):
-    return {(j, a + x, b + s): number for (j, a, b), number in bound.items()}
+scale = lambda bound, factor: {term: number * factor for term, number in bound.items()}
+by = lambda bound, x=0, s=0: {(j, a + x, b + s): number for (j, a, b), number in bound.items()}
 
 
 def ratio(bound, by):

@@ -1,7 +1,9 @@
 """That the look-up and the offset lead to the `x` at which a polynomial was judged, by z3; and what Horner's rule in integers
 truncates, by Gappa."""
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 octave/mod.rs top ec60763a below b73f9ae7 Octave::offset f842a0c4 times_high 6572aa47 times_high_by_halves 411fa41c polynomial dd3fe418
@@ -17,37 +19,19 @@ SHIFT_MASK = constant("SHIFT_MASK")
 STEP = constant("EIGHTH")
 
 
-def look_up(top, bits):
-    """`Inverse::look_up`: the index, and the significand with its sign."""
-    below = top - bits
-    return LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
-
-
-def offset(significand, center):
-    """The position that `Inverse::look_up` makes of it, and `Octave::offset` of that."""
-    position = significand + (significand & ~(significand >> 31))
-    return (position - center) << (center & SHIFT_MASK)
-
-
-# The significand is the place in the octave. `top` is below 2, `bits` those of a fraction above 0 and at most `top`.
+# `Inverse::look_up`: the index, and the significand with its sign, which is the place in the octave. `top` is below 2, `bits` those of
+# a fraction above 0 and at most `top`.
 top, bits = BitVecs("top bits", 32)
-index, significand = look_up(top, bits)
+below = top - bits
+index, significand = LShR(below, 23), (bits ^ ((top ^ below) & (1 << 23))) << 8
 octave_top = top - (index << 23)
 domain = And(UGT(bits, 0), ULE(bits, top), ULT(top, 128 << 23))
 is_lower = significand < 0
-valid(
-    "the look-up finds the octave below whose top, and above half of whose top, the fraction is",
-    Implies(domain, And(ULE(bits, octave_top), UGT(bits + (1 << 23), octave_top))),
-    Implies(domain, And(ULT(bits, octave_top), UGT(bits + (1 << 23), octave_top))),
-)
-valid(
-    "its sign says in which of the octave's two binades the fraction is, and the rest is its significand",
-    Implies(And(domain, UGE(bits, 1 << 23)), And(
-        LShR(bits, 23) == LShR(octave_top, 23) - If(is_lower, BitVecVal(1, 32), BitVecVal(0, 32)),
-        significand << 1 == bits << 9,
-    )),
-    Implies(domain, LShR(bits, 23) == LShR(octave_top, 23)),
-)
+found = lambda is_below: Implies(domain, And(is_below(bits, octave_top), UGT(bits + (1 << 23), octave_top)))
+valid("the look-up finds the octave below whose top, and above half of whose top, the fraction is", found(ULE), found(ULT))
+binade = lambda lower: LShR(octave_top, 23) - If(is_lower, BitVecVal(lower, 32), BitVecVal(0, 32))
+signed = lambda lower: Implies(And(domain, UGE(bits, 1 << 23)), And(LShR(bits, 23) == binade(lower), significand << 1 == bits << 9))
+valid("its sign says in which of the octave's two binades the fraction is, and the rest is its significand", signed(1), signed(0))
 
 # The offset. The fraction, in 2^-32 of the power of two at or below the octave's top, is an integer `exact` of 34 bits.
 significand, center = BitVec("significand", 32), BitVec("center", 64)
@@ -55,20 +39,20 @@ wide = SignExt(32, significand)
 exact = (1 << 32) + If(significand < 0, wide, 2 * wide)
 shift = center & SHIFT_MASK
 word = 1 << 31
+# The position that `Inverse::look_up` makes of the significand, and `Octave::offset` of that.
+position, center_word = significand + (significand & ~(significand >> 31)), Extract(31, 0, center)
+offset = (position - center_word) << (center_word & SHIFT_MASK)
 
 
 def leads_to(least, most):
-    fits = And(exact - center >= least >> shift, exact - center <= most >> shift)
-    right = SignExt(32, offset(significand, Extract(31, 0, center))) == (exact - center) << shift
-    return Implies(And(ULT(center, 1 << 34), fits), right)
+    # As shifts round down, these limits are those of least <= (exact - center) 2^shift <= most.
+    fits = And(exact - center >= BitVecVal(least, 64) >> shift, exact - center <= BitVecVal(most, 64) >> shift)
+    return Implies(And(ULT(center, 1 << 34), fits), SignExt(32, offset) == (exact - center) << shift)
 
 
-# As shifts round down, these limits are those of -2^31 <= (exact - center) 2^shift < 2^31.
 valid(
     "offset is (exact - center) 2^shift, if that fits the word: for all positions, centers and shifts",
-    leads_to(BitVecVal(-word, 64), BitVecVal(word - 1, 64)),
-    leads_to(BitVecVal(-word, 64), BitVecVal(word, 64)),
-    leads_to(BitVecVal(-2 * word, 64), BitVecVal(word - 1, 64)),
+    leads_to(-word, word - 1), leads_to(-word, word), leads_to(-2 * word, word - 1),
 )
 
 # Does it fit? All of this in 2^-32 of the octave's power of two. A part has f32 for its ends, and `half` is half its length and
@@ -102,11 +86,9 @@ proven(f"so do those of fractions up to {EPSILONS} EPSILON beyond, with all shif
 # Tops keep 16 ulp from where a range begins.
 bits, top = BitVecs("bits top", 32)
 raised = If(ULT((top - bits + 16) & 0x7FFFFF, 32), top + STEP, top)
-valid(
-    "a range that begins above 0 begins 16 ulp or more below each octave's end, or above it",
-    Implies(And(ULT(top, 128 << 23), ULT(bits, 128 << 23)), And(UGE((raised - bits) & 0x7FFFFF, 16), UGE((bits - raised) & 0x7FFFFF, 16))),
-    Implies(And(ULT(top, 128 << 23), ULT(bits, 128 << 23)), UGE((raised - bits) & 0x7FFFFF, 17)),
-)
+distances = [(raised - bits) & 0x7FFFFF, (bits - raised) & 0x7FFFFF]
+apart = lambda least: Implies(And(ULT(top, 128 << 23), ULT(bits, 128 << 23)), And(*(UGE(distance, least) for distance in distances)))
+valid("a range that begins above 0 begins 16 ulp or more below each octave's end, or above it", apart(16), apart(17))
 
 # Horner's sums. With |x| within the reach, each is at most the bound of the exact one, half a unit for each coefficient's rounding
 # and one for each product's, and the bound is computed with up to three roundings a step.
@@ -126,12 +108,9 @@ proven(f"Horner's sums fit 32 bits where |x| is within the reach: on all that a 
 last, before = BitVecs("last before", 32)
 until_far, count = last - bits, If(UGT(last, before), last - before, BitVecVal(0, 32))
 numbers = And(ULT(bits, 1 << 31), ULT(last, 1 << 31), ULT(before, 1 << 31))
-on_line = lambda more: And(UGT(bits, before), ULE(bits, last + more))
-valid(
-    "the plateau's line serves the fractions above `before` and up to the last before the far ramp, and the sign tells those beyond",
-    Implies(numbers, And(ULT(until_far, count) == on_line(0), (LShR(until_far, 31) == 1) == UGT(bits, last))),
-    Implies(numbers, ULT(until_far, count) == on_line(1)),
-)
+is_on_line = lambda more: ULT(until_far, count) == And(UGT(bits, before), ULE(bits, last + more))
+on_line = lambda more: Implies(numbers, And(is_on_line(more), (LShR(until_far, 31) == 1) == UGT(bits, last)))
+valid("the plateau's line serves the fractions above `before` and up to the last before the far ramp, and the sign tells those beyond", on_line(0), on_line(1))
 # Seen from the later side the line wants 1 - a, in 2^-32: a word is a whole number of these (words.py).
 word = LShR(bits << 8 | 1 << 31, 126 - LShR(bits, 23))
 one_less = fpToIEEEBV(fpSub(RNE(), FPVal(1, Float64()), fpFPToFP(RNE(), fpBVToFP(bits, Float32()), Float64())))
@@ -141,17 +120,9 @@ valid("from the later side the line is asked for 1 - a, exactly", Implies(served
 
 # A top is at or above the end of its ramp.
 end = BitVec("end", 32)
-
-
-def top_of(end):
-    return UDiv(end + STEP - 1, BitVecVal(STEP, 32)) * STEP
-
-
-valid(
-    "a top is at or above the end of its ramp, so that no fraction of the ramp is looked up above its octaves",
-    Implies(ULT(end, 127 << 23), And(UGE(top_of(end), end), ULT(top_of(end) - end, STEP))),
-    Implies(ULT(end, 127 << 23), UGE(UDiv(end, BitVecVal(STEP, 32)) * STEP, end)),
-)
+top_of = lambda less: UDiv(end + STEP - less, BitVecVal(STEP, 32)) * STEP
+is_above = lambda less: Implies(ULT(end, 127 << 23), And(UGE(top_of(less), end), ULT(top_of(less) - end, STEP)))
+valid("a top is at or above the end of its ramp, so that no fraction of the ramp is looked up above its octaves", is_above(1), is_above(STEP))
 
 
 # Horner's rule: each product is rounded down. `e` is what has been lost so far. The least x, -1/2, is never reached.

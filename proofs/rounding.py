@@ -33,14 +33,17 @@ def numbers(p, exponents):
     return np.concatenate([sign * (m << e) for e in exponents for sign in (1, -1)])
 
 
-def wrong(p, halves):
-    """How many sums of a base and a pair are not rounded once. The pair's second number is at most so many half ulps of its first."""
+def operands(p, halves):
+    """The unit of a pair's first numbers, bases, and second numbers of at most so many half ulps, which are 2^(unit - 1)."""
     unit = 2 * p + 1
-    bases = np.concatenate([numbers(p, range(unit - p - 1, unit + p + 2)), [0]])[:, None]
     los = numbers(p, range(0, unit + 1))
-    # Half an ulp is 2^(unit - 1).
-    los = np.concatenate([los[np.abs(los) <= halves << (unit - 1)], [0]])
-    found = 0
+    return unit, np.append(numbers(p, range(unit - p - 1, unit + p + 2)), 0), np.append(los[np.abs(los) <= halves << (unit - 1)], 0)
+
+
+def wrong(p, halves):
+    """How many sums of a base and a pair are not rounded once."""
+    (unit, bases, los), found = operands(p, halves), 0
+    bases = bases[:, None]
     for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
         # In parts that fit the cache.
         for lo in np.array_split(los[None, :], len(los) // 6 + 1, axis=1):
@@ -67,14 +70,10 @@ def wrong_below(p, halves, by_all=True):
 
     A base is a multiple of that place, as every number is; the pair, in a finer unit, need not be.
     """
-    unit = 2 * p + 1
-    los = numbers(p, range(0, unit + 1))
-    lo = np.concatenate([los[np.abs(los) <= halves << (unit - 1)], [0]])
-    found = 0
+    (unit, all_bases, lo), found = operands(p, halves), 0
     for place in range(unit - p, unit + 3):
         least = np.int64(1) << (place + p - 1)
-        bases = np.concatenate([numbers(p, range(unit - p - 1, unit + p + 2)), [0]])
-        bases = bases[(bases % (1 << place) == 0) & (np.abs(bases) <= 4 * least)]
+        bases = all_bases[(all_bases % (1 << place) == 0) & (np.abs(all_bases) <= 4 * least)]
         for hi in np.arange(2 ** (p - 1), 2**p, dtype=np.int64) << unit:
             base, low = bases[:, None], lo[None, :]
             near = rounded(base + hi, p)
@@ -97,6 +96,5 @@ proven("rounded_small_sum rounds once where a sum is subnormal, too: for all of 
 
 
 # Is the rounding to odd needed, and seen to be?
-odd, odd_sum = odd_sum, lambda a, b, p: rounded(a + b, p)
+odd_sum = lambda a, b, p: rounded(a + b, p)
 require(wrong(5, 1) > 0, "rounding to nearest twice would do")
-odd_sum = odd

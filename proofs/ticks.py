@@ -1,7 +1,9 @@
 """From fractions to ticks: the order of fractions, whole units of time, and the nearest tick; and that ticks never step back."""
 
 import box
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 fraction.rs of_parts 36f90104
@@ -47,18 +49,6 @@ part, whole, quotient, error = Reals("part whole quotient error")
 scaled = And(part >= 1, part <= 2, whole >= 1, whole < 2, error * whole <= 1, error >= 0)
 within = lambda most: Implies(scaled, If(part >= whole, error / 2, error) + half <= most)
 valid("a trigger's fraction is within half an ulp; a pulse's end within one and a half", within(Q(3, 2)), within(Q(149, 100)))
-
-
-def single(x):
-    """The nearest f32, to even in the middle, and its ulp."""
-    ulp = Fraction(2) ** (x.numerator.bit_length() - x.denominator.bit_length() - 24)
-    ulp *= 1 if x < 2**24 * ulp else 2
-    return round(x / ulp) * ulp, ulp
-
-
-exact = 257 - Fraction(0.7388458251953125)
-end, ulp = single(single(exact)[0] / 2052)
-require(abs(end - exact / 2052) > Fraction(148, 100) * ulp, "an end that is farther off than 1.48 ulp")
 # Two ends of pulses that are neighbours are at 1/4n or later, or the second is three times as far as the first: with v = 1 - d < 1/2 the
 # next is 1 + d.
 v, w = Reals("v w")
@@ -137,10 +127,8 @@ TICK_BITS, LONGEST = constant("TICK_BITS"), 62
 ticks = BitVec("ticks", 128)
 upper = LShR(ticks + (2**32 - 1), 32)
 for e in range(97):
-    solver = Solver()
-    solver.add(UGE(ticks, 1 << SHORTEST), ULT(ticks, 1 << 96))
-    solver.add((LShR(upper - 1, e - 32) == 0 if e >= 32 else BoolVal(False)) != ULE(ticks, BitVecVal(1 << e, 128)))
-    require(solver.check() == unsat, "exponent_of_ticks")
+    is_enough = LShR(upper - 1, e - 32) == 0 if e >= 32 else BoolVal(False)
+    require_valid("exponent_of_ticks", Implies(And(UGE(ticks, 1 << SHORTEST), ULT(ticks, 1 << 96)), is_enough == ULE(ticks, BitVecVal(1 << e, 128))))
 require(2 ** (LONGEST - 32) * (2**32 - 1) + 2**32 < 2**64, "exponent_of_ticks: the upper 64 bits")
 proven(f"exponent_of_ticks: the least power of two that is not below, for every number of ticks from 2^{SHORTEST} units to 2^96")
 downs = set()
@@ -157,13 +145,9 @@ products = And(p >= 0, p <= (2**32 - 1) ** 2, q >= 0, q <= (2**31 - 1) * (2**32 
 product = q + p / 2**32
 for down in range(least, 64):
     tick = (product / 2**down + 1) / 2
-    claims = [Implies(products, And(tick == (q * 2**32 + p + 2 ** (32 + down)) / 2 ** (33 + down), product < 2**63)),
-              Implies(products, tick == (q * 2**32 + p + 2 ** (32 + down) - 2**31) / 2 ** (33 + down))]
+    exact = lambda less: Implies(products, And(tick == (q * 2**32 + p + 2 ** (32 + down) - less) / 2 ** (33 + down), product < 2**63))
     # Moved by 63, and by more, which is not done, none is half a tick.
-    for claim, expected in zip(claims, (unsat, sat if down < 63 else unsat)):
-        solver = Solver()
-        solver.add(Not(claim))
-        require(solver.check() == expected, f"tick: moved down by {down}")
+    require_valid(f"tick: moved down by {down}", exact(0), *[exact(2**31)] * (down < 63))
 proven(f"TickScale: the tick is floor(delay rate + 1/2) exactly, for every delay in units, length and rate: moved down by {least} or more, and nothing overflows")
 # What a tick may be off by: half a tick, the measuring of the way, two units and the start's.
 unit = Fraction(2**TICK_BITS, 2**SHORTEST)

@@ -1,12 +1,13 @@
 """The plateau's line, the rounding of a time, and bits of numbers: for all values of the words, by z3."""
 
-from solver import *
+from z3 import *
+
+from common import *
 
 pinned("""
 inverse.rs on_line 11ca6ef0 in_line_units 6fe0fed4 last_before_line e915c97a upper_word a882ad8d rounded_near_0 979ba1b4
-number/pair.rs upper 5180492f ::flipped 279c50d6 significand a3252cda
+number/pair.rs upper 5180492f significand a3252cda
 number/units.rs exponent eb440cf3 fixed_down 12e34aed fixed_towards_0 c6a6eaa3 floor_bits 60a73088
-octave/candidate.rs rounded 0d9916e4
 """)
 
 # The plateau's line.
@@ -14,11 +15,8 @@ octave/candidate.rs rounded 0d9916e4
 p, q = Ints("p q")
 greatest = (2**32 - 1) ** 2
 products = And(p >= 0, p <= greatest, q >= 0, q <= (2**31 - 1) * (2**32 - 1))
-valid(
-    "on_line: the way is floor(slope u / 2^32), and stays within 63 bits",
-    Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**63)),
-    Implies(products, q + p / 2**32 < 2**62),
-)
+way = lambda bits: Implies(products, And(q + p / 2**32 == (q * 2**32 + p) / 2**32, q + p / 2**32 < 2**bits))
+valid("on_line: the way is floor(slope u / 2^32), and stays within 63 bits", way(63), way(62))
 FINE = 127 + int(log2(constant("FINE")))
 bits = BitVec("bits", 32)
 shift = 126 - LShR(bits, 23)
@@ -77,29 +75,19 @@ def carefully(is_word, up, least=1 << 30):
 
 for is_word in (True, False):
     for up in range(32):
-        solver = Solver()
-        solver.add(Not(carefully(is_word, up)))
-        require(solver.check() == unsat, f"rounded_near_0, moved up by {up}: {solver.check()}")
-solver = Solver()
-solver.add(Not(carefully(True, 3, (1 << 30) + 1)))
-require(solver.check() == sat, "a word is not fuller than full")
-proven("rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0")
+        require_valid(f"rounded_near_0, moved up by {up}", carefully(is_word, up))
+valid(
+    "rounded_near_0: the word is full, and rounds as the exact time rounds; for every time but 0",
+    carefully(True, 3), carefully(True, 3, (1 << 30) + 1),
+)
 
 # Bits of f32.
 x = BitVec("x", 32)
 significand = (x & 0x7FFFFF) | (1 << 23)
 high = significand & 0xFFFFF000
 is_normal = And(LShR(x << 1, 24) != 0, LShR(x << 1, 24) != 255)
-valid(
-    "upper: both halves of a normal number have at most 12 bits, so products of halves are exact",
-    Implies(is_normal, And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULT(significand - high, 1 << 12), ULT(LShR(high, 12), 1 << 12))),
-    Implies(is_normal, ULT(significand - high, (1 << 12) - 1)),
-)
-valid(
-    "flipped: the sign bit alone changes, for every f32 and NaN",
-    And((x ^ (1 << 31)) << 1 == x << 1, LShR(x ^ (1 << 31), 31) == 1 - LShR(x, 31), x ^ 0 == x),
-    (x ^ (1 << 31)) == x + (1 << 30),
-)
+halves = lambda most: And((x & 0xFFFFF000) & 0xFF800000 == x & 0xFF800000, high & 0xFFF == 0, ULE(significand - high, most), ULT(LShR(high, 12), 1 << 12))
+valid("upper: both halves of a normal number have at most 12 bits, so products of halves are exact", *(Implies(is_normal, halves(most)) for most in (4095, 4094)))
 
 # `exponent`, `fixed_down` and `floor_bits` by exact rationals, for every exponent and the significands at the edges. What they do
 # with the bits of a significand is the same for all: a shift.
@@ -122,17 +110,8 @@ fits = And(up <= 10, up >= -4000, ULT(sig, 1 << 53), UGE(sig, 1 << 52))
 units = If(up >= 0, sig << (up & 63), If(up > -64, sig >> (-up & 63), BitVecVal(0, 64)))
 down = If(-up > 63, BitVecVal(63, 64), -up)
 floor = And(units << down <= sig, ULT(sig - (units << down), BitVecVal(1, 64) << down))
-valid(
-    "fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0",
-    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor)),
-    Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), units << down == sig)),
-)
-units = Real("units")
-valid(
-    "rounded: from whole halves of a unit to the nearest unit; the other sign mirrors it",
-    Implies(units >= 0, (ToInt(2 * units) + 1) / 2 == ToInt(units + Q(1, 2))),
-    Implies(units >= 0, ToInt(2 * units) / 2 == ToInt(units + Q(1, 2))),
-)
+towards_0 = lambda floor: Implies(fits, If(up >= 0, And(LShR(units, up) == sig, units >= 0), floor))
+valid("fixed_towards_0: the whole units of a double below 2^63 of them, rounded towards 0", towards_0(floor), towards_0(units << down == sig))
 # `floor_bits`: the nearest f32 of a double, or the one below. The bits of the f32 from 0 up are in order, so the one below
 # has one less, also across a power of two.
 y = FP("y", Float64())
@@ -142,19 +121,14 @@ inside = And(fpIsPositive(y), fpLEQ(y, FPVal(2, Float64())))
 is_above = fpGT(fpFPToFP(RNE(), rounded, Float64()), y)
 answer = If(is_above, below, rounded)
 next_one = fpBVToFP(fpToIEEEBV(answer) + 1, Float32())
-valid(
-    "floor_bits: the greatest f32 at or below, for every double from 0 (not -0) to 2",
-    Implies(inside, And(fpLEQ(fpFPToFP(RNE(), answer, Float64()), y), fpGT(fpFPToFP(RNE(), next_one, Float64()), y))),
-    Implies(inside, fpEQ(fpFPToFP(RNE(), answer, Float64()), y)),
-)
+is_last = lambda order: Implies(inside, And(order(fpFPToFP(RNE(), answer, Float64()), y), fpGT(fpFPToFP(RNE(), next_one, Float64()), y)))
+valid("floor_bits: the greatest f32 at or below, for every double from 0 (not -0) to 2", is_last(fpLEQ), is_last(fpEQ))
 
 # `significand` cuts a double's 53 bits: 24 and 24 more.
 double = BitVec("double", 64)
 exact = (double & (2**52 - 1)) | 2**52
 hi = (LShR(double, 29) & 0x7FFFFF) | (1 << 23)
 lo = LShR(double, 5) & 0xFFFFFF
-valid(
-    "significand: 48 bits of the double, cut, so that less than 2^-47 is lost; the second number is below an ulp of the first",
-    And(exact - ((hi << 29) + (lo << 5)) >= 0, exact - ((hi << 29) + (lo << 5)) < 1 << 5, ULT(lo, 1 << 24)),
-    exact - ((hi << 29) + (lo << 5)) < (1 << 5) - 1,
-)
+lost = exact - ((hi << 29) + (lo << 5))
+cut = lambda most: And(lost >= 0, lost <= most, ULT(lo, 1 << 24))
+valid("significand: 48 bits of the double, cut, so that less than 2^-47 is lost; the second number is below an ulp of the first", cut(31), cut(30))

@@ -12,7 +12,7 @@
 //!
 //! // Half of the light is collected by 0.005 s.
 //! assert_eq!(SHUTTER.inverse_cdf(0.5), 0.005);
-//! // Five triggers of a timer of 1 MHz, at least 1000 ticks apart.
+//! // Five triggers of a 1 MHz timer, at least 1000 ticks apart.
 //! assert_eq!(SHUTTER.ticks(1_000_000, 1_000), Ok([1936, 3500, 5000, 6500, 8064]));
 //! ```
 //!
@@ -42,7 +42,7 @@
 //!
 //! You rarely know a shutter's control points, but you can record its light with a photodiode. The program in the
 //! crate's repository fits the trace, and writes a module for the firmware: the ticks of a frame, the delay from the
-//! camera's sync, and the curve as a `static`. What no trace shows you tell it: how shutter and lamp are set up, which
+//! camera's sync, and the curve as a `static`. You tell it what no trace shows: how shutter and lamp are set up, which
 //! edge of the sync counts, and the timer's rate.
 //!
 //! ```text
@@ -55,17 +55,17 @@
 //!
 //! # Accuracy
 //!
-//! On every accepted curve the *backward error* is at most 0.5 ulp: a change of `u` by 0.5 ulp or less makes the answer
-//! exact, but for its rounding to an `f32`. On typical curves the time is within 0.69 ulp of the exact one. Times and
+//! On every accepted curve the *backward error* is at most 0.5 ulp: the answer is exact for a fraction within
+//! 0.5 ulp, but for its rounding to an `f32`. On typical curves the time is within 0.69 ulp of the exact one. Times and
 //! ticks never step back, and every machine with IEEE arithmetic gives the same bits. The page [`accuracy`] has every
 //! promise and what backs it.
 //!
 //! # Cost
 //!
 //! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of a Cortex-M4F, an [`inverse_cdf`]
-//! takes some 50 to 110 cycles on average, and some 500 to 2200 where it needs a search (more on a density that is dark
-//! at both ends). Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 2.9
-//! million cycles. The README compares other methods, and says when not to use this crate.
+//! takes some 60 to 110 cycles on average, but a search 500 to 2200 (more on a [`density`] that is 0 at both ends).
+//! Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 2.9 million cycles. The
+//! README compares other methods, and says when not to use this crate.
 //!
 //! # Features and minimum Rust
 //!

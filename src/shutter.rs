@@ -11,8 +11,8 @@ use crate::trigger::iterator::{PulseTicks, TriggerTicks};
 use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
-/// A shutter's openness over time, which answers when a given fraction of the exposure has been collected, and when to
-/// fire flashes of equal shares.
+/// A shutter: it answers when a given fraction of the exposure has been collected, and when to fire flashes of equal
+/// shares.
 ///
 /// Its openness over time, `0 <= f <= 1`, is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
 /// It is treated as a probability density.
@@ -32,11 +32,11 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// Times are in seconds, or all times and rates in one other unit ([Units](crate#units)).
 ///
-/// `OCTAVES` is the most polynomials for each half of the fractions [0, 1], 8 unless
-/// [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number. With 8, about one
-/// `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376 bytes, and 96 more
-/// for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the compiler's limit on
-/// evaluation.
+/// On ramps stored polynomials answer most fractions `u`, a search the rest. `OCTAVES`, by default 8, is the most for a
+/// half of [0, 1]; [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number.
+/// With 8, about one `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376
+/// bytes, and 96 more for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the
+/// compiler's limit on evaluation.
 ///
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
@@ -329,7 +329,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
-    /// A frame that would need searches does not compile:
+    /// Here 4096 triggers would need searches, so it does not compile:
     ///
     /// ```compile_fail,E0080
     /// # use shutter_curve::{ShutterCurve, valid};
@@ -352,7 +352,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
-    /// // A box of 8 ms on a timer of 1 MHz.
+    /// // A box of 8 ms on a 1 MHz timer.
     /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
     /// assert!(curve.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
     /// # Ok::<(), shutter_curve::ScheduleError>(())
@@ -383,7 +383,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// let mut ticks = [0; 5];
     /// SHUTTER.ticks_into(&mut ticks, 1_000_000, 1_000)?;
     /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
-    /// // Too many for a gap of 1 ms, and how many are not.
+    /// // 16 are too many for a gap of 1 ms; 7 fit.
     /// let error = SHUTTER.ticks_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
     /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
     /// assert_eq!(SHUTTER.most_triggers(16, 1_000_000, 1_000), Ok(7));
@@ -460,15 +460,15 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(ticks)
     }
 
-    /// A number of triggers, up to `wanted`, that keep a gap of `min_gap` ticks; unless it is `wanted`, one more would
-    /// not keep it. The answer is at least 1, unless none are wanted.
+    /// How many triggers, at most `wanted`, keep a gap of `min_gap` ticks; if the answer is below `wanted`, one more
+    /// would not. The answer is at least 1, unless none are wanted.
     ///
     /// It tries frames, usually a few, each up to its first gap that is too small. For a gap of 0 it tries none.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, valid};
     /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
-    /// // A lamp that needs 1 ms between two flashes, on a timer of 1 MHz.
+    /// // A lamp that needs 1 ms between two flashes, on a 1 MHz timer.
     /// assert_eq!(curve.most_triggers(16, 1_000_000, 1_000), Ok(7));
     /// ```
     ///

@@ -10,12 +10,12 @@ use support::aimed::{FAMILIES, aimed};
 use support::cases::{CASES, shutter};
 use support::curves::{
     Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted,
-    hard_openness, hard_times, hard_us, instant, line, named, placed, random_density, random_hard,
-    random_typical, settled, shape,
+    hard_openness, hard_times, hard_us, instant, line, named, neighbours, placed, random_density,
+    random_hard, random_typical, settled, shape,
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{FORWARD_MEAN, Figures, Questions, Reach, neighbours};
+use support::promise::{FORWARD_MEAN, Figures, Questions, Reach};
 use support::times;
 
 const SEED: u64 = 13;
@@ -356,31 +356,86 @@ fn faults() {
     report("faults", &figures);
 }
 
-/// The families do meet what they are aimed at.
+/// What curves may be like.
+type Feature = (&'static str, fn(&Curve, &Exact) -> bool, u32);
+
+/// Of so many curves at least so many have each feature; and they are the same every time.
+fn have(features: &[Feature], count: u64, draw: impl Fn(u64) -> Curve) {
+    let mut seen = vec![0; features.len()];
+    for index in 0..count {
+        let curve = draw(index);
+        assert_eq!(curve, draw(index));
+        let exact = Exact::new(&curve);
+        for ((_, has, _), seen) in features.iter().zip(&mut seen) {
+            *seen += u32::from(has(&curve, &exact));
+        }
+    }
+    for ((name, _, least), seen) in features.iter().zip(seen) {
+        println!("{seen:5} of {count}: {name}");
+        assert!(seen >= *least, "{name}: only {seen}");
+    }
+}
+
+fn span(from: f32, to: f32) -> f64 {
+    f64::from(to) - f64::from(from)
+}
+
+fn whole(c: &Curve) -> f64 {
+    span(c.open_start(), c.close_end())
+}
+
+/// The sections' lengths.
+fn sections(c: &Curve) -> [f64; 3] {
+    let [start, open] = [c.open_start(), c.open_end()];
+    let [close, end] = [c.close_start(), c.close_end()];
+    [span(start, open), span(open, close), span(close, end)]
+}
+
+fn greatest(c: &Curve) -> f64 {
+    f64::from(c.open_start().abs().max(c.close_end().abs()))
+}
+
+/// By how much the first inner time of the opening ramp passes the second.
+fn crossed(c: &Curve) -> f64 {
+    span(c.opening[2].0, c.opening[1].0)
+}
+
+fn is_across(c: &Curve) -> bool {
+    c.open_start() < 0.0 && c.close_end() > 0.0
+}
+
 #[test]
-fn the_curves_are_as_aimed() {
-    type Feature = (&'static str, fn(&Curve, &Exact) -> bool, u32);
-    fn span(from: f32, to: f32) -> f64 {
-        f64::from(to) - f64::from(from)
-    }
-    fn greatest(c: &Curve) -> f64 {
-        f64::from(c.open_start().abs().max(c.close_end().abs()))
-    }
-    fn sections(c: &Curve) -> [f64; 3] {
-        [
-            (c.open_start(), c.open_end()),
-            (c.open_end(), c.close_start()),
-            (c.close_start(), c.close_end()),
-        ]
-        .map(|(from, to)| span(from, to))
-    }
+fn random_hard_curves_are_as_nasty_as_meant() {
+    let features: [Feature; 15] = [
+        ("zero-length opening", |c, _| sections(c)[0] == 0.0, 100),
+        ("zero-length plateau", |c, _| sections(c)[1] == 0.0, 500),
+        ("order 3 of t", |c, _| c.opening[2].0 == c.open_start() && sections(c)[0] > 0.0, 100),
+        ("order 3 of f", |c, _| c.opening[2].1 == 0.0 && c.opening[1].1 == 0.0, 100),
+        ("handles cross", |c, _| crossed(c) > 0.0, 500),
+        ("handles cross by 9/10", |c, _| crossed(c) > 0.9 * sections(c)[0], 300),
+        ("a jump at the start", |c, _| c.opening[0].1 > 0.0, 500),
+        ("a jump from the start on", |c, _| c.opening.iter().all(|p| p.1 == 1.0), 100),
+        ("a dip", |c, _| c.opening[1].1 < 0.5 * c.opening[0].1, 100),
+        ("across time 0", |c, _| is_across(c), 200),
+        ("far from time 0", |c, _| f64::from(c.open_start().abs()) > 1e3 * whole(c), 100),
+        ("the least interval", |c, _| f64::from(c.open_start().abs()) > 65_534.0 * whole(c), 50),
+        ("huge and tiny times", |c, _| !(1e-12..1e12).contains(&c.close_end().abs()), 200),
+        ("a tiny ramp", |c, _| (1e-30..1e-3).contains(&(sections(c)[0] / whole(c))), 300),
+        ("-0.0", |c, _| c.opening.iter().any(|p| p.0.to_bits() == 1 << 31), 50),
+    ];
+    have(&features, 4000, |index| random_hard(7, index));
+    assert_ne!(random_hard(7, 0), random_hard(8, 0));
+}
+
+#[test]
+fn aimed_curves_meet_what_they_are_aimed_at() {
     let features: [Feature; 11] = [
         (
             "handles cross by exactly 15/16",
             |c, _| {
-                [c.opening, c.closing].iter().any(|r| {
-                    let length = span(r[0].0, r[3].0);
-                    length > 0.0 && span(r[2].0, r[1].0) == MOST_CROSSED * length
+                [*c, c.mirrored()].iter().any(|c| {
+                    let length = sections(c)[0];
+                    length > 0.0 && crossed(c) == MOST_CROSSED * length
                 })
             },
             200,
@@ -395,22 +450,15 @@ fn the_curves_are_as_aimed() {
             |c, _| sections(c).contains(&(LEAST_SECTION * greatest(c))),
             50,
         ),
-        (
-            "the least interval",
-            |c, _| span(c.open_start(), c.close_end()) == LEAST_INTERVAL * greatest(c),
-            200,
-        ),
+        ("the least interval", |c, _| whole(c) == LEAST_INTERVAL * greatest(c), 200),
         (
             "the least exposure, to 2^-19",
-            |c, e| {
-                e.area().hi
-                    < (1.0 + exp2(-19)) * LEAST_EXPOSURE * span(c.open_start(), c.close_end())
-            },
+            |c, e| e.area().hi < (1.0 + exp2(-19)) * LEAST_EXPOSURE * whole(c),
             50,
         ),
         ("a density dark at both ends", |c, _| c.opening[0].1 == 0.0 && c.opening[3].1 == 0.0, 50),
         ("an inner join at time 0", |c, _| c.open_end() == 0.0 || c.close_start() == 0.0, 300),
-        ("across time 0", |c, _| c.open_start() < 0.0 && c.close_end() > 0.0, 400),
+        ("across time 0", |c, _| is_across(c), 400),
         (
             "a join within 2^-26 of half of the light",
             |_, e| e.landmarks()[..2].iter().any(|u| (u.hi - 0.5).abs() < exp2(-26)),
@@ -433,19 +481,8 @@ fn the_curves_are_as_aimed() {
             300,
         ),
     ];
-    let mut seen = [0; 11];
-    for family in 0..FAMILIES.len() {
-        for index in 0..300 {
-            let curve = aimed(family, SEED, index);
-            assert_eq!(curve, aimed(family, SEED, index));
-            let exact = Exact::new(&curve);
-            for ((_, has, _), seen) in features.iter().zip(&mut seen) {
-                *seen += u32::from(has(&curve, &exact));
-            }
-        }
-    }
-    for ((name, _, least), seen) in features.iter().zip(seen) {
-        println!("{seen:5} of {}: {name}", 300 * FAMILIES.len());
-        assert!(seen >= *least, "{name}: only {seen}");
-    }
+    let families = FAMILIES.len() as u64;
+    have(&features, 300 * families, |index| {
+        aimed((index % families) as usize, SEED, index / families)
+    });
 }

@@ -14,7 +14,7 @@ pub struct Pulse {
     pub off: u32,
 }
 
-/// The limits that a lamp sets to its pulses, in ticks; 0 is no limit.
+/// A lamp's limits on its pulses, in ticks; 0 is no limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PulseLimits {

@@ -116,7 +116,7 @@ impl View<'_> {
                 let size = f64::from(self.size_of_time(time.abs()));
                 // Counted from the side, so that no bits are lost next to the later end.
                 let light = if self.side == Side::Start {
-                    exact.cdf_dd(served) - u
+                    exact.cdf(served) - u
                 } else {
                     exact.complement_dd(served) - Dd::from(a)
                 };

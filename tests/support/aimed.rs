@@ -3,8 +3,8 @@
 //! and fixed seeds draw them, as in `curves`.
 
 use super::curves::{
-    LEAST_SECTION, MOST_CROSSED, Rng, Shape, accepted, hard_openness, hard_times, instant,
-    is_valid, placed, random_density, random_hard, settled, shape,
+    LEAST_SECTION, MOST_CROSSED, Rng, Shape, accepted, around, hard_openness, hard_times, instant,
+    is_valid, neighbours, placed, random_density, random_hard, settled, shape,
 };
 use super::oracle::{Curve, Dd, Exact, exp2};
 
@@ -179,19 +179,11 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
     if is_valid(&hit) { hit } else { *curve }
 }
 
-/// The neighbours of `x`, three on either side, and `x`.
-fn around(x: f32) -> impl Iterator<Item = f32> {
-    let mut first = x;
-    for _ in 0..3 {
-        first = first.next_down();
-    }
-    std::iter::successors(Some(first), |x| Some(x.next_up())).take(7)
-}
-
 /// The u at which the curve is difficult, in order.
 pub fn aimed_us(exact: &Exact, rng: &mut Rng) -> Vec<f32> {
     let landmarks = exact.landmarks().into_iter().map(Dd::to_f32);
-    let mut us: Vec<f32> = landmarks.chain([0.25, 0.5, 0.75]).flat_map(around).collect();
+    let mut us: Vec<f32> =
+        landmarks.chain([0.25, 0.5, 0.75]).flat_map(|u| neighbours(u, 3)).collect();
     // And where a search from there starts out.
     for _ in 0..6 {
         let landmark = us[rng.below(us.len() as u64) as usize];
@@ -217,7 +209,7 @@ pub fn aimed_us(exact: &Exact, rng: &mut Rng) -> Vec<f32> {
 pub fn aimed_ts(exact: &Exact, rng: &mut Rng) -> Vec<f32> {
     let (start, end) = (exact.curve().open_start(), exact.curve().close_end());
     let landmarks: Vec<f32> = exact.landmark_times().into_iter().map(Dd::to_f32).collect();
-    let mut ts: Vec<f32> = landmarks.iter().copied().flat_map(around).collect();
+    let mut ts: Vec<f32> = landmarks.iter().flat_map(|t| around(*t, 3)).collect();
     for t in [1e-45, 1e-44, 1e-38, 1e-30, 1e-18, 1e-9, 1e-4] {
         ts.extend([-t, t]);
     }

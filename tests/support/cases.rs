@@ -4,8 +4,8 @@
 
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::support::curves::{hard_us, instant, line};
-use crate::support::oracle::{Curve, Exact, Points, rounding_cell};
+use crate::support::curves::{instant, line};
+use crate::support::oracle::{Curve, Points};
 
 #[derive(Clone, Copy)]
 pub struct Case {
@@ -37,83 +37,7 @@ pub fn shutter<const OCTAVES: usize>(curve: &Curve) -> ShutterCurve<OCTAVES> {
     ShutterCurve::with_octaves(opening, closing).expect("a good curve")
 }
 
-/// What an inverse does on a curve.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Verdict {
-    /// The greatest error beyond the rounding of the exact time to an `f32`: as a fraction of the interval, and in ulp(u).
-    pub of_interval: f64,
-    pub backward: f64,
-    /// The `u` with the greatest backward error.
-    pub at: f32,
-    pub steps_back: u32,
-    pub count: u32,
-}
-
-/// The `u` that are likely to break an inverse, in order.
-pub fn breaking_us(exact: &Exact) -> Vec<f32> {
-    let mut us = hard_us(exact, 4, 400);
-    us.sort_by(f32::total_cmp);
-    us
-}
-
-/// Judges an inverse on the `u` that are likely to break it.
-pub fn judge(exact: &Exact, inverse: impl Fn(f32) -> f32) -> Verdict {
-    judge_on(exact, inverse, &breaking_us(exact))
-}
-
-/// Judges an inverse on these `u`, in order.
-pub fn judge_on(exact: &Exact, inverse: impl Fn(f32) -> f32, us: &[f32]) -> Verdict {
-    let (start, end) = (exact.curve().open_start(), exact.curve().close_end());
-    let length = f64::from(end) - f64::from(start);
-    let mut verdict = Verdict { count: us.len() as u32, ..Verdict::default() };
-    let mut last = start;
-    for &u in us {
-        let t = inverse(u);
-        verdict.steps_back += u32::from(t < last);
-        last = t;
-        let errors = exact.judge(u, t);
-        let [low, high] = rounding_cell(t);
-        let beyond = (low - errors.exact.hi).max(errors.exact.hi - high).max(0.0);
-        // No number is as bad as can be.
-        let beyond = if t.is_finite() { beyond } else { f64::INFINITY };
-        verdict.of_interval = verdict.of_interval.max(beyond / length);
-        if errors.backward > verdict.backward {
-            (verdict.backward, verdict.at) = (errors.backward, u);
-        }
-    }
-    verdict
-}
-
-/// The case with this name.
-pub fn case(name: &str) -> &'static Case {
-    CASES.iter().find(|case| case.name == name).expect("a case of that name")
-}
-
-/// The exact inverse, to the `f32`.
-pub fn exact(case: &Case) -> impl Fn(f32) -> f32 + use<> {
-    let exact = Exact::new(&case.curve());
-    move |u| exact.inverse_cdf(u).to_f32()
-}
-
-/// Equally spaced numbers from 0 to 1.
-pub fn evenly(n: u32) -> impl Iterator<Item = f32> {
-    (0..=n).map(move |i| i as f32 / n as f32)
-}
-
-/// How far `f` is from `truth` at most, and how often it steps back.
-pub fn worst(n: u32, f: impl Fn(f32) -> f32, truth: impl Fn(f32) -> f32) -> (f32, usize) {
-    let values: Vec<f32> = evenly(n).map(&f).collect();
-    let errors = evenly(n).zip(&values).map(|(x, value)| (value - truth(x)).abs());
-    // A NaN is as bad as can be.
-    let most = errors.fold(0.0, |most, error| if error <= most { most } else { error });
-    (most, values.windows(2).filter(|pair| pair[1] < pair[0]).count())
-}
-
-pub const S_RAMP: &str = "a renderer leaves the plain S ramp";
-pub const ANIMATION: &str = "the animation curve (31/32, 0, 1/32, 1)";
-
 pub const DIM: &str = "a density of the least exposure";
-pub const NO_ROOT: &str = "a renderer finds no root at u = 1";
 
 const SOFT: Points = [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)];
 /// The shortest interval: 2⁻⁶⁴.
@@ -185,11 +109,15 @@ pub const CASES: &[Case] = &[
     ),
     Case::new(DIM, line((0.0, 0.0), (1.0, 1.95e-6)), instant(1.0)),
     Case::new(
-        NO_ROOT,
+        "a renderer finds no root at u = 1",
         [(0.15286648, 0.0), (0.1592916, 0.8779125), (0.21177958, 0.5751004), (0.23325795, 1.0)],
         [(0.31231624, 1.0), (0.51022613, 0.7041771), (0.90155965, 0.80757725), (0.9148479, 0.0)],
     ),
-    Case::new(S_RAMP, [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (1.0, 1.0)], instant(1.0)),
+    Case::new(
+        "a renderer leaves the plain S ramp",
+        [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (1.0, 1.0)],
+        instant(1.0),
+    ),
     Case::new(
         "control times next to each other, times of 1e-16",
         [(0.0, 0.0), (2.6676002e-25, 0.20454158), (0.0, 0.17062843), (4.1691618e-16, 1.0)],
@@ -200,5 +128,9 @@ pub const CASES: &[Case] = &[
             (4.2029796e-15, 1.9981332e-9),
         ],
     ),
-    Case::new(ANIMATION, [(0.0, 0.0), (0.96875, 0.0), (0.03125, 1.0), (1.0, 1.0)], instant(1.0)),
+    Case::new(
+        "the animation curve (31/32, 0, 1/32, 1)",
+        [(0.0, 0.0), (0.96875, 0.0), (0.03125, 1.0), (1.0, 1.0)],
+        instant(1.0),
+    ),
 ];

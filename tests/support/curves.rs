@@ -3,7 +3,7 @@
 
 use shutter_curve::CubicBezier;
 
-use crate::support::oracle::{Curve, Dd, Exact, Points, exp2};
+use crate::support::oracle::{Curve, Exact, Points, exp2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -384,28 +384,30 @@ pub fn is_valid(curve: &Curve) -> bool {
         && Exact::new(curve).area().hi >= LEAST_EXPOSURE * length
 }
 
+/// So many neighbours of `x` on either side, and `x`, from 0 to 1.
+pub fn neighbours(x: f32, count: u32) -> impl Iterator<Item = f32> {
+    let bits = x.clamp(0.0, 1.0).to_bits();
+    let most = 1f32.to_bits();
+    (bits.saturating_sub(count)..=(bits + count).min(most)).map(f32::from_bits)
+}
+
+/// So many neighbours of any `x` on either side, and `x`.
+pub fn around(x: f32, count: usize) -> impl Iterator<Item = f32> {
+    let first = (0..count).fold(x, |x, _| x.next_down());
+    std::iter::successors(Some(first), |x| Some(x.next_up())).take(2 * count + 1)
+}
+
 /// The `u` most likely to break a solver on this curve, and some `fresh` random ones.
 pub fn hard_us(exact: &Exact, seed: u64, fresh: usize) -> Vec<f32> {
     let mut us = vec![-0.0, 0.0, 1.0];
-    let mut around = |u: f32, neighbours: i32| {
-        for offset in -neighbours..=neighbours {
-            let bits = u.to_bits() as i32 + offset;
-            if (0..=1f32.to_bits() as i32).contains(&bits) {
-                us.push(f32::from_bits(bits as u32));
-            }
-        }
-    };
-    around(0.0, 3);
-    around(1.0, 3);
-    around(f32::MIN_POSITIVE, 2);
+    let ends = [(0.0, 3), (1.0, 3), (f32::MIN_POSITIVE, 2)];
+    us.extend(ends.into_iter().flat_map(|(u, count)| neighbours(u, count)));
     for exponent in 1..=149 {
-        let neighbours = if exponent <= 32 { 2 } else { 0 };
-        around(exp2(-exponent) as f32, neighbours);
-        around(1.0 - exp2(-exponent.min(24)) as f32, neighbours);
+        let count = if exponent <= 32 { 2 } else { 0 };
+        us.extend(neighbours(exp2(-exponent) as f32, count));
+        us.extend(neighbours(1.0 - exp2(-exponent.min(24)) as f32, count));
     }
-    for landmark in exact.landmarks() {
-        around(landmark.max(Dd::ZERO).min(Dd::ONE).to_f32(), 6);
-    }
+    us.extend(exact.landmarks().into_iter().flat_map(|u| neighbours(u.to_f32(), 6)));
     let mut rng = Rng::new(seed, 0);
     for i in 0..fresh {
         let tail = exp2(-(rng.below(24) as i32)) * rng.unit();

@@ -2,14 +2,11 @@
 #![allow(dead_code)] // Each user needs a part.
 
 pub mod aimed;
-pub mod baseline;
 pub mod cases;
 pub mod curves;
 pub mod designs;
 pub mod oracle;
-pub mod peers;
 pub mod promise;
-pub mod rendering;
 
 /// How many times as many random curves are tried: `TIMES=4` before a command, as CI has it.
 pub fn times() -> u64 {

@@ -7,7 +7,7 @@ use shutter_curve::{MAX_EVALUATIONS, ShutterCurve};
 
 use super::aimed::{aimed_triggers, aimed_ts, aimed_us};
 use super::cases::shutter;
-use super::curves::Rng;
+use super::curves::{Rng, around, neighbours};
 use super::oracle::{Curve, Dd, Exact, Near, exp2, ulp_f32};
 
 /// In ulp of u.
@@ -339,9 +339,8 @@ impl Figures {
             places.extend([0.0, half, -half].into_iter().chain(steps).chain(steps.map(|t| -t)));
         }
         for place in places {
-            let (mut t, mut last) = (place, 0.0);
-            (0..count).for_each(|_| t = t.next_down());
-            for _ in 0..=2 * count {
+            let mut last = 0.0;
+            for t in around(place, count as usize) {
                 let cdf = direct.cdf(t);
                 let at = || format!("{cdf:e} after {last:e} at {t:e}");
                 self.expect(
@@ -350,7 +349,7 @@ impl Figures {
                     at,
                     exact,
                 );
-                (t, last, self.pairs) = (t.next_up(), cdf, self.pairs + 1);
+                (last, self.pairs) = (cdf, self.pairs + 1);
             }
         }
     }
@@ -403,13 +402,6 @@ impl Frame {
             .collect();
         Self { n, duty, first, exact }
     }
-}
-
-/// So many neighbours of `x` on either side, and `x`, from 0 to 1.
-pub fn neighbours(x: f32, count: u32) -> impl Iterator<Item = f32> {
-    let bits = x.clamp(0.0, 1.0).to_bits();
-    let most = 1f32.to_bits();
-    (bits.saturating_sub(count)..=(bits + count).min(most)).map(f32::from_bits)
 }
 
 /// What is asked of a design: the greatest denominator of the fractions, and the greatest frame of which every trigger
@@ -512,9 +504,7 @@ impl<'a> Questions<'a> {
         let [start, end] = [curve.open_start(), curve.close_end()];
         let mut ts: Vec<f32> = (0..=20).map(|i| start + i as f32 * (end - start) / 20.0).collect();
         for time in exact.landmark_times() {
-            let mut first = time.to_f32();
-            (0..3).for_each(|_| first = first.next_down());
-            ts.extend(std::iter::successors(Some(first), |t| Some(t.next_up())).take(7));
+            ts.extend(around(time.to_f32(), 3));
         }
         us.sort_by(f32::total_cmp);
         us.dedup();

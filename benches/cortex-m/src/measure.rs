@@ -47,11 +47,10 @@ pub fn series(functions: &[Function], octaves: &[usize], on: On) -> Vec<Series> 
     all
 }
 
-/// A series, what each of its calls took, and how deep the stack got.
+/// A series, and what each of its calls took.
 pub struct Ran {
     pub series: Series,
     pub calls: Vec<Call>,
-    depth: u32,
 }
 
 /// How what the calls of a series took is spread.
@@ -108,15 +107,15 @@ impl Measured {
         write(&input, [curves, asked].concat())?;
         let (calls, printed) = replay(core, &elf, &code, Some(File::open(&input)?))?;
         let planned: usize = series.iter().map(|series| series.calls()).sum();
-        if (calls.len(), printed.lines().count()) != (planned, series.len()) {
+        if calls.len() != planned {
             return Err(format!("the firmware ran other series than planned\n{printed}").into());
         }
         let mut calls = calls.into_iter();
-        let ran = series.iter().zip(printed.lines()).map(|(&series, depth)| {
+        let ran = series.into_iter().map(|series| {
             let calls = calls.by_ref().take(series.calls()).collect();
-            Ok(Ran { series, calls, depth: depth.parse()? })
+            Ran { series, calls }
         });
-        Ok(Self { name: core.name, code, ran: ran.collect::<Result<_>>()? })
+        Ok(Self { name: core.name, code, ran: ran.collect() })
     }
 
     /// A function's series over some inputs.
@@ -175,15 +174,8 @@ impl Measured {
     }
 
     /// The stack of a call as the compiler says.
-    pub fn stack_said(&self, function: Function, octaves: usize) -> Option<u32> {
+    pub fn stack_bytes(&self, function: Function, octaves: usize) -> Option<u32> {
         Some(self.code.stack_bytes(self.instance(function, octaves)?))
-    }
-
-    /// The same as painted, if hard inputs were among those that painted.
-    pub fn stack_painted(&self, function: Function, octaves: usize) -> Option<u32> {
-        self.over(function, Inputs::Hard, octaves).next()?;
-        let all = Inputs::ALL.into_iter().flat_map(|inputs| self.over(function, inputs, octaves));
-        all.map(|ran| ran.depth).max()
     }
 
     fn instance(&self, function: Function, octaves: usize) -> Option<u32> {

@@ -55,8 +55,7 @@ pub fn short() -> Result {
         Measured::new(core, OPT_LEVEL, &plan.concat())
     });
     let measured = measured.collect::<Result<Vec<_>>>()?;
-    let [calls, everywhere] =
-        overview(&measured.iter().collect::<Vec<_>>()).map(|table| aligned(&table));
+    let [calls, everywhere] = overview(&measured.iter().collect::<Vec<_>>());
     println!(
         "Mean instructions:\n\n{everywhere}\n\n\
          Mean cycles of a Cortex-M4F by a model, without wait states, and bytes of code and of a curve's data:\n\n{calls}"
@@ -74,29 +73,6 @@ fn data_bytes(function: Function, octaves: usize) -> Option<u32> {
         _ => CURVE_BYTES[OCTAVES.iter().position(|count| *count == octaves)?],
     };
     Some(bytes as u32)
-}
-
-/// A table as a terminal shows it, without the columns that hold nothing.
-fn aligned(table: &str) -> String {
-    let cells = |line: &str| -> Vec<String> {
-        let line = line.trim_matches('|').replace('`', "");
-        line.split('|').map(|cell| cell.trim().to_owned()).collect()
-    };
-    let rows: Vec<_> = table.lines().filter(|line| !line.contains("--:")).map(cells).collect();
-    let widths = (0..rows[0].len()).map(|column| {
-        let is_empty = rows[1..].iter().all(|row| matches!(row[column].as_str(), "-" | ""));
-        let widest = rows.iter().map(|row| row[column].chars().count()).max();
-        if is_empty { 0 } else { widest.unwrap_or(0) }
-    });
-    let widths: Vec<usize> = widths.collect();
-    let lines = rows.iter().map(|row| {
-        let mut line = format!("{:1$}", row[0], widths[0]);
-        for (cell, width) in row.iter().zip(&widths).skip(1).filter(|(_, width)| **width > 0) {
-            line += &format!("  {cell:>width$}");
-        }
-        line
-    });
-    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Writes the whole report.
@@ -231,7 +207,7 @@ fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
         }
         let bytes = cores.iter().map(|core| {
             let [code, stack] =
-                [core.code_bytes(function, octaves)?, core.stack_said(function, octaves)?];
+                [core.code_bytes(function, octaves)?, core.stack_bytes(function, octaves)?];
             Some([code, stack].map(|bytes| grouped(f64::from(bytes))).join("; "))
         });
         rows.push(format!("{name} | {}", figures(bytes)));

@@ -1,8 +1,8 @@
 //! The error of every method, on the typical curves.
 
 use crate::methods::{METHODS, Method, leaf};
-use crate::support::curves::{Kind, Rng, named, random_typical};
-use crate::support::oracle::{Curve, Exact};
+use crate::support::curves::{Kind, Rng, hard_us, named, random_typical};
+use crate::support::oracle::{Curve, Exact, rounding_cell};
 
 const SEED: u64 = 4;
 
@@ -15,8 +15,6 @@ pub struct Figures {
     pub forward: f64,
     /// The greatest error as a fraction of the interval, and the mean of those at uniform fractions.
     pub of_interval: (f64, f64),
-    /// The greatest error in ulp(u), once half an ulp(t) is forgiven.
-    pub backward: f64,
     /// Of neighbouring u.
     pub steps_back: f64,
     /// NaN, outside the interval, or off by more than 1 % of it.
@@ -28,6 +26,52 @@ pub fn curves(random: u64) -> Vec<Curve> {
     let named = named().into_iter().filter(|named| named.kind == Kind::Typical);
     let random = (0..random).map(|i| random_typical(SEED, i));
     named.map(|named| named.curve).chain(random).collect()
+}
+
+/// What an inverse does on a curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Verdict {
+    /// The greatest error beyond the rounding of the exact time to an `f32`: as a fraction of the interval, and in ulp(u).
+    pub of_interval: f64,
+    pub backward: f64,
+    /// The `u` with the greatest backward error.
+    pub at: f32,
+    pub steps_back: u32,
+}
+
+/// The `u` that are likely to break an inverse, in order.
+pub fn breaking_us(exact: &Exact) -> Vec<f32> {
+    let mut us = hard_us(exact, 4, 400);
+    us.sort_by(f32::total_cmp);
+    us
+}
+
+/// Judges an inverse on the `u` that are likely to break it.
+pub fn judge(exact: &Exact, inverse: impl Fn(f32) -> f32) -> Verdict {
+    judge_on(exact, inverse, &breaking_us(exact))
+}
+
+/// Judges an inverse on these `u`, in order.
+pub fn judge_on(exact: &Exact, inverse: impl Fn(f32) -> f32, us: &[f32]) -> Verdict {
+    let (start, end) = (exact.curve().open_start(), exact.curve().close_end());
+    let length = f64::from(end) - f64::from(start);
+    let mut verdict = Verdict::default();
+    let mut last = start;
+    for &u in us {
+        let t = inverse(u);
+        verdict.steps_back += u32::from(t < last);
+        last = t;
+        let errors = exact.judge(u, t);
+        let [low, high] = rounding_cell(t);
+        let beyond = (low - errors.exact.hi).max(errors.exact.hi - high).max(0.0);
+        // No number is as bad as can be.
+        let beyond = if t.is_finite() { beyond } else { f64::INFINITY };
+        verdict.of_interval = verdict.of_interval.max(beyond / length);
+        if errors.backward > verdict.backward {
+            (verdict.backward, verdict.at) = (errors.backward, u);
+        }
+    }
+    verdict
 }
 
 /// The time as a caller has it who mends what can be seen: NaN, and times outside the interval.
@@ -75,7 +119,6 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
                 if truth.hi != 0.0 {
                     figures.forward = figures.forward.max(exact.forward_ulp(t, truth));
                 }
-                figures.backward = figures.backward.max(exact.judge(u, t).backward);
             }
             let neighbours = (0..=samples as u32).map(|i| f32::from_bits(first + i));
             let times: Vec<f32> = neighbours.map(|u| inverse.inverse_cdf(u)).collect();

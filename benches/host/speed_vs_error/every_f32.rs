@@ -28,9 +28,6 @@ const IN_U: [&str; 10] = [
 /// For the cdf and the openness; the last is of the class on which it stepped back.
 const IN_TIME: [&str; 4] = ["rman_soft", "handles cross by 15/16", DIM, "a join before time 0"];
 
-/// Below this, no octave serves, whatever their number.
-const LOWEST_OCTAVE: f32 = 1.0 / (1 << 20) as f32;
-
 /// Those with these names: of the reference data, then of the hard cases.
 fn curves(names: &[&str]) -> Vec<Named> {
     let kind = |kind| if kind == Kind::Typical { "typical" } else { "hard" };
@@ -39,23 +36,14 @@ fn curves(names: &[&str]) -> Vec<Named> {
     data.chain(cases).filter(|(name, ..)| names.contains(name)).collect()
 }
 
-/// The inverse on ten curves, 8 octaves on every `f32`, and other counts where octaves serve; then the cdf and the openness
-/// on four. `found` hears of all sweeps so far.
+/// The inverse on ten curves, then the cdf and the openness on four. `found` hears of all sweeps so far.
 pub fn every_f32(found: impl Fn(&[Sweep]) -> Result) -> Result {
     let mut all = Vec::new();
-    let sweeps: [fn(&Curve) -> Sweep; 4] = [
-        |curve| sweep_u::sweep::<8>(curve, 0.0),
-        |curve| sweep_u::sweep::<0>(curve, LOWEST_OCTAVE),
-        |curve| sweep_u::sweep::<4>(curve, LOWEST_OCTAVE),
-        |curve| sweep_u::sweep::<16>(curve, LOWEST_OCTAVE),
-    ];
-    for sweep in sweeps {
-        for (curve, kind, points) in curves(&IN_U) {
-            let since = Instant::now();
-            let sweep = sweep(&points);
-            all.push(Sweep { curve, kind, seconds: since.elapsed().as_secs_f64(), ..sweep });
-            found(&all)?;
-        }
+    for (curve, kind, points) in curves(&IN_U) {
+        let since = Instant::now();
+        let sweep = sweep_u::sweep(&points);
+        all.push(Sweep { curve, kind, seconds: since.elapsed().as_secs_f64(), ..sweep });
+        found(&all)?;
     }
     for (curve, kind, points) in curves(&IN_TIME) {
         let since = Instant::now();

@@ -2,8 +2,8 @@
 //! that a Newton step or two give the exact answer. Fast enough for every `f32`, and judged by the oracle where it finds
 //! the greatest errors.
 
+use crate::methods::peers::horner;
 use crate::support::oracle::{Curve, Points, ulp_f32};
-use crate::support::peers::horner;
 
 /// The exact inverse, cdf and openness of a curve.
 pub struct Follower {

@@ -61,7 +61,6 @@ fn report(folder: &str, random: u64, samples: usize, repeats: usize) -> Result {
         every_f32: table::read(&format!("{DOCS}/{EVERY_F32}"))?,
     };
     pictures::frontier(&format!("{folder}/frontier.svg"), &measured);
-    pictures::rendering(&format!("{folder}/rendering.svg"));
     pictures::worst_cases(&format!("{folder}/worst-cases.svg"), 15 * random);
     let report = format!("{folder}/speed-vs-error.md");
     std::fs::write(&report, report::write(&measured))?;

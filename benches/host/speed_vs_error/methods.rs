@@ -5,11 +5,16 @@ use std::hint::black_box;
 use micromath::F32Ext;
 use shutter_curve::{CubicBezier, ShutterCurve};
 
-use crate::support::baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
 use crate::support::cases::shutter;
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Points};
-use crate::support::peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
+use baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
+use peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
+
+#[path = "../../baseline.rs"]
+mod baseline;
+#[path = "peers.rs"]
+pub mod peers;
 
 /// About a third of the mass in ramps; all of it; a third in straight ramps; none.
 pub const CURVES: [(&str, Curve); 4] = [

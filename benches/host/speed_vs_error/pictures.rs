@@ -7,16 +7,16 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
+use crate::accuracy::judge;
 use crate::methods::Method::{
     Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024,
 };
-use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
-use crate::report::{Measured, cycles, name, time};
-use crate::support::cases::{judge, shutter};
+use crate::methods::{METHODS, Method, SOFT, TRAPEZOID};
+use crate::report::{Measured, cycles, time};
+use crate::support::cases::shutter;
 use crate::support::curves::{random_hard, random_typical};
 use crate::support::oracle::{Curve, Exact};
 use crate::support::promise::BACKWARD;
-use crate::support::rendering::{PIXELS, PULSES, Picture};
 
 /// Drawn at twice the size, since the pen moves by whole units.
 const SCALE: i32 = 2;
@@ -247,41 +247,5 @@ pub fn worst_cases(path: &str, curves: u64) {
             (&format!("promised: {BACKWARD}"), INK.filled()),
         ];
         legend(&mut graph, &keys, SeriesLabelPosition::MiddleRight);
-    });
-}
-
-/// A moving bar exposed in three ways: what one sees.
-pub fn rendering(path: &str) {
-    const SHOWN: u32 = 32;
-    picture(path, (700, 430), "A moving bar exposed in pulses", |strips| {
-        let scene = Picture::new(&CURVES[0].1);
-        let rows = [("exact".to_string(), scene.exact().to_vec())].into_iter().chain(
-            PULSES.map(|pulses| (name(pulses).to_string(), scene.exposed(pulses, SHOWN, 1))),
-        );
-        let title =
-            format!("A bar moves by 3.5 of its widths while the shutter is open: {SHOWN} pulses");
-        strips
-            .draw(&Text::new(title, (20 * SCALE, 24 * SCALE), text(15, HPos::Left, VPos::Center)))
-            .expect("drawn");
-        for (row, (name, values)) in rows.enumerate() {
-            let top = (52 + 90 * row as i32) * SCALE;
-            strips
-                .draw(&Text::new(name, (20 * SCALE, top), text(13, HPos::Left, VPos::Center)))
-                .expect("drawn");
-            // Light adds up; eyes and screens do not: the usual exponent.
-            // Full light is not the page's white, which turns dark on dark pages.
-            let grey = |value: &f64| (254.0 * (value / 0.45).clamp(0.0, 1.0).powf(1.0 / 2.2)) as u8;
-            let x = |pixel: usize| (20 + 660 * pixel as i32 / PIXELS as i32) * SCALE;
-            let mut pixel = 0;
-            for run in values.chunk_by(|a, b| grey(a) == grey(b)) {
-                // A bit into the next one, which covers it: between two that only adjoin, a seam would show.
-                let end = (x(pixel + run.len()) + SCALE).min(x(PIXELS));
-                let corners = [(x(pixel), top + 12 * SCALE), (end, top + 66 * SCALE)];
-                let grey = grey(&run[0]);
-                let style = RGBColor(grey, grey, grey).filled();
-                strips.draw(&Rectangle::new(corners, style)).expect("drawn");
-                pixel += run.len();
-            }
-        }
     });
 }

@@ -2,14 +2,13 @@
 
 use rayon::prelude::*;
 
-use crate::accuracy::{Figures, mended, of_triggers};
+use crate::accuracy::{Figures, breaking_us, judge_on, mended, of_triggers};
 use crate::methods::Method::{Nearer, Textbook};
-use crate::methods::{CURVES, FORWARDS, METHODS, Method, TRAPEZOID};
+use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
-use crate::support::cases::{CASES, breaking_us, judge_on, shutter};
+use crate::support::cases::{CASES, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
-use crate::support::rendering::Pulses;
 use crate::table::{Row, number, shown, table};
 use crate::timing::Times;
 
@@ -36,7 +35,6 @@ pub fn write(measured: &Measured) -> String {
         hard_cases(),
         search(measured),
         every_f32(measured),
-        PURPOSE.into(),
     ];
     sections.join("\n\n") + "\n"
 }
@@ -67,32 +65,19 @@ pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> 
     rows.find(|row| row[0] == call)?.get(column)?.parse().ok()
 }
 
-/// The names of the columns of times. A box has no ramps, where methods differ.
-fn timed() -> String {
-    let names = CURVES[..=TRAPEZOID].iter().map(|(name, ..)| format!("{name}, ns"));
-    names.collect::<Vec<_>>().join(" | ")
-}
-
 fn methods(measured: &Measured) -> String {
     let rows = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
-        let times = measured.times[..=TRAPEZOID].iter().map(|(times, _)| time(times, *method));
-        let times = times.map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-        let errors = [
-            figures.forward,
-            figures.of_interval.0,
-            figures.backward,
-            figures.steps_back,
-            figures.failures,
-        ];
+        let curve = if method.is_root() { TRAPEZOID } else { SOFT };
+        let time = time(&measured.times[curve].0, *method);
+        let time = time.map_or_else(|| "-".into(), |time| format!("{time:.1}"));
+        let errors = [figures.forward, figures.of_interval.0, figures.steps_back, figures.failures];
         let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
-        let head = [method.name().to_owned()];
-        head.into_iter().chain(times).chain(errors.map(number)).chain([triggers]).collect()
+        let head = [method.name().to_owned(), time];
+        head.into_iter().chain(errors.map(number)).chain([triggers]).collect()
     });
-    let header = format!(
-        "method | {} | ulp(t) | of the interval | ulp(u) | steps back | failures | a leaf's triggers",
-        timed()
-    );
-    let table = table(&header, 1, rows);
+    let header =
+        "method | ns | ulp(t) | of the interval | steps back | failures | a leaf's triggers";
+    let table = table(header, 1, rows);
     format!(
         "# Speed against error
 
@@ -112,10 +97,11 @@ ramps alone. `tests/support` has them all, in `baseline.rs` and `peers.rs`.
 
 {table}
 
-Errors are the greatest on {curves} typical curves, by double-double arithmetic, at {samples} fractions each: half of them uniform, a
-quarter towards either end by octaves, where tables and absolute tolerances fail. Square roots are judged on the {straight} straight ones.
+Times are on *soft*, of square roots on *trapezoid*. Errors are the greatest on {curves} typical curves, by double-double arithmetic, at
+{samples} fractions each: half of them uniform, a quarter towards either end by octaves, where tables and absolute tolerances fail.
+Square roots are judged on the {straight} straight ones.
 
-- *ulp(t)*, *ulp(u)*: forward and backward error, as in [accuracy.md](../accuracy.md)
+- *ulp(t)*: the forward error, as in [accuracy.md](../accuracy.md)
 - *steps back*: how often, of a million neighbouring `f32`, a greater `u` gives an earlier time
 - *failures*: of a million answers, those that are NaN, outside the interval or off by more than 1 % of it; in other columns a
   time outside counts as the nearer end, and NaN as the start
@@ -134,12 +120,10 @@ Each random curve's worst `u` of about 1000 that are likely to be bad. Of those 
 
 fn forwards(measured: &Measured) -> String {
     let rows = FORWARDS.iter().enumerate().map(|(i, (name, _))| {
-        let on = || measured.times[..=TRAPEZOID].iter().map(|(_, forwards)| forwards[i]);
-        let times = on().map(|(time, _)| format!("{time:.1}"));
-        let error = number(on().map(|(_, error)| error).fold(0.0, f64::max));
-        [(*name).into()].into_iter().chain(times).chain([error]).collect()
+        let (time, error) = measured.times[SOFT].1[i];
+        vec![(*name).into(), format!("{time:.1}"), number(error)]
     });
-    let table = table(&format!("| {} | greatest error", timed()), 1, rows);
+    let table = table("*soft* | ns | greatest error", 1, rows);
     format!(
         "## Openness and cdf
 
@@ -160,7 +144,7 @@ fn hard_cases() -> String {
         });
         let ours = shutter::<8>(curve);
         let own = judge_on(&exact, |u| ours.inverse_cdf(u), us);
-        [others[0], others[1], own.of_interval, own.backward]
+        [others[0], others[1], own.of_interval]
     };
     let cases = CASES.iter().map(|case| {
         let curve = case.curve();
@@ -168,10 +152,10 @@ fn hard_cases() -> String {
     });
     let (told, others): (Vec<_>, Vec<_>) =
         cases.partition(|(_, figures)| figures[..2].iter().any(|error| *error > 0.01));
-    let row = |name: String, figures: [f64; 4]| {
+    let row = |name: String, figures: [f64; 3]| {
         [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>()
     };
-    let most = |all: Vec<[f64; 4]>| {
+    let most = |all: Vec<[f64; 3]>| {
         std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max))
     };
     let name = format!("{} others, the worst of each column", others.len());
@@ -184,7 +168,7 @@ fn hard_cases() -> String {
     let name = format!("{} aimed curves, the worst of each column", aimed.len());
     let aimed = row(name, most(aimed));
     let told = told.into_iter().map(|(name, figures)| row(name.into(), figures));
-    let header = "case | Newton, nearer end | textbook Newton | this crate, 8 octaves | its ulp(u)";
+    let header = "case | Newton, nearer end | textbook Newton | this crate, 8 octaves";
     let table = table(header, 1, told.chain([others, aimed]));
     format!(
         "## Hard cases
@@ -234,11 +218,11 @@ fn most(rows: &[&Row], column: &str) -> String {
 fn every_f32(measured: &Measured) -> String {
     let all: Vec<_> = measured.every_f32.iter().collect();
     let minutes = sum(&all, "seconds") / 60.0;
-    let mut kinds: Vec<_> = all.iter().map(|row| [&row["function"], &row["octaves"]]).collect();
-    kinds.sort();
-    kinds.dedup();
-    let rows = kinds.into_iter().map(|[function, octaves]| {
-        let of = |row: &&&Row| [&row["function"], &row["octaves"]] == [function, octaves];
+    let mut functions: Vec<_> = all.iter().map(|row| &row["function"]).collect();
+    functions.sort();
+    functions.dedup();
+    let rows = functions.into_iter().map(|function| {
+        let of = |row: &&&Row| &row["function"] == function;
         let rows: Vec<_> = all.iter().filter(of).copied().collect();
         let sums =
             ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
@@ -246,38 +230,20 @@ fn every_f32(measured: &Measured) -> String {
                 _ => sum(&rows, column).to_string(),
             });
         let worst = ["error", "judged"].map(|column| most(&rows, column));
-        let head = [format!("`{function}`"), octaves.clone(), rows.len().to_string()];
+        let head = [format!("`{function}`"), rows.len().to_string()];
         head.into_iter().chain(sums).chain(worst).collect()
     });
-    let header =
-        "function | octaves | curves | answers | out of range | steps back | error, ulp | judged";
+    let header = "function | curves | answers | out of range | steps back | error, ulp | judged";
     let table = table(header, 1, rows);
     format!(
         "## Every f32
 
-`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1] with 8 octaves, with other counts for those from
-2<sup>-20</sup> up, below which one solver serves them all; and `cdf` and `openness` at all times of a curve (next to a time 0
-inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
+`cargo bench -p benches -- --every-f32` asks the inverse for all `f32` in [0, 1], and `cdf` and `openness` at all times of a
+curve (next to a time 0 inside, at every sixteenth stretch). A second formulation in doubles judges all; the oracle samples, and the worst of each 4 million
 (*judged*). It took {minutes:.0} minutes on two busy cores. `every-f32.csv` has each curve.
 
 {table}
 
 Errors are backward for the inverse; of `cdf` and `openness` those at the best time within an ulp of the one asked for."
     )
-}
-
-const PURPOSE: &str = "## What it is for
-
-A bright bar moves while the shutter is open, and is lit by pulses. Equal ones at this crate's triggers come within 1/n of the
-exact integral at every pixel (`tests/statistics.rs`). Equally spaced ones must be dimmed by the openness, which a lamp of equal
-pulses cannot do; random ones are far noisier.
-
-![A moving bar in pulses](rendering.svg)";
-
-pub fn name(pulses: Pulses) -> &'static str {
-    match pulses {
-        Pulses::Triggers => "triggers of this crate",
-        Pulses::Weighted => "equally spaced, weighted by openness",
-        Pulses::Random => "random, as the curve has it",
-    }
 }

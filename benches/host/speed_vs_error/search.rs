@@ -3,8 +3,9 @@
 
 use rayon::prelude::*;
 
+use crate::accuracy::judge_on;
 use crate::support::aimed::{FAMILIES, aimed};
-use crate::support::cases::{judge_on, shutter};
+use crate::support::cases::shutter;
 use crate::support::curves::{Rng, hard_us, is_valid, random_hard, random_typical, settled};
 use crate::support::oracle::{Curve, Dd, Exact, Points, ulp_f32};
 use crate::support::promise::Figures;
@@ -43,14 +44,14 @@ fn score(curve: &Curve) -> [f64; 5] {
         evaluations = evaluations.max(ours.evaluations(u));
         let t = ours.inverse_cdf(u);
         // Of the two sides of a join, the darker one.
-        let density = exact.pdf(t).min(exact.pdf_dd(exact.inverse_cdf(u))).hi;
+        let density = exact.pdf(t).min(exact.pdf(exact.inverse_cdf(u))).hi;
         let conditioned = ulp_f32(u.into()) <= density * ulp_f32(t.into());
         if conditioned && u > 0.0 && u < 1.0 {
             forward = forward.max(exact.judge(u, t).forward);
         }
         // What the fraction gains from an ulp before t to one after it, and three ulp of the cdf, which count from 2⁻²⁴ on.
         let ulp = Dd::from(exact.ulp_of_time(Dd::from(t)));
-        let [low, high] = [Dd::from(t) - ulp, Dd::from(t) + ulp].map(|t| exact.cdf_dd(t).hi);
+        let [low, high] = [Dd::from(t) - ulp, Dd::from(t) + ulp].map(|t| exact.cdf(t).hi);
         let explained = (high - low) + 3.0 * ulp_f32(f64::from(u).max(6e-8));
         let miss = (f64::from(ours.cdf(t)) - f64::from(u)).abs();
         round_trip = round_trip.max(miss / explained);

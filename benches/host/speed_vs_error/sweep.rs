@@ -14,7 +14,6 @@ pub struct Sweep {
     pub function: &'static str,
     pub curve: &'static str,
     pub kind: &'static str,
-    pub octaves: usize,
     pub count: u64,
     pub out_of_range: u64,
     /// Not of the openness, which may fall.

@@ -39,7 +39,7 @@ pub fn sweep(curve: &Curve) -> [Sweep; 2] {
 
 fn part(shutter: &ShutterCurve, exact: &Exact, from: i64, to: i64) -> [Sweep; 2] {
     let count = (to - from) as u64 + 1;
-    let sweep = |function| Sweep { function, octaves: 8, count, ..Sweep::default() };
+    let sweep = |function| Sweep { function, count, ..Sweep::default() };
     let [mut cdf, mut openness] = ["cdf", "openness"].map(sweep);
     let (mut steps_back, mut without_floor) = (0, 0.0f64);
     let mut truth = Truth::new(exact.curve(), from);

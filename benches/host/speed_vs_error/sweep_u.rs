@@ -8,14 +8,14 @@ use crate::sweep::{SAMPLED, Sweep, in_parts};
 /// As the report knows it.
 pub const INVERSE: &str = "inverse_cdf";
 
-/// Sweeps the `f32` from `first` to 1.
-pub fn sweep<const OCTAVES: usize>(curve: &Curve, first: f32) -> Sweep {
-    let (shutter, exact) = (shutter::<OCTAVES>(curve), Exact::new(curve));
+/// Sweeps the `f32` from 0 to 1.
+pub fn sweep(curve: &Curve) -> Sweep {
+    let (shutter, exact) = (shutter::<8>(curve), Exact::new(curve));
     let (start, end) = (curve.open_start(), curve.close_end());
     let at = |bits| f32::from_bits(bits as u32);
-    let [found] = in_parts(first.to_bits().into(), 1f32.to_bits().into(), |from, to| {
+    let [found] = in_parts(0, 1f32.to_bits().into(), |from, to| {
         let count = (to - from) as u64 + 1;
-        let mut found = Sweep { function: INVERSE, octaves: OCTAVES, count, ..Sweep::default() };
+        let mut found = Sweep { function: INVERSE, count, ..Sweep::default() };
         let (mut steps_back, mut greatest, mut evaluations) = (0, 0.0, 0);
         let mut follower = Follower::new(curve);
         // The neighbour below, so that no pair is left out between two parts.

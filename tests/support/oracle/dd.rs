@@ -48,12 +48,6 @@ impl Dd {
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
-    /// The nearest `f64`.
-    #[inline]
-    pub fn to_f64(self) -> f64 {
-        self.hi
-    }
-
     /// The nearest `f32`, rounded once.
     pub fn to_f32(self) -> f32 {
         let near = self.hi as f32;

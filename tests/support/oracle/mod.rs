@@ -401,13 +401,9 @@ impl Exact {
         }
     }
 
-    /// The fraction of the exposure collected by `t`; NaN counts as before the start.
-    pub fn cdf(&self, t: f32) -> Dd {
-        if t.is_nan() { Dd::ZERO } else { self.cdf_dd(Dd::from(t)) }
-    }
-
-    pub fn cdf_dd(&self, t: Dd) -> Dd {
-        self.masses(t)[0] / self.area
+    /// The fraction of the exposure collected by `t`.
+    pub fn cdf(&self, t: impl Into<Dd>) -> Dd {
+        self.masses(t.into())[0] / self.area
     }
 
     /// `1 - cdf`, relatively accurate at the later end.
@@ -440,13 +436,9 @@ impl Exact {
         }
     }
 
-    /// The openness at `t`: 0 outside the interval and for NaN.
-    pub fn openness(&self, t: f32) -> Dd {
-        if t.is_nan() { Dd::ZERO } else { self.openness_dd(Dd::from(t)) }
-    }
-
-    pub fn openness_dd(&self, t: Dd) -> Dd {
-        self.openness_at(self.place(t))
+    /// The openness at `t`: 0 outside the interval.
+    pub fn openness(&self, t: impl Into<Dd>) -> Dd {
+        self.openness_at(self.place(t.into()))
     }
 
     fn openness_at(&self, place: Place) -> Dd {
@@ -480,12 +472,8 @@ impl Exact {
         t < open || (t == open && open == close && !self.opening.is_empty())
     }
 
-    pub fn pdf(&self, t: f32) -> Dd {
+    pub fn pdf(&self, t: impl Into<Dd>) -> Dd {
         self.openness(t) / self.area
-    }
-
-    pub fn pdf_dd(&self, t: Dd) -> Dd {
-        self.openness_dd(t) / self.area
     }
 
     /// The forward and the backward error of the answer `t` to `u`.

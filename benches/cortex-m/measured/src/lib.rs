@@ -4,7 +4,7 @@
 use shutter_curve::{CubicBezier, ShutterCurve};
 
 pub mod answers;
-#[path = "../../../../tests/support/baseline.rs"]
+#[path = "../../../baseline.rs"]
 pub mod baseline;
 
 /// A curve of the reference data, or a hard case.

@@ -1,4 +1,4 @@
-//! Runs the series of calls that it is asked for, for the host to count in QEMU's trace, and prints how deep the stack gets in each.
+//! Runs the series of calls that it is asked for, for the host to count in QEMU's trace.
 //!
 //! Building all curves takes a thousand times the instructions of what is measured, too many to trace. So the firmware runs
 //! twice: where its input is empty it builds them and prints their bytes. These begin the second run's input, and the series
@@ -7,8 +7,6 @@
 #![no_main]
 #![cfg_attr(bare, feature(core_intrinsics), allow(internal_features))]
 
-use core::arch::asm;
-use core::fmt::Write;
 use core::hint::black_box;
 use core::mem::MaybeUninit;
 
@@ -20,7 +18,7 @@ use shutter_curve::{CubicBezier, ShutterCurve, TriggerTicks, valid};
 #[path = "../machine.rs"]
 mod machine;
 
-use machine::{In, Out, panicked, write};
+use machine::{In, panicked, write};
 
 /// What is measured: a call and nothing else.
 #[inline(never)]
@@ -64,34 +62,12 @@ macro_rules! each_static {
 }
 const EACH_STATIC: [fn(f32) -> f32; TYPICAL] = each_static!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
 
-const PAINT: u32 = 0xA5A5_5A5A;
-/// More than any call takes.
-const DEPTH: usize = 16 << 10;
-
-/// Calls for each input, and tells the bytes of stack that took: paints below the stack pointer before, and looks how
-/// much is left.
+/// Calls for each input.
 #[inline(never)]
-fn depth<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) -> u32 {
-    let top: usize;
-    // SAFETY: reads a register.
-    unsafe {
-        #[cfg(target_arch = "arm")]
-        asm!("mov {}, sp", out(reg) top);
-        #[cfg(target_arch = "riscv32")]
-        asm!("mv {}, sp", out(reg) top);
-    };
-    let words = (top - DEPTH..top).step_by(4);
-    for word in words.clone() {
-        // SAFETY: below the stack pointer is free RAM, and no interrupt is enabled.
-        unsafe { (word as *mut u32).write_volatile(PAINT) };
-    }
+fn each<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) {
     for input in inputs {
         black_box(call(black_box(input)));
     }
-    // SAFETY: as above.
-    let untouched =
-        words.take_while(|word| unsafe { (*word as *const u32).read_volatile() } == PAINT);
-    (DEPTH - 4 * untouched.count()) as u32
 }
 
 /// All curves with so many octaves, on each of the scales.
@@ -122,24 +98,24 @@ fn by_square_roots(
     us: impl Iterator<Item = f32>,
     curve: &measured::Curve,
     sqrt: impl Fn(f32) -> f32 + Copy,
-) -> u32 {
+) {
     let ramps = black_box(curve.straight());
     let inverse = |ramps: &StraightRamps, u| ramps.inverse_cdf(u, sqrt);
-    depth(us, |u| the_call(inverse, &ramps, u))
+    each(us, |u| the_call(inverse, &ramps, u))
 }
 
-fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
+fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
     let data = &CURVES[series.curve];
     let curve = black_box(&curves[usize::from(series.is_scaled())][series.curve]);
     let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
     let us = series.us();
     let ts = series.us().map(|u| start + length * u);
     match series.function {
-        Function::InverseCdf => depth(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
-        Function::Static => depth(us, EACH_STATIC[series.curve]),
-        Function::Cdf => depth(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
-        Function::Openness => depth(ts, |t| the_call(ShutterCurve::openness, curve, t)),
-        Function::TickStep => depth(series.frames(), |(n, steps)| {
+        Function::InverseCdf => each(us, |u| the_call(ShutterCurve::inverse_cdf, curve, u)),
+        Function::Static => each(us, EACH_STATIC[series.curve]),
+        Function::Cdf => each(ts, |t| the_call(ShutterCurve::cdf, curve, t)),
+        Function::Openness => each(ts, |t| the_call(ShutterCurve::openness, curve, t)),
+        Function::TickStep => each(series.frames(), |(n, steps)| {
             let mut ticks = curve.trigger_ticks(n, black_box(TICK_HZ)).expect("a good rate");
             for _ in 0..steps {
                 black_box(the_call(|ticks: &mut TriggerTicks<C>, ()| ticks.next(), &mut ticks, ()));
@@ -153,7 +129,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             };
             // On hard curves triggers may share a tick.
             let gap = u32::from(series.inputs == Inputs::Uniform);
-            depth([gap].into_iter(), |gap| {
+            each([gap].into_iter(), |gap| {
                 let planned = the_call(plan, curve, (&mut ticks, gap));
                 black_box((planned, &ticks)).0.is_ok()
             })
@@ -162,24 +138,23 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) -> u32 {
             let mut built = None;
             let build =
                 |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
-            let depth = depth([data.ramps(false)].into_iter(), |(opening, closing)| {
+            each([data.ramps(false)].into_iter(), |(opening, closing)| {
                 built = the_call(build, &opening, &closing).ok();
             });
             black_box(built);
-            depth
         }
         Function::Newton => {
             let newton = black_box(TextbookNewton::new(data.opening, data.closing));
-            depth(us, |u| the_call(TextbookNewton::inverse_cdf, &newton, u))
+            each(us, |u| the_call(TextbookNewton::inverse_cdf, &newton, u))
         }
         Function::NearerEnd => {
             let newton = black_box(NearerEnd::new(data.opening, data.closing));
             let inverse = |newton: &NearerEnd, u| newton.inverse_cdf(u, own_sqrt);
-            depth(us, |u| the_call(inverse, &newton, u))
+            each(us, |u| the_call(inverse, &newton, u))
         }
         Function::Table => {
             let table = black_box(InverseTable::<256>::new(|u| curve.inverse_cdf(u)));
-            depth(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
+            each(us, |u| the_call(InverseTable::inverse_cdf, &table, u))
         }
         Function::SqrtLibm => by_square_roots(us, data, libm::sqrtf),
         Function::SqrtMicromath => by_square_roots(us, data, F32Ext::sqrt),
@@ -202,12 +177,11 @@ fn run() {
     let mut bytes = [0; 4];
     while input.read(&mut bytes) == bytes.len() {
         let series = Series::from_bytes(bytes);
-        let depth = match series.octaves {
+        match series.octaves {
             0 => run_series(series, with_0),
             4 => run_series(series, with_4),
             8 => run_series(series, with_8),
             _ => run_series(series, with_16),
-        };
-        let _ = writeln!(Out, "{depth}");
+        }
     }
 }

@@ -11,13 +11,13 @@ use shutter_curve::ShutterCurve;
 use support::cases::shutter;
 use support::oracle::{Curve, Exact};
 
-#[path = "host/speed_vs_error/accuracy.rs"]
+#[path = "../host/speed_vs_error/accuracy.rs"]
 #[allow(dead_code)] // The report has more figures.
 mod accuracy;
-#[path = "host/speed_vs_error/methods.rs"]
+#[path = "../host/speed_vs_error/methods.rs"]
 #[allow(dead_code)]
 mod methods;
-#[path = "../tests/support/mod.rs"]
+#[path = "../../tests/support/mod.rs"]
 mod support;
 
 /// The fractions for which errors are taken, a curve.

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, Div, Mul, Sub};
 
-use crate::support::baseline::Ramp;
+use super::baseline::Ramp;
 
 pub trait Float:
     Copy
@@ -16,23 +16,16 @@ pub trait Float:
     + Mul<Output = Self>
     + Div<Output = Self>
 {
-    fn abs(self) -> Self;
     fn to_f32(self) -> f32;
 }
 
 impl Float for f32 {
-    fn abs(self) -> Self {
-        self.abs()
-    }
     fn to_f32(self) -> f32 {
         self
     }
 }
 
 impl Float for f64 {
-    fn abs(self) -> Self {
-        self.abs()
-    }
     fn to_f32(self) -> f32 {
         self as f32
     }
@@ -149,30 +142,8 @@ impl<F: Float> Parts<F> {
     }
 }
 
-/// What a renderer does: ten free Newton steps; failing those, a bisection that wants a change of sign
-/// and without one returns the ramp's start.
-pub fn renderer(ramp: &PowerRamp<f32>, mass: f32) -> Found<f32> {
-    let mut p = 0.5;
-    for step in 1..=10 {
-        let (value, slope) = horner(&ramp.mass, p);
-        if (value - mass).abs() < 1e-6 {
-            return (p, step);
-        }
-        p -= (value - mass) / slope;
-    }
-    if horner(&ramp.mass, 1.0).0 < mass {
-        return (0.0, 11);
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..21 {
-        let middle = 0.5 * (low + high);
-        *(if horner(&ramp.mass, middle).0 < mass { &mut low } else { &mut high }) = middle;
-    }
-    (0.5 * (low + high), 31)
-}
-
 /// Newton's method inside a bracket, halving where it leaves it, until the residual or the bracket is
-/// below an absolute 1e-6: what another renderer does for its splines.
+/// below an absolute 1e-6: what a renderer does for its splines.
 pub fn bracketed(ramp: &PowerRamp<f32>, mass: f32) -> Found<f32> {
     let (mut low, mut high, mut p) = (0.0, 1.0, 0.5);
     for evaluations in 1..100 {
@@ -242,40 +213,6 @@ impl<const N: usize> MonotoneCubicTable<N> {
     }
 }
 
-/// A renderer's table: the openness summed at `N` equally spaced times, inverted at the middles of `N`
-/// cells of `u`, but read as if at their edges.
-pub struct CellTable<const N: usize> {
-    t: [f32; N],
-}
-
-impl<const N: usize> CellTable<N> {
-    /// From the openness over [0, 1].
-    pub fn new(openness: impl Fn(f32) -> f32) -> Self {
-        let mut cdf = vec![0.0; N + 1];
-        for i in 0..N {
-            cdf[i + 1] = cdf[i] + openness(i as f32 / (N - 1) as f32);
-        }
-        if cdf[N] > 0.0 {
-            let all = cdf[N];
-            cdf.iter_mut().for_each(|c| *c /= all);
-        }
-        cdf[N] = 1.0;
-        let t = core::array::from_fn(|i| {
-            let u = (i as f32 + 0.5) / N as f32;
-            let cell = cdf.partition_point(|&c| c <= u) - 1;
-            let rest = (u - cdf[cell]) / (cdf[cell + 1] - cdf[cell]);
-            (cell as f32 + rest) / N as f32
-        });
-        Self { t }
-    }
-
-    pub fn inverse_cdf(&self, u: f32) -> f32 {
-        let place = u * (N - 1) as f32;
-        let i = (place as usize).min(N - 2);
-        self.t[i] + (self.t[i + 1] - self.t[i]) * (place - i as f32)
-    }
-}
-
 /// The usual solver of an animation curve, for `t(p) = t`: 8 Newton steps from the time itself, then
 /// bisection until the residual is below `epsilon`, relative to the ramp. [`None`] where the bisection
 /// would never end.
@@ -308,61 +245,4 @@ pub fn animation(ramp: &PowerRamp<f32>, t: f32, epsilon: f32) -> Option<f32> {
         p = low + 0.5 * (high - low);
     }
     Some(p)
-}
-
-/// The same in a GUI toolkit's `f32`: 8 steps, a tolerance of 0.01, and whatever stands then.
-pub fn tolerant(ramp: &PowerRamp<f32>, t: f32) -> f32 {
-    let mut p = t;
-    for _ in 0..8 {
-        let (value, slope) = horner(&ramp.t, p);
-        if (value - t).abs() < 0.01 {
-            return p;
-        }
-        if slope.abs() < 0.01 {
-            break;
-        }
-        p -= (value - t) / slope;
-    }
-    p
-}
-
-/// A microcontroller GUI's: everything in 1024ths. `x` and the answer are of the curve from (0, 0) by
-/// (x1, y1) and (x2, y2) to (1024, 1024).
-pub fn fixed_point(x: i64, [x1, y1, x2, y2]: [i64; 4]) -> i64 {
-    let powers = |a: i64, b: i64| {
-        let c = 3 * a;
-        let square = 3 * (b - a) - c;
-        [c, square, 1024 - c - square]
-    };
-    let value = |[c, b, a]: [i64; 3], p: i64| (((((((a * p) >> 10) + b) * p) >> 10) + c) * p) >> 10;
-    let (cx, cy) = (powers(x1, x2), powers(y1, y2));
-    let mut p = x;
-    for _ in 0..8 {
-        let residual = value(cx, p) - x;
-        if residual.abs() <= 1 {
-            return value(cy, p);
-        }
-        let slope = (((((3 * cx[2] * p) >> 10) + 2 * cx[1]) * p) >> 10) + cx[0];
-        if slope.abs() <= 1 {
-            break;
-        }
-        let step = residual * 1024 / slope;
-        if step == 0 {
-            break;
-        }
-        p -= step;
-    }
-    let (mut low, mut high, mut p) = (0, 1024, x);
-    while low < high {
-        let residual = value(cx, p) - x;
-        if residual.abs() <= 1 {
-            break;
-        }
-        *(if residual < 0 { &mut low } else { &mut high }) = p;
-        p = low + (high - low) / 2;
-        if p == low {
-            break;
-        }
-    }
-    value(cy, p)
 }
