@@ -164,6 +164,15 @@ fn what_cannot_be_fitted_is_refused() {
     }
     let unequal = Trace { times: whole.times.clone(), values: whole.values[1..].to_vec() };
     assert_eq!(refused(&unequal), Some(Refusal::Unsound));
+    // Rows that are lost: with a ramp, and of the plateau alone.
+    let lost = |from: usize, to: usize| {
+        let mut trace = part(0, 1000);
+        trace.times.drain(from..to);
+        trace.values.drain(from..to);
+        fitted(&trace, &options)
+    };
+    assert!(matches!(lost(150, 340), Err(Refusal::LostRamp { .. })));
+    assert!(told(&lost(400, 500).unwrap(), |w| matches!(w, Warning::Gap { count: 1, .. })));
     // Light lowers nothing here: the trace would begin and end in it.
     assert!(asked(&Options { light: Light::Down, ..Options::default() }).is_some());
 }

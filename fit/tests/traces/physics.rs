@@ -233,6 +233,7 @@ fn the_models_own_kind_is_not_doubted() {
                 let fit = case.fitted(&Options::default());
                 assert!(fit.test.explained && fit.test.tested, "{shutter:?}: {:?}", fit.test);
                 assert_eq!(fit.from, From::Model);
+                assert!(fit.warnings.iter().all(|it| it.code() != "hum"), "{:?}", fit.warnings);
             }
         }
     }
