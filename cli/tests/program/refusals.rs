@@ -14,22 +14,21 @@ pub const TIMES: &str = "unit = 'ms'\nopen_start = 4.1\ntimer_hz = 1_000_000\nmi
 
 /// A scene with changes, parted by `; `: `KEY = VALUE` in place of the key's line or below all, `KEY` without it, `A -> B`.
 pub fn with(scene: &str, changes: &str) -> String {
-    changes.split("; ").filter(|change| !change.is_empty()).fold(
-        scene.into(),
-        |text: String, change| {
-            if let Some((from, to)) = change.split_once(" -> ") {
-                assert!(text.contains(from), "{from}\n{text}");
-                return text.replace(from, to);
-            }
-            let (key, value) = change.split_once(" = ").unwrap_or((change, ""));
-            let is_its = |line: &&str| line.split(" = ").next() == Some(key);
-            let line = if value.is_empty() { String::new() } else { format!("{change}\n") };
-            match text.lines().find(is_its) {
-                Some(old) => text.replace(&format!("{old}\n"), &line),
-                None => text + &line,
-            }
-        },
-    )
+    let mut text = scene.to_string();
+    for change in changes.split("; ").filter(|change| !change.is_empty()) {
+        if let Some((from, to)) = change.split_once(" -> ") {
+            assert!(text.contains(from), "{from}\n{text}");
+            text = text.replace(from, to);
+            continue;
+        }
+        let (key, value) = change.split_once(" = ").unwrap_or((change, ""));
+        let line = if value.is_empty() { String::new() } else { format!("{change}\n") };
+        match text.lines().find(|line| line.split(" = ").next() == Some(key)) {
+            Some(old) => text = text.replace(&format!("{old}\n"), &line),
+            None => text += &line,
+        }
+    }
+    text
 }
 
 /// What is to be told of a scene: the reason, at the last line that begins so.
@@ -47,25 +46,6 @@ const COUNT: &str = "triggers: a whole number from 1 to 10000 is required";
 const ORDER: &str =
     "times out of order: open_start <= open_end <= close_start <= close_end is required";
 const UNIT: &str = "unit: \"s\", \"ms\", \"us\" or \"ns\" is required";
-/// A reason with its key, or its part, before it.
-macro_rules! short {
-    ($part:literal) => {
-        concat!($part, " ramp: it is shorter than 2^-24 of the greatest time; make it longer, or give it no length; it lasts 1e-9 ms")
-    };
-}
-macro_rules! of_a_curve {
-    ($key:literal) => {
-        concat!($key, ": it is a curve's, and the triggers of this scene are given by their times")
-    };
-}
-macro_rules! no_pulses {
-    ($key:literal) => {
-        concat!(
-            $key,
-            ": pulses are checked against a curve, and a scene with trigger_times has none"
-        )
-    };
-}
 const FLASHES: &str =
     "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses";
 const LATE: &str = "delay: the frame ends more than 2^31 ticks after the edge; with up to 2147482648 ticks of delay it does not";
@@ -125,8 +105,9 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "close_end = 0.7", "close_end", ORDER),
     (TRAPEZOID, "close_end = 1e30", "close_end",
         "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19); it lasts 1e30 s"),
-    (LEAF, "open_start = 0; open_end = 1e-9; close_start = 0.75; close_end = 1", "open_end", short!("opening")),
-    (LEAF, "open_start = -1; open_end = -0.5; close_start = -1e-9; close_end = 0", "close_end", short!("closing")),
+    (LEAF, "open_start = 0; open_end = 1e-9; close_start = 0.75; close_end = 1", "open_end", "opening ramp: it is shorter than \
+        2^-24 of the greatest time; make it longer, or give it no length; it lasts 1e-9 ms"),
+    (LEAF, "open_start = -1; open_end = -0.5; close_start = -1e-9; close_end = 0", "close_end", "closing ramp: it is shorter than 2^-24 …"),
     (LEAF, "open_start = -1; open_end = 0; close_start = 1e-9; close_end = 1", "close_start", "plateau: it is shorter than 2^-24 …"),
     (LEAF, "open_start = 131071000; open_end = 131071000; close_start = 131072000; close_end = 131072000", "close_end",
         "the interval is too short for its distance from time 0: below 2^-16 of its greatest time; count times \
@@ -220,12 +201,12 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TIMES, "lamp_lag = 0.9", "", ""),
     (TIMES, "lamp_lag = 1", "lamp_lag", "lamp_lag: the first trigger would come 0.1 ms before the start of opening…"),
     // Times without a curve.
-    (TIMES, "close_end = 9", "close_end", of_a_curve!("close_end")),
-    (TIMES, "shutteropening = 9", "shutteropening", of_a_curve!("shutteropening")),
+    (TIMES, "close_end = 9", "close_end", "close_end: it is a curve's, and the triggers of this scene are given by their times"),
+    (TIMES, "shutteropening = 9", "shutteropening", "shutteropening: it is a curve's, and the triggers of this scene are given by their times"),
     (TIMES, "triggers = 3", "triggers", "triggers: their number is that of trigger_times"),
-    (TIMES, "pulse = 0.1", "pulse", no_pulses!("pulse")),
-    (TIMES, "duty = 0.1", "duty", no_pulses!("duty")),
-    (TIMES, "min_pulse = 0.1", "min_pulse", no_pulses!("min_pulse")),
+    (TIMES, "pulse = 0.1", "pulse", "pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
+    (TIMES, "duty = 0.1", "duty", "duty: pulses are checked against a curve, and a scene with trigger_times has none"),
+    (TIMES, "min_pulse = 0.1", "min_pulse", "min_pulse: pulses are checked against a curve, and a scene with trigger_times has none"),
     (TIMES, "fully_open = true", "fully_open", "fully_open: when the shutter is fully open is a curve's, and this scene has none"),
     (TIMES, "set_up = 'in_path'", "set_up", "set_up: what a shutter in the light's path leaves of a flash comes from its curve…"),
     (TIMES, "open_start", "", "missing field `open_start`"),
