@@ -36,20 +36,16 @@ cp "$built" $files/engine.wasm
 "${build[@]}" --features studio
 cp "$built" $files/studio.wasm
 
-# Two scripts, of the first screen and of what comes after it: the modules one after the other, whose names differ; the
-# renderer, which has its own names, within a function.
-joined() {
-    for module; do sed -E '/^import .* from /d; /^ *\/\//d; s/^export //' "page/$module.js"; done |
-        awk '/^ *\/\*\*/ { inside = 1 } !inside { sub(/^ +/, ""); print } /\*\/ *$/ { inside = 0 }'
-}
+# One script: the modules one after the other, whose outermost names differ; the renderer, which has its own, within a function.
 {
     cargo run --quiet --package designer --bin presets | sed 's/^export default /const presets = /; s/^export //'
     echo 'const { html, nothing, render } = (() => {'
     sed 's/export{.*b as html.*A as nothing.*D as render.*};/return { html: b, nothing: A, render: D };/' page/lit-html.js
     echo '})();'
-    joined dom scene view model toml graph handles photo play facts main
+    for module in dom scene view model graph handles photo facts words numbers studio form trace speeds export bar ticks main; do
+        sed -E '/^import .* from /d; /^ *\/\//d; s/^export //' "page/$module.js"
+    done | awk '/^ *\/\*\*/ { inside = 1 } !inside { sub(/^ +/, ""); print } /\*\/ *$/ { inside = 0 }'
 } >$files/page.js
-joined numbers studio remedies form trace speeds export bar ticks later >$files/later.js
 
 # All but the page itself stands in a folder that is called by its content: what an old index.html names is never a new file,
 # however long a host lets browsers keep either.

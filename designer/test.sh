@@ -4,22 +4,17 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 
-CHROMIUM=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-if [ -z "$CHROMIUM" ]; then
-    command -v apt-get >/dev/null || { echo "designer: missing Chromium" >&2; exit 1; }
-    echo "designer: installing Debian's chromium, some 100 MB to fetch, a minute ..." >&2
+# The first of a package's commands; the package's name is the first of them.
+browser() {
+    for name; do command -v "$name" && return; done
+    command -v apt-get >/dev/null || { echo "designer: missing $1" >&2; exit 1; }
+    echo "designer: installing Debian's $1, some 100 MB to fetch, a minute ..." >&2
     apt-get update >&2
-    apt-get install --yes --no-install-recommends chromium >&2
-    CHROMIUM=$(command -v chromium)
-fi
-FIREFOX=$(command -v firefox-esr || command -v firefox || true)
-if [ -z "$FIREFOX" ]; then
-    command -v apt-get >/dev/null || { echo "designer: missing Firefox" >&2; exit 1; }
-    echo "designer: installing Debian's firefox-esr, some 80 MB to fetch, a minute ..." >&2
-    apt-get update >&2
-    apt-get install --yes --no-install-recommends firefox-esr >&2
-    FIREFOX=$(command -v firefox-esr)
-fi
+    apt-get install --yes --no-install-recommends "$1" >&2
+    command -v "$1"
+}
+CHROMIUM=$(browser chromium chromium-browser google-chrome)
+FIREFOX=$(browser firefox-esr firefox)
 command -v node >/dev/null || { echo "designer: missing Node.js, 20 or later" >&2; exit 1; }
 # They drive those browsers, and download none.
 echo "designer: fetching what drives the browser, 20 MB, some seconds ..." >&2

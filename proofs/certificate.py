@@ -4,6 +4,8 @@ Taken as known: on [-1, 1] a polynomial of degree n < N is at most 1 / cos(n pi 
 cos(i pi / N) (Ehlich and Zeller 1964), and |p'| <= n^2 max |p| (Markov 1889).
 """
 
+import math
+
 import numpy as np
 from z3 import *
 
@@ -23,28 +25,17 @@ DEGREE, POINTS, FIRST_STRIDE = constant("DEGREE"), constant("POINTS"), constant(
 ONE, COSINE = int(constant("ONE")), constant("COSINE")
 FACTOR = [Fraction(float(np.float32(x.replace("_", "")))) for x in re.findall(r"\d+\.[\d_]+", item("octave/bound.rs", "FACTOR"))]
 STRIDES = (1, 2)
-rational = lambda x: Q(x.numerator, x.denominator)
 
 
-# --- Cosines, to 2^-160.
-PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494459")
-
-
-def cosine(x):
-    total, term, k = Fraction(0), Fraction(1), 0
-    x = Fraction(int(x * 2**230), 2**230)
-    while abs(term) > Fraction(1, 2**220):
-        total += term
-        k += 2
-        term = Fraction(int(-term * x * x / (k * (k - 1)) * 2**240), 2**240)
-    return total
+# --- Cosines, by `libm` to 2^-50, where 2^-40 would do.
+cosine = lambda half_turns: Fraction(math.cos(math.pi * half_turns))
 
 
 def off_table(first):
     """By how much the table is off, as the recurrence makes it in doubles."""
     off, s, last = Fraction(0), 1.0, first
     for i in range(POINTS // 2 + 1):
-        off = max(off, abs(Fraction(int(s * ONE + 0.5), ONE) - cosine(PI * i / POINTS)))
+        off = max(off, abs(Fraction(int(s * ONE + 0.5), ONE) - cosine(i / POINTS)))
         s, last = 2.0 * first * s - last, s
     return off
 
@@ -56,10 +47,10 @@ proven(f"the table's {POINTS // 2 + 1} cosines are within 2^{log2(off):.2f}")
 # --- The degree of R: an offset's, which is a fraction's, times the octave's; and of R times the openness. So the factors.
 n = 6 * DEGREE + 3
 require(n == 51 and n < POINTS // FIRST_STRIDE, "the degree")
-exact = {stride: 1 / cosine(PI * n * stride / (2 * POINTS)) for stride in STRIDES}
+exact = {stride: 1 / cosine(n * stride / (2 * POINTS)) for stride in STRIDES}
 factor_off = max(abs(FACTOR[stride & 3] / exact[stride] - 1) for stride in STRIDES) / U
 require(factor_off <= 1 and FIRST_STRIDE == max(STRIDES), "FACTOR")
-require(abs(FACTOR[2] * cosine(PI * (n - 1) / POINTS) - 1) > 2**16 * U, "a degree of 50 would do")
+require(abs(FACTOR[2] * cosine((n - 1) / POINTS) - 1) > 2**16 * U, "a degree of 50 would do")
 proven(f"R times the openness has degree {n}, and FACTOR is 1 / cos({n} pi / 2N) for N = {POINTS // 2} and {POINTS}, to {float(factor_off):.2f} roundings")
 # Samples are off their points, and so is a sample by Markov: max |p| <= F (seen + off n^2 max |p|). Roundings of 2^-24: a sample's two
 # words and their sum, its product with a weight, the sum with the noise, two by SLACK and FACTOR, and what FACTOR is off. The noise has

@@ -30,9 +30,7 @@ const TICK_HZ: u32 = 1 << 24;
 fn main() {
     println!(
         "Times are of one call, at random fractions of the exposure. Behind a name: the largest error and the mean one, as\n\
-         shares of the interval (of `cdf`: of the exposure); of `inverse_cdf` also the largest at fractions next to joins and\n\
-         kinks and as small as can be, beyond the rounding of the time; and the bytes of a curve. With 0 octaves each answer is\n\
-         a search.\n"
+         shares of the interval (of `cdf`: of the exposure); and the bytes of a curve. With 0 octaves each answer is a search.\n"
     );
     Divan::default().min_time(Duration::from_millis(300)).config_with_args().main();
 }
@@ -40,7 +38,7 @@ fn main() {
 /// What is measured in a row.
 struct Row<T> {
     name: String,
-    /// The largest error and the mean, and what else is told of errors.
+    /// The largest error and the mean.
     errors: Vec<f64>,
     bytes: usize,
     what: T,
@@ -50,13 +48,14 @@ impl<T> fmt::Display for Row<T> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Self { name, errors, bytes, .. } = self;
         let errors = errors.iter().map(|error| format!("{error:>8.1e}")).collect::<String>();
-        write!(f, "{name:<22}{errors:<24}{bytes:>6} B")
+        write!(f, "{name:<22}{errors:<16}{bytes:>6} B")
     }
 }
 
 /// The methods that serve one of [`CURVES`].
 fn inverses(curve: usize) -> Vec<Row<Method>> {
-    let figures = accuracy::measure(&[CURVES[curve].1], SAMPLES);
+    let curve = CURVES[curve].1;
+    let figures = accuracy::measure(&[curve], SAMPLES);
     let served = METHODS.into_iter().zip(figures).filter(|(_, figures)| figures.curves > 0);
     let name = |method: Method| {
         let name = method.name().replace('`', "");
@@ -65,8 +64,8 @@ fn inverses(curve: usize) -> Vec<Row<Method>> {
     };
     let rows = served.map(|(method, figures)| Row {
         name: name(method),
-        errors: vec![figures.of_interval.0, figures.of_interval.1, figures.hard.0],
-        bytes: method.bytes(),
+        errors: vec![figures.of_interval.0, figures.of_interval.1],
+        bytes: method.build(&curve).map_or(0, |inverse| size_of_val(&*inverse)),
         what: method,
     });
     rows.collect()

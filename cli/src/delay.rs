@@ -3,7 +3,8 @@
 use shutter_fit::unit::Unit;
 use toml::Spanned;
 
-use crate::scene::{Fault, Number, seconds};
+use crate::fault::{Fault, What};
+use crate::scene::{Number, seconds};
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.
@@ -53,14 +54,14 @@ impl Delay {
         let of_spread = |place| Ok((place, seconds(unit, "delay_spread", place)?));
         let spread = spread.map(of_spread).transpose()?;
         if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
-            return Err(Fault::at(place, "delay_spread: 0 or more is required, and a delay"));
+            return Err(Fault::at(place, What::Spread));
         }
         if let (None, Some(place)) = (delay, falls) {
-            return Err(Fault::at(place, "sync_falls: it goes with a delay"));
+            return Err(Fault::at(place, What::Falls));
         }
         let lag = lag.map(|place| Ok((place, seconds(unit, "lamp_lag", place)?))).transpose()?;
         if let Some((place, _)) = lag.filter(|(_, lag)| *lag < 0.0) {
-            return Err(Fault::at(place, "lamp_lag: 0 or more is required"));
+            return Err(Fault::at(place, What::NotNegative { key: "lamp_lag" }));
         }
         let lag = lag.map(|(_, lag)| lag);
         let count = |seconds: f64| (seconds.max(0.0) * f64::from(timer_hz)).round();
@@ -70,17 +71,12 @@ impl Delay {
         let Some(place) = delay else { return Ok((None, beyond(0.0))) };
         let seconds = seconds(unit, "delay", place)?;
         if seconds < 0.0 {
-            let reason =
-                "delay: 0 or more is required; an edge cannot trigger what comes before it";
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::Delay));
         }
         let ticks = count(seconds - lag.unwrap_or_default());
         let most = LAST - end;
         if ticks > most {
-            let reason = format!(
-                "delay: the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not"
-            );
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::DelayTooLong { most }));
         }
         // Neither is -0.
         let spread = spread.map(|(_, spread)| spread);
@@ -105,15 +101,7 @@ impl Lag {
         let (Some(lag), Some(place)) = (lag, sync.lag) else { return Ok(()) };
         let Some(by) = lag.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
         let by = f64::from(by) / f64::from(hz);
-        let from = match sync.delay {
-            Some(_) => "the edge of the sync",
-            None => "the start of opening, from where ticks count without a delay",
-        };
-        let reason = format!(
-            "lamp_lag: the first trigger would come {} before {from}; a lag of {} is the most",
-            unit.show(by),
-            unit.show(lag.seconds - by)
-        );
-        Err(Fault::at(place, reason))
+        let (most, by_edge) = (lag.seconds - by, sync.delay.is_some());
+        Err(Fault::at(place, What::Lag { by, most, by_edge, unit }))
     }
 }

@@ -86,9 +86,8 @@ pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
         Planned::Curve(plan) => of_curve(name, plan),
         Planned::Times(times) => of_times(name, times),
     };
-    let coarse =
-        coarse(plan).map(|percent| format!("moves flashes by up to {percent} % of a share"));
-    lines.extend(coarse.map(|told| ("rounding", told)));
+    let told = |by| format!("moves flashes by up to {} % of a share", short(by, 2));
+    lines.extend(coarse(plan).map(|by| ("rounding", told(by))));
     lines
 }
 
@@ -235,8 +234,8 @@ pub fn spread(plan: &Planned) -> Option<String> {
     ))
 }
 
-/// After how many frames a delay that moves by a tick a second matters, if there is a delay and a share to compare it with.
-pub fn drift(plan: &Planned) -> Option<String> {
+/// In how many frames a delay that moves by a tick a second moves by 1 % of a share, if there is a delay and a share.
+pub fn drift(plan: &Planned) -> Option<f64> {
     let length = match plan {
         Planned::Curve(plan) => plan.length(),
         Planned::Times(times) => times.length(),
@@ -246,8 +245,7 @@ pub fn drift(plan: &Planned) -> Option<String> {
     }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
     let ticks = share(plan)? * f64::from(plan.timer().hz);
-    let frames = short(MATTERS * ticks / from_edge(Some(plan.delay()?), length), 2);
-    Some(format!("a tick a second moves the delay by 1 % of a share in {frames} frames"))
+    Some(MATTERS * ticks / from_edge(Some(plan.delay()?), length))
 }
 
 /// From the edge to the end of a frame that lasts so many seconds.
@@ -338,11 +336,11 @@ pub fn unequal(plan: &Plan) -> Option<String> {
 }
 
 /// By how much the timer's ticks move a flash without a dose of its own, in percent of a share, if it is more than one.
-pub fn coarse(plan: &Planned) -> Option<String> {
+pub fn coarse(plan: &Planned) -> Option<f64> {
     let has_doses = plan.plan().is_some_and(|plan| matches!(plan.lamp, Lamp::Doses { .. }));
     let percent = 50.0 / (share(plan)? * f64::from(plan.timer().hz));
     let is_told = plan.timer().is_given && !has_doses && percent > 100.0 * MATTERS;
-    is_told.then(|| short(percent, 2))
+    is_told.then_some(percent)
 }
 
 /// The doses of equal flashes that a shutter in the light's path dims by more than a hundredth.
@@ -354,13 +352,18 @@ pub fn dimmed(plan: &Plan) -> Option<String> {
     doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
 }
 
-/// The doses of the first flash, of the middle one and of the last.
+/// Those doses in words.
 pub fn few(doses: &[f64]) -> String {
-    let mut places = vec![0, doses.len() / 2, doses.len() - 1];
-    places.dedup();
-    let percent: Vec<_> = places.iter().map(|&i| short(100.0 * doses[i], 3)).collect();
+    let percent: Vec<_> = ends(doses).into_iter().map(|dose| short(100.0 * dose, 3)).collect();
     match percent.split_last() {
         Some((last, others @ [_, ..])) => format!("{} and {last} %", others.join(", ")),
         _ => percent.join("") + " %",
     }
+}
+
+/// The first dose, the middle one and the last, as far as these are several.
+pub fn ends(doses: &[f64]) -> Vec<f64> {
+    let mut places = vec![0, doses.len() / 2, doses.len() - 1];
+    places.dedup();
+    places.into_iter().map(|i| doses[i]).collect()
 }

@@ -47,7 +47,7 @@ pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Sc
     let text = write_times(fit, name, zero, unit.unwrap_or(fit.unit()));
     match Planned::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
+        Err(fault) => Err(Refusal::NoScene { reason: fault.reason() }),
     }
 }
 
@@ -72,7 +72,7 @@ pub fn curve_scene(
     let text = write_curve(fit, name, &resolved(&curve), unit);
     match Plan::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(Refusal::NoScene { reason: fault.reason }),
+        Err(fault) => Err(Refusal::NoScene { reason: fault.reason() }),
     }
 }
 

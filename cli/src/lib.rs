@@ -10,6 +10,7 @@ pub mod command;
 pub mod delay;
 pub mod emit;
 pub mod facts;
+pub mod fault;
 pub mod fitted;
 pub mod lamp;
 #[cfg(feature = "picture")]

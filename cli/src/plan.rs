@@ -5,9 +5,10 @@ pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
 use crate::delay::{Delay, Lag, Sync};
+use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::lamp::{Flash, FullyOpen, Lamp};
-use crate::scene::{Fault, Scene, min_gap, positive, whole};
+use crate::scene::{Scene, min_gap, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
 
@@ -69,7 +70,8 @@ impl Plan {
     /// # Errors
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
-        let plan = Self::new(&crate::scene::parse(text)?)?;
+        let scene = crate::scene::parse(text)?;
+        let plan = Self::new(&scene).map_err(|fault| scene.noted(fault))?;
         let fitted = [crate::scene::fitted(text), plan.fitted].concat();
         Ok(Self { fitted, ..plan })
     }
@@ -189,38 +191,28 @@ impl Asked {
         let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
         let fully_open = scene.fully_open.as_ref().filter(|it| *it.get_ref());
         if let Some(place) = fully_open.filter(|_| scene.pulse.is_some() || scene.duty.is_some()) {
-            let reason = "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses";
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::FullyOpenPulses));
         }
         if let Some(place) = fully_open.filter(|_| curve.open_end() == curve.close_start()) {
-            let reason = "fully_open: this shutter begins to close as soon as it is open";
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::FullyOpenNever));
         }
         if scene.set_up.as_ref().is_some_and(|it| *it.get_ref() == SetUp::Emulated) {
-            let reason = |key, instead| {
-                format!(
-                    "{key}: it is for a shutter in the light's path, and set_up is \"emulated\"; there, {instead}"
-                )
-            };
             if let Some(place) = &scene.duty {
-                return Err(Fault::at(place, reason("duty", "`pulse` makes equal pulses")));
+                return Err(Fault::at(place, What::DutyEmulated));
             }
             if let Some(place) = fully_open {
-                return Err(Fault::at(place, reason("fully_open", "flashes come at the triggers")));
+                return Err(Fault::at(place, What::FullyOpenEmulated));
             }
         }
         let lamp = match (&scene.pulse, &scene.duty) {
             _ if fully_open.is_some() => Lamp::FullyOpen,
             (Some(_), Some(duty)) => {
-                let reason = "duty and pulse: a scene has one of them (pulse where the curve is \
-                              emulated, duty where the shutter is in the light's path)";
-                return Err(Fault::at(duty, reason));
+                return Err(Fault::at(duty, What::DutyAndPulse));
             }
             (Some(place), None) => {
                 let ticks = (pulse.unwrap_or_default() * f64::from(timer_hz)).round();
                 if ticks == 0.0 {
-                    let reason = format!("pulse: it is less than half a tick of {timer_hz} Hz");
-                    return Err(Fault::at(place, reason));
+                    return Err(Fault::at(place, What::PulseOfNoTick { hz: timer_hz }));
                 }
                 // The cast saturates; what is so long is refused later.
                 Lamp::Equal { ticks: ticks as u32 }
@@ -228,15 +220,14 @@ impl Asked {
             (None, Some(place)) => {
                 let duty = place.get_ref().get() as f32;
                 if !(duty > 0.0 && duty <= 1.0) {
-                    return Err(Fault::at(place, "duty: above 0 and at most 1 is required"));
+                    return Err(Fault::at(place, What::Duty));
                 }
                 Lamp::Doses { duty }
             }
             (None, None) => Lamp::Triggered,
         };
         if let (Some(place), None) = (&scene.min_pulse, &scene.duty) {
-            let reason = "min_pulse: it goes with duty, which makes pulses of many lengths";
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::MinPulse));
         }
         // A timer fires once a tick; a lamp that shines on needs no gap.
         let least = u64::from(!lamp.has_pulses());
@@ -337,55 +328,39 @@ impl Problem {
     /// What is wrong with the frame of `n` triggers, and what would help.
     fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
         let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
-        let many = match most {
-            Some(1) => "1 trigger keeps that".into(),
-            Some(most) => format!("up to {most} triggers keep that"),
-            None => "no number of triggers keeps that".to_string(),
-        };
-        let (timer, unit) = (frames.timer, frames.unit);
-        let [dark, lit] = [asked.dark, asked.lit].map(|ticks| timer.required(ticks, unit));
-        let ticks = |ticks| timer.ticks(ticks, unit);
-        let apart = |things, i, gap| timer.apart(things, i, gap, unit);
-        let reason = match (asked.lamp, *self) {
-            (Lamp::Equal { ticks: length }, _) => {
-                let longest = match frames.longest(asked, n) {
-                    ..=0 => "none is short enough".into(),
-                    longest => format!("those of up to {} fit", ticks(longest)),
+        let ticks = |count| Ticks { count, timer: frames.timer, unit: frames.unit };
+        let [dark, lit] =
+            [asked.dark, asked.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
+        let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
+        let what = match (asked.lamp, *self) {
+            (Lamp::Equal { ticks: length }, problem) => {
+                let pair = match problem {
+                    Self::Close(i, gap) => Some(pair(i, gap)),
+                    _ => None,
                 };
-                let many = most.map(|_| format!(", or {many}")).unwrap_or_default();
-                let reason = match *self {
-                    Self::Close(i, gap) => format!("{}, and {dark}", apart("pulses", i, gap)),
-                    _ => "they reach beyond the time that the shutter is open".into(),
-                };
-                let length = ticks(length.into());
-                let reason = format!("pulses of {length}: {reason}; {longest}{many}");
+                let longest = ticks(frames.longest(asked, n));
                 let place = scene.pulse.as_ref().map_or(0, |pulse| pulse.span().start);
-                return Fault::of(Some(place), reason);
+                let what = What::Pulses { length: ticks(length.into()), pair, longest, most };
+                return Fault::of(Some(place), what);
             }
             (Lamp::Doses { .. }, Self::Close(i, gap)) => {
-                let apart = apart("pulses", i, gap);
-                format!("{apart}, and {dark}; {many}; a smaller duty leaves more")
+                What::DosesClose { pair: pair(i, gap), most }
             }
-            (Lamp::Doses { .. }, Self::Short(i, length)) => {
-                let lasts = ticks(length);
-                format!("pulse {i} lasts {lasts}, and {lit}; {many}; a greater duty lasts longer")
+            (Lamp::Doses { .. }, Self::Short(i, lasts)) => {
+                What::DoseShort { i, lasts: ticks(lasts), least: lit, most }
             }
-            (_, Self::Close(i, gap)) => {
-                format!("{}, and {dark}; {many}", apart("triggers", i, gap))
-            }
-            _ => format!("the frame does not fit; {many}"),
+            (_, Self::Close(i, gap)) => What::Close { pair: pair(i, gap), most },
+            _ => What::Unfit { most },
         };
-        Fault::at(&scene.triggers, reason)
+        Fault::at(&scene.triggers, what)
     }
 }
 
 /// What is wrong with a timer's rate, in Hz, as all curves are in seconds here.
-fn rate(error: ScheduleError) -> String {
+fn rate(error: ScheduleError) -> What {
     match error {
-        ScheduleError::TickRateTooHigh { most } if most > 0 => {
-            format!("timer_hz: the interval is longer than 2^31 ticks; up to {most} Hz it is not")
-        }
-        _ => format!("timer_hz: {error}"),
+        ScheduleError::TickRateTooHigh { most } if most > 0 => What::RateTooHigh { most },
+        _ => What::Schedule(error),
     }
 }
 

@@ -4,9 +4,10 @@ use serde::Serialize;
 use shutter_fit::unit::Unit;
 
 use crate::delay::{Delay, Lag};
+use crate::fault::Fault;
 use crate::lamp::SetUp;
 use crate::plan::{Plan, Trigger};
-use crate::scene::{Fault, trigger_times_at};
+use crate::scene::trigger_times_at;
 use crate::set_up::doses;
 use crate::timer::Timer;
 use crate::times::{Given, Times};

@@ -40,7 +40,11 @@ fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> 
     for (name, fact) in facts::lines(name, planned) {
         writeln!(out, "{name:11}  {fact}")?;
     }
-    for (name, fact) in [("spread", facts::spread(planned)), ("drift", facts::drift(planned))] {
+    let drift = facts::drift(planned).map(|frames| {
+        let frames = short(frames, 2);
+        format!("a tick a second moves the delay by 1 % of a share in {frames} frames")
+    });
+    for (name, fact) in [("spread", facts::spread(planned)), ("drift", drift)] {
         if let Some(fact) = fact {
             writeln!(out, "{name:11}  {fact}")?;
         }

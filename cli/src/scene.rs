@@ -7,6 +7,7 @@ use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::fault::{Fault, What};
 use crate::lamp::SetUp;
 use crate::shape::Shape;
 
@@ -117,53 +118,6 @@ impl Scene {
     }
 }
 
-/// What is wrong with a scene, and at which byte of its text, where that is known.
-#[derive(Debug)]
-pub struct Fault {
-    /// The byte of the text.
-    pub at: Option<usize>,
-    /// What is wrong.
-    pub reason: String,
-    /// What may help, a line each.
-    pub notes: Vec<String>,
-    /// From where to where among the eight numbers of `shutteropening` it is.
-    pub inner: Option<(usize, usize)>,
-}
-
-impl Fault {
-    pub(crate) fn at<T>(value: &Spanned<T>, reason: impl ToString) -> Self {
-        Self::of(Some(value.span().start), reason)
-    }
-
-    pub(crate) fn of(at: Option<usize>, reason: impl ToString) -> Self {
-        Self { at, reason: reason.to_string(), notes: Vec::new(), inner: None }
-    }
-
-    /// The key that it is about, in a scene of numbers.
-    pub fn key(&self) -> Option<&'static str> {
-        KEYS.get(self.at?).copied()
-    }
-
-    /// The number of its line, from 1, and the line.
-    pub fn line<'a>(&self, text: &'a str) -> Option<(usize, &'a str)> {
-        let line = text.get(..self.at?)?.matches('\n').count();
-        Some((line + 1, text.lines().nth(line).unwrap_or_default()))
-    }
-
-    /// `file:line: reason`, the line itself below it, and the notes.
-    pub fn locate(&self, file: &str, text: &str) -> String {
-        let reason = &self.reason;
-        let mut told = match self.line(text) {
-            Some((number, line)) => format!("{file}:{number}: {reason}\n  {number} | {line}"),
-            None => format!("{file}: {reason}"),
-        };
-        for note in &self.notes {
-            told += &format!("\n  {note}");
-        }
-        told
-    }
-}
-
 /// The key that tells a scene of trigger times from one with a curve.
 pub(crate) const TRIGGER_TIMES: &str = "trigger_times";
 
@@ -193,7 +147,7 @@ pub fn parse(text: &str) -> Result<Scene, Fault> {
     if let Some(at) = trigger_times_at(text) {
         let reason = "trigger_times: this scene has times as they were measured, and a curve is required here; \
                       `shutter plan` takes it";
-        return Err(Fault::of(Some(at), reason));
+        return Err(Fault::of(Some(at), What::Text(reason.into())));
     }
     read(text)
 }
@@ -221,12 +175,12 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
                 _ => format!("{key}: {reason}"),
             };
         }
-        Fault::of(at, reason)
+        Fault::of(at, What::Text(reason))
     })
 }
 
 /// The digits of an inner control number: all that `f32` keeps.
-const DIGITS: i32 = 9;
+pub(crate) const DIGITS: i32 = 9;
 
 /// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.
 const ROUNDING: f64 = 1e-4;
@@ -267,16 +221,11 @@ impl Scene {
         for (i, value) in self.times().into_iter().enumerate() {
             let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
-                return Err(Fault::at(value, format!("{key}: it is beyond f32 (3.4e38 s)")));
+                return Err(Fault::at(value, What::Beyond { key }));
             }
             // Times out of order are told as such.
             if length > 0.0 && off > ROUNDING * length {
-                let percent = short(100.0 * off / length, 2);
-                let reason = format!(
-                    "{key}: f32 is off by {percent} % of the interval here; count the times from \
-                     nearer to open_start"
-                );
-                return Err(Fault::at(value, reason));
+                return Err(Fault::at(value, What::Lost { key, percent: 100.0 * off / length }));
             }
         }
         let inner = self.shutteropening.as_ref().map(eight).transpose()?;
@@ -308,34 +257,44 @@ impl Scene {
             E::TooShort(Part::Plateau) => (1, 2),
             E::TooShort(_) => (2, 3),
             E::IntervalUnresolved | E::IntervalOutOfRange => (0, 3),
-            _ => return self.inner_fault(shape, error),
+            _ => return self.inner_fault(error),
         };
-        let length = self.unit().show(f64::from(times[to]) - f64::from(times[from]));
-        Fault::at(self.times()[to], format!("{error}; it lasts {length}"))
+        let seconds = f64::from(times[to]) - f64::from(times[from]);
+        Fault::at(self.times()[to], What::Lasts { error, seconds, unit: self.unit() })
     }
 
     /// The same of the inner control points.
-    fn inner_fault(&self, shape: &Shape, error: CurveError) -> Fault {
+    fn inner_fault(&self, error: CurveError) -> Fault {
         use CurveError as E;
         let Some(place) = &self.shutteropening else { return Fault::at(&self.close_end, error) };
         let ramp = |part| if part == Part::Closing { 4 } else { 0 };
         let point = |part, point: u8| ramp(part) + 2 * (usize::from(point) - 1);
-        let one =
-            |i: usize| ((i, i + 1), format!("; it is {}", short(place.get_ref()[i].get(), DIGITS)));
-        let (inner, number) = match error {
+        let one = |i: usize| ((i, i + 1), What::Inner { error, number: place.get_ref()[i].get() });
+        let (inner, what) = match error {
             E::FractionOutsideRamp { part, point: at } => one(point(part, at)),
             E::OpennessOutOfRange { part, point: at } => one(point(part, at) + 1),
             E::NotFinite(part) | E::TimesCross(part) => {
-                ((ramp(part), ramp(part) + 4), String::new())
+                ((ramp(part), ramp(part) + 4), error.into())
             }
-            _ => ((0, 8), String::new()),
+            _ => ((0, 8), error.into()),
         };
-        let mut fault = Fault::at(place, format!("{error}{number}"));
-        fault.inner = Some(inner);
+        Fault { inner: Some(inner), ..Fault::at(place, what) }
+    }
+
+    /// What is wrong with the curve of a text, with what may help.
+    pub(crate) fn noted(&self, mut fault: Fault) -> Fault {
+        let of_inner = matches!(*fault.what, What::Curve(_) | What::Inner { .. });
+        let Some(place) = self.shutteropening.as_ref().filter(|_| of_inner) else { return fault };
+        if fault.inner.is_none() {
+            return fault;
+        }
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        let is_time = matches!(error, E::FractionOutsideRamp { .. });
-        let misread = is_time.then(|| self.misread(shape, place.get_ref())).flatten();
-        if let Some((convention, inner)) = misread {
+        let is_time = matches!(
+            *fault.what,
+            What::Inner { error: CurveError::FractionOutsideRamp { .. }, .. }
+        );
+        let shape = self.shape().ok().filter(|_| is_time);
+        if let Some((convention, inner)) = shape.and_then(|it| self.misread(&it, place.get_ref())) {
             let inner = inner.join(", ");
             fault.notes.push(format!("As {convention} they would fit; that is"));
             fault.notes.push(format!("shutteropening = [{inner}]"));
@@ -375,18 +334,18 @@ impl Scene {
 }
 
 /// A time in seconds, known to be finite.
-pub(crate) fn seconds(unit: Unit, key: &str, time: &Spanned<Number>) -> Result<f64, Fault> {
+pub(crate) fn seconds(unit: Unit, key: &'static str, time: &Spanned<Number>) -> Result<f64, Fault> {
     let x = time.get_ref().get();
     if x.is_finite() {
         return Ok(unit.seconds(x));
     }
-    Err(Fault::at(time, format!("{key}: a finite number is required")))
+    Err(Fault::at(time, What::Finite { key }))
 }
 
 /// A time in seconds that has to be more than 0, if there is one.
 pub(crate) fn positive(
     unit: Unit,
-    key: &str,
+    key: &'static str,
     time: Option<&Spanned<Number>>,
 ) -> Result<Option<f64>, Fault> {
     let Some(place) = time else { return Ok(None) };
@@ -394,38 +353,37 @@ pub(crate) fn positive(
     if seconds > 0.0 {
         return Ok(Some(seconds));
     }
-    Err(Fault::at(place, format!("{key}: more than 0 is required")))
+    Err(Fault::at(place, What::Positive { key }))
 }
 
 /// The least gap, in seconds.
 pub(crate) fn min_gap(unit: Unit, time: &Spanned<Number>) -> Result<f64, Fault> {
     let seconds = seconds(unit, "min_gap", time)?;
     if seconds < 0.0 {
-        return Err(Fault::at(time, "min_gap: 0 or more is required"));
+        return Err(Fault::at(time, What::NotNegative { key: "min_gap" }));
     }
     Ok(seconds)
 }
 
 /// A whole number from 1 to `most`.
-pub(crate) fn whole(key: &str, place: &Spanned<Number>, most: u32) -> Result<u32, Fault> {
+pub(crate) fn whole(key: &'static str, place: &Spanned<Number>, most: u32) -> Result<u32, Fault> {
     let x = place.get_ref().get();
     if x.fract() == 0.0 && (1.0..=most.into()).contains(&x) {
         return Ok(x as u32);
     }
-    Err(Fault::at(place, format!("{key}: a whole number from 1 to {most} is required")))
+    Err(Fault::at(place, What::Whole { key, most }))
 }
 
 fn eight(numbers: &Spanned<Vec<Number>>) -> Result<[f32; 8], Fault> {
     let many = numbers.get_ref();
     let mut eight = [0.0; 8];
     if many.len() != eight.len() {
-        let reason = format!("shutteropening: 8 numbers are required, not {}", many.len());
-        return Err(Fault::at(numbers, reason));
+        return Err(Fault::at(numbers, What::NotEight(many.len())));
     }
     for (i, number) in many.iter().enumerate() {
         eight[i] = number.get() as f32;
         if !eight[i].is_finite() {
-            let fault = Fault::at(numbers, "shutteropening: a finite number is required");
+            let fault = Fault::at(numbers, What::Finite { key: KEYS[EIGHT] });
             return Err(Fault { inner: Some((i, i + 1)), ..fault });
         }
     }

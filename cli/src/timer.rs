@@ -1,9 +1,10 @@
 //! A scene's timer.
 
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::short;
 use toml::Spanned;
 
-use crate::scene::{Fault, Number};
+use crate::fault::{Fault, What};
+use crate::scene::Number;
 
 /// A timer that counts up and wraps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,14 +32,14 @@ impl Timer {
         let exact_hz = hz.map_or_else(|| fine(seconds), |hz| hz.get_ref().get());
         // From 0.5 on it is 1 when it is rounded.
         if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
-            return Err(Fault::at(hz, "timer_hz: a rate from 1 to 4294967295 is required"));
+            return Err(Fault::at(hz, What::Rate));
         }
         let is_given = hz.is_some();
         let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits, is_given };
         match bits.map(|bits| (bits, bits.get_ref().get())) {
             None => Ok(timer(32)),
             Some((_, bits)) if bits == 16.0 || bits == 32.0 => Ok(timer(bits as u32)),
-            Some((place, _)) => Err(Fault::at(place, "timer_bits: 16 or 32 is required")),
+            Some((place, _)) => Err(Fault::at(place, What::Bits)),
         }
     }
 
@@ -62,15 +63,8 @@ impl Timer {
         // One that leaves a whole rate, if there is one nearby.
         let whole = |by: &f64| (self.exact_hz / by).fract() == 0.0;
         let by = (0..=least as u64).map(|more| least + more as f64).find(whole).unwrap_or(least);
-        Err(Fault::at(
-            place,
-            format!(
-                "timer_bits: the frame ends at tick {ticks}, and with {} bits it may end at {most} at the latest; \
-                 a prescaler of {by} fits: timer_hz = {}",
-                self.bits,
-                short(self.exact_hz / by, 10)
-            ),
-        ))
+        let (bits, hz) = (self.bits, self.exact_hz / by);
+        Err(Fault::at(place, What::Wraps { ticks, bits, most, by, hz }))
     }
 
     /// What is to be said of it, where a delay and a frame last so many seconds.
@@ -94,32 +88,6 @@ impl Timer {
     /// By how many ticks the whole rate is off after so many seconds.
     pub(crate) fn off(&self, seconds: f64) -> f64 {
         (self.exact_hz - f64::from(self.hz)).abs() * seconds
-    }
-
-    /// So many ticks, as what is told; without a rate, how long they last.
-    pub(crate) fn ticks(&self, ticks: i64, unit: Unit) -> String {
-        match self.is_given {
-            true => count(ticks.unsigned_abs(), "tick"),
-            false => unit.show(ticks.unsigned_abs() as f64 / f64::from(self.hz)),
-        }
-    }
-
-    /// The same, as what is required.
-    pub(crate) fn required(&self, ticks: u64, unit: Unit) -> String {
-        match (self.is_given, ticks) {
-            (false, _) => format!("{} is required", self.ticks(ticks as i64, unit)),
-            (true, 1) => "1 is required".into(),
-            (true, _) => format!("{ticks} are required"),
-        }
-    }
-
-    /// How far the thing `i` and the next one are apart.
-    pub(crate) fn apart(&self, things: &str, i: usize, gap: i64, unit: Unit) -> String {
-        let (ticks, next) = (self.ticks(gap, unit), i + 1);
-        match gap {
-            ..0 => format!("{things} {i} and {next} overlap by {ticks}"),
-            _ => format!("{things} {i} and {next} come {ticks} apart"),
-        }
     }
 }
 

@@ -6,9 +6,10 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::delay::{Delay, LAST, Lag, Sync};
+use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
-use crate::scene::{self, Fault, Number, TRIGGER_TIMES as KEY};
+use crate::scene::{self, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
 
 /// The scene as it is written; each value knows its place in the text.
@@ -94,7 +95,7 @@ impl Times {
         let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         for key in table.keys() {
             if let Some(why) = of_a_curve(key.get_ref()) {
-                return Err(Fault::at(key, format!("{}: {why}", key.get_ref())));
+                return Err(Fault::at(key, What::Text(format!("{}: {why}", key.get_ref()))));
             }
         }
         let times = Self::new(&scene::read(text)?)?;
@@ -129,9 +130,7 @@ impl Times {
         let open_start = scene::seconds(unit, "open_start", &scene.open_start)?;
         let bits = scene.timer_bits.as_ref();
         if let Some(place) = scene.set_up.as_ref().filter(|it| *it.get_ref() == SetUp::InPath) {
-            let reason = "set_up: what a shutter in the light's path leaves of a flash comes from its curve, and this \
-                          scene has none; `shutter fit --model free` writes one";
-            return Err(Fault::at(place, reason));
+            return Err(Fault::at(place, What::TimesInPath));
         }
         let last = scene.trigger_times.get_ref().last().map_or(0.0, |it| it.get_ref().get());
         let delay = scene.delay.as_ref().map_or(0.0, |delay| delay.get_ref().get());
@@ -190,30 +189,28 @@ fn triggers(
     let hz = f64::from(timer.hz);
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
-        let reason = format!("{KEY}: 1 to {MOST_TRIGGERS} can be planned, not {}", times.len());
-        return Err(Fault::at(&scene.trigger_times, reason));
+        return Err(Fault::at(&scene.trigger_times, What::TimesCount(times.len())));
     }
     let mut triggers: Vec<Given> = Vec::new();
     for (i, place) in times.iter().enumerate() {
-        let fault = |reason: String| Err(Fault::at(place, format!("{KEY}: {reason}")));
+        let fault = |what| Err(Fault::at(place, what));
         let time = scene::seconds(unit, KEY, place)?;
         let ticks = ((time - start) * hz).round();
         if time < start {
-            return fault(format!("trigger {i} comes before open_start, from where ticks count"));
+            return fault(What::TimesEarly { i });
         }
         if ticks > LAST {
-            return fault(format!(
-                "trigger {i} comes more than 2^31 ticks after open_start; count from nearer to it, or take a slower timer"
-            ));
+            return fault(What::TimesLate { i });
         }
         if let Some(last) = triggers.last() {
             let by = ticks as i64 - i64::from(last.ticks);
             if time < last.time {
-                return fault(format!("trigger {i} comes before trigger {}", i - 1));
+                return fault(What::TimesOutOfOrder { i: i - 1 });
             }
             if by < i64::try_from(gap).unwrap_or(i64::MAX) {
-                let apart = timer.apart("triggers", i - 1, by, unit);
-                return fault(format!("{apart}, and {}", timer.required(gap, unit)));
+                let ticks = |count| Ticks { count, timer, unit };
+                let (gap, least) = (ticks(by), ticks(i64::try_from(gap).unwrap_or(i64::MAX)));
+                return fault(What::TimesClose(Pair { first: i - 1, gap, least }));
             }
         }
         triggers.push(Given { time, ticks: ticks as u32 });

@@ -4,7 +4,7 @@ import { html, render } from './lit-html.js';
 import { $, watch, write } from './dom.js';
 import { helps } from './export.js';
 import { go, tell } from './model.js';
-import { inWords, remedies } from './remedies.js';
+import { remedies, told } from './words.js';
 import { FIELDS, INNER } from './scene.js';
 
 const MORE = [...INNER, 'timer_bits', 'delay_spread', 'min_pulse', 'lamp_lag'];
@@ -14,7 +14,7 @@ const isNewWrong = watch(), isNewBusy = watch();
 export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   // While something is computed, a button that is pressed stays.
   if (isNewWrong(wrong, note, pending, view)) {
-    const words = wrong ? [inWords(wrong.reason, scene), ...(wrong.notes ?? [])].join('\n') : note?.words ?? '';
+    const words = wrong ? told(wrong, scene) : note?.words ?? '';
     const button = (words, act) => html`<button type="button" @click=${act}>${words}</button>`;
     const buttons = wrong?.isLink ? button('Go on without it', () => go(-1)) : wrong ? helps(remedies(wrong))
       : note ? [note.act ? button(...note.act) : [], pending ? button('Show how it is read', () => $('trace').scrollIntoView({ block: 'center' })) : [], button('Close', () => tell({ note: null }))] : [];
@@ -28,12 +28,5 @@ export function drawBar({ wrong, busy, note, pending, view, now: { scene } }) {
   }
   const at = !wrong ? [] : wrong.id ? [wrong.id] : wrong.inner ? INNER.slice(...wrong.inner) : [wrong.key];
   if (at.some((id) => MORE.includes(id))) $('inner').open = true;
-  for (const id of FIELDS) {
-    const isWrong = at.includes(id);
-    if ($(id).hasAttribute('aria-invalid') === isWrong) continue;
-    for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) {
-      if (isWrong) $(id).setAttribute(name, value);
-      else $(id).removeAttribute(name);
-    }
-  }
+  for (const id of FIELDS) for (const [name, value] of [['aria-invalid', 'true'], ['aria-describedby', 'problem']]) at.includes(id) ? $(id).setAttribute(name, value) : $(id).removeAttribute(name);
 }

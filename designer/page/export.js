@@ -1,13 +1,12 @@
 // What is taken away: the plan in the forms that a firmware or a script takes, a link, a picture.
 
 import { html, nothing, render } from './lit-html.js';
-import { $, watch } from './dom.js';
+import { $, arrowed, watch } from './dom.js';
 import { give } from './form.js';
 import { model } from './model.js';
-import { inWords, remedies } from './remedies.js';
-import { hash } from './scene.js';
+import { hash, toml } from './scene.js';
 import { emitForm } from './studio.js';
-import { toml } from './toml.js';
+import { remedies, told } from './words.js';
 
 const FORMS = [['rust', 'Rust'], ['c', 'C'], ['toml', 'TOML'], ['csv', 'CSV'], ['json', 'JSON']];
 
@@ -28,11 +27,9 @@ export function startExport() {
   $('link').onclick = () => copyLink(model.now);
   $('svg').onclick = async () => save(new Blob([await picture(model.now)], { type: 'image/svg+xml' }), `${plain(model.now.scene.name)}.svg`);
   $('forms').onkeydown = (event) => {
-    const i = FORMS.findIndex(([name]) => name === chosen);
-    const to = { ArrowLeft: i - 1, ArrowRight: i + 1, Home: 0, End: FORMS.length - 1 }[event.key];
+    const to = arrowed(event, FORMS.findIndex(([name]) => name === chosen), FORMS.length);
     if (to === undefined) return;
-    event.preventDefault();
-    choose(FORMS.at(to % FORMS.length)[0]);
+    choose(FORMS[to][0]);
     $(`form-${chosen}`).focus();
   };
   tabs();
@@ -60,7 +57,7 @@ export function drawExport({ now: { scene }, view, wrong }) {
   if (!isNewForm(scene, chosen, wrong)) return;
   say('');
   // A newer one may be under way, which then is what is shown and copied.
-  const of = (made = wrong ? Promise.resolve({ reason: inWords(wrong.reason, scene), remedies: remedies(wrong) }) : written(scene, chosen));
+  const of = (made = wrong ? Promise.resolve({ reason: told(wrong, scene), remedies: remedies(wrong) }) : written(scene, chosen));
   $('code').classList.add('waits');
   if (wrong) offerCopy(false);
   of.then((it) => of === made && showForm(it));
@@ -76,8 +73,10 @@ async function written(scene, form) {
   const answer = await emitForm(scene, form);
   // Overtaken by a newer question: that one's text is it.
   if (!answer) return made;
-  if (answer.Ok) return { ...answer.Ok, text: withDoubts(answer.Ok.text, form, scene.doubts) };
-  return { reason: inWords(answer.Err.reason, scene) };
+  if (answer.Err) return { reason: answer.Err };
+  // Every other form tells by itself what is doubtful.
+  const doubts = form === 'csv' ? scene.doubts.map(({ text }) => `# Warning: ${text.replace(/\s+/g, ' ')}\n`) : [];
+  return { ...answer.Ok, text: doubts.join('') + answer.Ok.text };
 }
 
 // What nobody has said yet, each with what would say it.
@@ -89,19 +88,11 @@ function lacking({ set_up, timer_hz, delay, sync_falls }) {
   return found;
 }
 
-// A plan with what is doubtful about it, in the form's own way.
-function withDoubts(text, form, doubts) {
-  doubts = doubts.filter((it) => !text.includes(it.text));
-  if (!doubts.length) return text;
-  if (form === 'json') return text.replace('{', () => `{\n  "doubts": ${JSON.stringify(doubts.map((it) => it.text))},`);
-  return doubts.map((it) => `${form === 'csv' ? '#' : '//'} Warning: ${it.text.replace(/\s+/g, ' ')}\n`).join('') + text;
-}
-
 function showForm({ text, reason, remedies = [] }) {
   offerCopy(Boolean(text));
   $('code').classList.remove('waits');
   $('code').scrollTop = 0;
-  if (!text) return render(html`<p>There is nothing to copy yet: ${reason}${/[.?]$/.test(reason) ? '' : '.'}</p>${helps(remedies)}`, $('code'));
+  if (!text) return render(html`<p>There is nothing to copy yet: ${reason}.</p>${helps(remedies)}`, $('code'));
   // What is told of a plan in comments comes after what a firmware reads.
   const [head] = /^(?:(?:\/\/|#(?!\[)|\/?\*| \*).*\n|\n)*/.exec(text);
   const lines = head.trim().split('\n').length;

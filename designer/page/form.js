@@ -5,6 +5,7 @@ import { change, model, refuse, seal } from './model.js';
 import { parse } from './numbers.js';
 import { CHOICES, FIELDS, INNER, LAMP, SPANS, STOPS, TIMES, inUnit, innerOf, isCount, lampOf, perSecond, tidy, withInner, withTimes } from './scene.js';
 import { readTrace } from './trace.js';
+import { label } from './words.js';
 
 const KINDS = { triggers: 'count', timer_hz: 'rate', timer_bits: 'count' };
 
@@ -29,7 +30,7 @@ function readField(id, unit) {
   const value = parse($(id).value, kind, unit);
   if (!Number.isNaN(value)) return value;
   if ($(id).hasAttribute('data-optional')) return null;
-  throw new Error(`${id}: a number is required`);
+  throw new Error(`${label(id)}: a number is required`);
 }
 
 // Is a field typed in just now, and tells this number in words of its own?
@@ -62,7 +63,7 @@ function setTriggers(n, key) {
   if (trace && n === scene.measured?.length && model.busy?.file === trace.file) model.busy?.cancel();
   if (!scene.measured || n === scene.measured.length) return give({ triggers: n }, ['triggers'], key);
   if (!trace?.file) return refuse(`These are ${scene.measured.length} measured times: for another number, drop the trace again.`, 'triggers');
-  if (!isCount(n)) return refuse('triggers: a whole number from 1 to 10000 is required', 'triggers');
+  if (!isCount(n)) return refuse(`${label('triggers')}: a whole number from 1 to 10000 is required`, 'triggers');
   readTrace(trace.file, trace.asked, n);
 }
 
@@ -132,6 +133,4 @@ export function drawForm({ now: { scene }, wrong }) {
   $('lamp').disabled = Boolean(scene.measured);
   for (const label of document.querySelectorAll('[data-lamp]')) label.hidden = label.dataset.lamp !== lamp;
   for (const small of document.querySelectorAll('small.unit')) write(small, scene.unit);
-  document.querySelector('h1').dataset.name = scene.name;
-  document.title = `${scene.name} · Curve designer`;
 }

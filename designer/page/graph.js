@@ -64,7 +64,7 @@ function left({ samples }, fitted, view) {
 export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum + r * r, 0) / samples.length);
 
 // A place as a picture takes it, however far outside it is.
-const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
+export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
 
 /** The graph in `box`. */
 export class Graph {
@@ -102,26 +102,9 @@ export class Graph {
     return [event.clientX - left, event.clientY - top];
   }
 
-  x = (t) => LEFT + ((t - this.range[0]) / (this.range[1] - this.range[0])) * this.width;
-  t = (x) => this.range[0] + ((x - LEFT) / this.width) * (this.range[1] - this.range[0]);
-  y = (o) => this.bottom - ((o - this.low) / (this.high - this.low)) * this.height;
   u = (u) => this.cdfBottom - u * this.cdfHeight;
   get perUnit() {
     return perSecond(this.scene.unit);
-  }
-  get perPixel() {
-    return (this.range[1] - this.range[0]) / this.width;
-  }
-
-  /** Places as they are now, which a drag keeps to while the range follows it. */
-  map() {
-    const { range, width, low, high, height, bottom, perPixel } = this;
-    const perPixelY = (high - low) / height;
-    return {
-      perPixel, perPixelY,
-      x: (t) => LEFT + ((t - range[0]) / (range[1] - range[0])) * width, t: (x) => range[0] + (x - LEFT) * perPixel,
-      y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY,
-    };
   }
 
   /** The model's cursor at a time in the scene's unit; none without a time. */
@@ -188,7 +171,10 @@ export class Graph {
     // While a handle is dragged the range follows it, but does not shrink under it.
     if (this.dragged) this.range = [Math.min(range[0], this.range[0]), Math.max(range[1], this.range[1])];
     else this.range = range;
-    Object.assign(this, { low, high });
+    // Places as they are now, which a drag keeps to while the range follows it.
+    const [{ bottom }, [start, end]] = [this, this.range], perPixel = (end - start) / this.width, perPixelY = (high - low) / this.height;
+    this.map = { perPixel, perPixelY, x: (t) => LEFT + (t - start) / perPixel, t: (x) => start + (x - LEFT) * perPixel, y: (o) => bottom - (o - low) / perPixelY, o: (y) => low + (bottom - y) * perPixelY };
+    Object.assign(this, this.map, { low, high });
     const size = `${width} ${height} ${this.range} ${this.low} ${this.high} ${this.scene.unit} ${this.samples && this.zoom()}`;
     if (size === this.size) return;
     this.size = size;

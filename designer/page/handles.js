@@ -1,6 +1,7 @@
 // The handles of the graph: moved by mouse, finger and keys, each in its box.
 
 import { svg } from './dom.js';
+import { atMost } from './graph.js';
 import { change, model } from './model.js';
 import { INNER, TIMES, innerOf, short, tidy, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';
@@ -105,7 +106,7 @@ export class Handles {
     const nearest = indices.reduce((a, b) => (distance(b, start) < distance(a, start) ? b : a));
     // Of those in one place it becomes the one that can go where the pointer goes.
     const together = indices.filter((i) => distance(i, pixels(nearest)) < SAME);
-    const map = graph.map();
+    const { map } = graph;
     const to = (i, event) => {
       const [x, y] = graph.pointer(event);
       const [x0, y0] = pixels(i);
@@ -171,8 +172,7 @@ export class Handles {
     const { graph, graph: { scene } } = this;
     const places = HANDLES.map((_, i) => placeOf(scene, i));
     const isDrawn = places.map((place) => place.every(Number.isFinite));
-    const within = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
-    const at = places.map(([t, o]) => [within(graph.x(t)), within(graph.y(o))]);
+    const at = places.map(([t, o]) => [atMost(graph.x(t)), atMost(graph.y(o))]);
     places.forEach(([t, o], i) => {
       const group = this.groups[i];
       group.style.display = isDrawn[i] ? '' : 'none';

@@ -3,24 +3,30 @@
 import presets from './presets.js';
 import { REPOSITORY } from './presets.js';
 import { html, nothing, render } from './lit-html.js';
-import { $ } from './dom.js';
+import { $, arrowed } from './dom.js';
+import { drawBar } from './bar.js';
+import { drawExport, showExport, startExport } from './export.js';
 import { drawFacts } from './facts.js';
+import { drawForm, startForm } from './form.js';
 import { Graph } from './graph.js';
-import { change, go, model, startModel } from './model.js';
-import { drawPhoto } from './photo.js';
-import { play } from './play.js';
-import { fromScene, hash, innerOf } from './scene.js';
-import { toml } from './toml.js';
+import { change, go, model, startModel, tell } from './model.js';
+import { drawPhoto, play } from './photo.js';
+import { fromScene, hash, innerOf, toml } from './scene.js';
+import { drawSpeeds } from './speeds.js';
+import { drawTicks } from './ticks.js';
+import { drawTrace, openFiles, startTraces } from './trace.js';
 import { fileOf, loadEngine } from './view.js';
 
 const TITLES = { leaf: 'Leaf', trapezoid: 'Focal plane', box: 'Electronic', 'liquid-crystal': 'Liquid crystal' };
 
 let graph;
-/** What draws the model, each a part of the screen; later.js adds those that are not of the first. */
-export const PARTS = [drawState, (model) => graph.show(model), drawPhoto, drawPresets, (model) => drawFacts(model, graph.samples)];
+// The panels further down that are in sight: they are written when they are seen, and on paper.
+const inSight = new Set();
+// What draws the model, each a part of the screen.
+const PARTS = [drawState, (model) => graph.show(model), drawPhoto, drawPresets, (model) => drawFacts(model, graph.samples), drawForm, drawTrace, drawSpeeds, drawExport, drawBar, (model) => inSight.has('ticks') && drawTicks(model)];
 
-/** Draws all that is on the screen. A part that fails is told, and keeps neither the others nor the address from what is so. */
-export function drawAll(model) {
+// Draws all that is on the screen. A part that fails is told, and keeps neither the others nor the address from what is so.
+function drawAll(model) {
   for (const part of PARTS) {
     try {
       part(model);
@@ -37,11 +43,8 @@ function missing(words) {
 }
 
 function drawState({ now: { scene, trace }, pending, view, last, canUndo, canRedo }) {
-  document.body.classList.toggle('void', !last);
-  document.body.classList.toggle('stale', !view);
-  document.body.classList.toggle('unplanned', !view?.plan.Ok);
-  document.body.classList.toggle('answered', Boolean(trace || pending));
-  document.body.classList.toggle('refused', Boolean(pending));
+  const states = { void: !last, stale: !view, unplanned: !view?.plan.Ok, answered: trace || pending, refused: pending };
+  for (const [name, is] of Object.entries(states)) document.body.classList.toggle(name, Boolean(is));
   $('undo').disabled = !canUndo;
   $('redo').disabled = !canRedo;
   document.querySelector('h1').dataset.name = scene.name;
@@ -62,9 +65,11 @@ const OFFERED = presets.map(({ name, scene: it }) => {
   return { name, scene, address: hash({ scene }), path: thumbnail(scene) };
 });
 
+const openExample = async () => openFiles([new File([await (await fetch(fileOf('leaf.csv'))).blob()], 'leaf.csv')]);
+
 function drawPresets({ now, last }) {
   const at = hash({ scene: now.scene });
-  const choose = ({ name, scene }) => (TITLES[name] ? change({ scene, trace: null, speeds: null }) : document.dispatchEvent(new Event('example')));
+  const choose = ({ name, scene }) => (TITLES[name] ? change({ scene, trace: null, speeds: null }) : openExample());
   const isPressed = (it) => Boolean(last) && !now.speeds && it.address === at;
   const stop = OFFERED.find(isPressed) ?? OFFERED[0];
   render(OFFERED.map((it) => html`<button type="button" data-name=${it.name} aria-pressed=${TITLES[it.name] ? isPressed(it) : nothing} tabindex=${it === stop ? 0 : -1} @click=${() => choose(it)}>
@@ -74,14 +79,20 @@ function drawPresets({ now, last }) {
 function listen() {
   // One stop of Tab, and arrows from there.
   $('presets').onkeydown = (event) => {
-    const all = [...$('presets').children], at = all.indexOf(event.target.closest('button'));
-    const to = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: all.length - 1 }[event.key];
-    if (to === undefined) return;
-    event.preventDefault();
-    all.at(to % all.length).focus();
+    const all = [...$('presets').children];
+    all[arrowed(event, all.indexOf(event.target.closest('button')), all.length)]?.focus();
   };
-  // A file that comes before later.js does not replace the page.
-  for (const type of ['dragover', 'drop']) addEventListener(type, (event) => event.preventDefault());
+  const observer = new IntersectionObserver((entries) => {
+    for (const { target: { dataset: { panel } }, isIntersecting } of entries) {
+      inSight[isIntersecting ? 'add' : 'delete'](panel);
+      if (isIntersecting) panel === 'ticks' ? drawTicks(model) : showExport();
+    }
+  }, { rootMargin: '80px' });
+  for (const card of document.querySelectorAll('[data-panel]')) observer.observe(card);
+  addEventListener('beforeprint', () => {
+    tell({ cursor: null, isPlaying: false });
+    drawTicks(model);
+  });
   $('play').onclick = play;
   // Behind '#' there is the curve: what is skipped to has no address.
   document.querySelector('.skip').onclick = (event) => {
@@ -101,14 +112,14 @@ function listen() {
 async function begin() {
   await loadEngine();
   graph = new Graph($('graph'));
+  startForm();
+  startTraces();
+  startExport();
   startModel({ scene: OFFERED[0].scene, trace: null, speeds: null }, drawAll);
   listen();
   if (REPOSITORY) render(html`<a href=${REPOSITORY}>The crate</a> <a href="${REPOSITORY}/blob/main/docs/measuring.md">How to record a trace</a>`, $('links'));
   document.body.dataset.ready = '';
   performance.mark('ready');
-  const script = Object.assign(document.createElement('script'), { src: fileOf('later.js') });
-  script.onerror = () => missing('The page is not whole: a script did not arrive. Load it again.');
-  document.head.append(script);
 }
 
 /** For tests and the curious. */

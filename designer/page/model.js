@@ -15,7 +15,7 @@ export const model = {
   now: null,
   /** What the engine tells of the scene; null where it has no curve. And the last scene that had one, with its view. */
   view: null, last: null, good: null,
-  /** What is wrong: { reason, notes, key, inner }; with `id` where a text is no number, with `isLink` where a link is none. */
+  /** What is wrong: as the engine tells it, or a `reason` with `id` where a text is no number, with `isLink` where a link is none. */
   wrong: null,
   /** A time in seconds that is pointed at; is it that of an exposure that plays? */
   cursor: null, isPlaying: false,
@@ -23,11 +23,10 @@ export const model = {
   busy: null, note: null,
   /** A trace that was refused as it is read: { file, name, asked, measured, words, mend }. */
   pending: null,
-  get isDraft() { return now() !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
+  get isDraft() { return model.now !== steps[at]?.state || Boolean(model.wrong?.id || model.wrong?.isLink); },
   get canUndo() { return at > 0 || model.isDraft; },
   get canRedo() { return at < steps.length - 1; },
 };
-const now = () => model.now;
 
 let steps = [], at = -1;
 // The browser's entry and the tab's visit, and whether a step waits for an entry.
@@ -87,7 +86,7 @@ export function tell(parts) {
 }
 
 /** A text that is no number, in the field `id`: it stays as it is, and nothing else changes. */
-export const refuse = (reason, id) => tell({ wrong: { reason, notes: [], id } });
+export const refuse = (reason, id) => tell({ wrong: { reason, id } });
 
 function step(key) {
   const before = steps[at];
@@ -162,9 +161,9 @@ function arrived(first) {
     waits = false;
     if (model.view) return writeEntry();
   } catch (error) {
-    const reason = `The link holds no curve: ${error.message}.`;
+    const reason = `The link holds no curve: ${error.message}`;
     model.now ??= first;
-    Object.assign(model, { view: null, wrong: { reason, notes: [], isLink: true } });
+    Object.assign(model, { view: null, wrong: { reason, isLink: true } });
   }
   // What is wrong with the first of all addresses is undone to a shutter that is not.
   if (first && at < 0) [steps, at] = [[{ state: first }], 0];

@@ -59,3 +59,17 @@ function one(plain, isWhole, instead, refuse) {
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(number)) refuse('is no number');
   return Number(number);
 }
+
+/** What a field of its own takes when it is changed: a number, or null for none. What is no such number is told at the field. */
+export const taken = (kind, take, unit, isGood = () => true) => ({ target }) => {
+  let told = '', x;
+  try {
+    x = parse(target.value, kind, unit);
+    if (!Number.isNaN(x) && !isGood(x)) told = 'more than 0 is required';
+  } catch (error) {
+    told = error.message;
+  }
+  target.setCustomValidity(told);
+  if (told) target.reportValidity();
+  else take(Number.isNaN(x) ? null : x);
+};

@@ -2,7 +2,9 @@
 // triggers. Below each, the light that has come.
 
 import { $, watch, write } from './dom.js';
+import { percents } from './facts.js';
 import { collected, shareAt } from './graph.js';
+import { model, tell } from './model.js';
 import { STOPS } from './scene.js';
 
 const WIDTH = 480, RADIUS = 35, HEIGHT = 2 * RADIUS, ROOM = 10, FINE = 2;
@@ -101,7 +103,36 @@ export function drawPhoto({ now: { scene }, last: view, cursor, isPlaying }) {
     if (i && n <= 120) for (let k = 1; k < n; k++) context.fillRect((WIDTH * k) / n - 1, HEIGHT + 3, 2, ROOM - 3);
   });
   if (isPlaying) return;
-  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${plan.Ok?.doses ? `, as if of equal light; through this shutter they give ${plan.Ok.doses}` : n > 1 ? ' of equal light' : ''}`;
+  const what = `${n} ${scene.pulse !== null || scene.duty !== null ? 'pulses' : n === 1 ? 'flash' : 'flashes'}${plan.Ok?.doses.length ? `, as if of equal light; through this shutter they give ${percents(plan.Ok.doses)}` : n > 1 ? ' of equal light' : ''}`;
   write($('flash-caption'), what);
   write($('ideal-caption'), scene.measured ? 'this shutter, as its trace tells between the flashes' : 'this shutter, in steady light');
+}
+
+/** How long an exposure takes here, in milliseconds. */
+const PLAYED = 4000;
+
+let playing;
+
+function stopPlaying() {
+  cancelAnimationFrame(playing);
+  if (model.isPlaying) tell({ cursor: null, isPlaying: false });
+}
+
+export function play() {
+  stopPlaying();
+  const { view, now: { scene } } = model;
+  if (!view) return;
+  const list = collected({ scene, view });
+  const [start, end] = [list[0][0], list.at(-1)[0]];
+  let first;
+  tell({ cursor: start, isPlaying: true });
+  const next = (time) => {
+    first ??= time;
+    const part = (time - first) / PLAYED;
+    // Another curve, or a pointer, ends it.
+    if (part > 1 || model.view !== view || !model.isPlaying) return stopPlaying();
+    tell({ cursor: start + part * (end - start) });
+    playing = requestAnimationFrame(next);
+  };
+  playing = requestAnimationFrame(next);
 }

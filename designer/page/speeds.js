@@ -5,7 +5,7 @@ import { $, watch } from './dom.js';
 import { copyLink } from './export.js';
 import { doubt, dial, nearest, stops } from './facts.js';
 import { change, model } from './model.js';
-import { parse } from './numbers.js';
+import { taken } from './numbers.js';
 import { short } from './scene.js';
 import { readTrace, rowFiles } from './trace.js';
 
@@ -37,21 +37,12 @@ function line(row, speeds) {
   const [by, unit] = exposure < 1 ? [1000, 'ms'] : [1, 's'];
   // The last digit of each is of the same size.
   const off = short(error * by, 1), places = Math.min(9, Math.max(0, -Math.floor(Math.log10(off))));
-  const says = ({ target }) => {
-    let seconds = null;
-    target.setCustomValidity('');
-    try {
-      seconds = parse(target.value, 'time', 's');
-      if (seconds <= 0 || seconds === Infinity) throw new Error('more than 0 is required');
-    } catch (wrong) {
-      target.setCustomValidity(wrong.message);
-      return target.reportValidity();
-    }
-    const told = { ...row, dial: Number.isNaN(seconds) ? null : seconds };
+  const says = (dial) => {
+    const told = { ...row, dial };
     if (file) rowFiles.set(told, file);
     change({ speeds: speeds.with(speeds.indexOf(row), told) });
   };
   return html`<tr>${title}<td>${(exposure * by).toFixed(places)} ± ${off} ${unit}${doubts.map(doubt)}</td><td>${speed ? dial(speed) : '–'}</td>
-    <td><input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''} @change=${says}></td><td>${row.dial ? stops(exposure, row.dial) : '–'}</td>
+    <td><input aria-label="${name}: on the dial" placeholder="1/…" .value=${row.dial ? dial(row.dial) : ''} @change=${taken('time', says, 's', (x) => x > 0 && x < Infinity)}></td><td>${row.dial ? stops(exposure, row.dial) : '–'}</td>
     <td>${pulses > 1 ? `${short(100 * scatter, 2)} %` : '–'}</td><td>${pulses}</td><td>${kind}</td></tr>`;
 }

@@ -1,15 +1,13 @@
 // Asks the workers: one each writes forms, opens scenes and fits. The newest question counts.
 
-import { toml } from './toml.js';
+import { toml } from './scene.js';
 import { fileOf } from './view.js';
-
-const failed = (reason) => ({ Err: { reason, notes: [] } });
 
 class Asked {
   // The question that is asked, and the newest of those that wait.
   ask(question, payload, progress) {
     return new Promise((resolve) => {
-      this.waiting?.resolve(undefined);
+      this.waiting?.resolve();
       this.waiting = { question, payload, progress, resolve };
       this.next();
     });
@@ -18,31 +16,29 @@ class Asked {
   next() {
     if (this.asked || !this.waiting) return;
     [this.asked, this.waiting] = [this.waiting, null];
-    if (!this.worker) {
-      this.worker = new Worker(fileOf('worker.js'), { type: 'module' });
-      this.worker.onmessage = ({ data }) => {
-        if ('progress' in data) return this.asked?.progress?.(data.progress);
-        // What failed may have left anything behind: the next question gets a new worker.
-        if ('failed' in data) return this.end(failed(`this could not be computed (${data.failed})`));
-        const { resolve } = this.asked;
-        this.asked = null;
-        resolve(data.answer);
-        this.next();
-      };
-      this.worker.onerror = () => this.end(failed('this could not be computed'));
-    }
+    this.worker ??= this.started();
     const { question, payload } = this.asked;
     this.worker.postMessage({ question: JSON.stringify(question), payload });
   }
 
-  /** Ends what is asked, with such an answer; nothing means that something newer came. */
-  end(answer) {
+  started() {
+    const worker = new Worker(fileOf('worker.js'), { type: 'module' });
+    const failed = (words) => this.end({ Err: `this could not be computed${words}` });
+    worker.onmessage = ({ data: { progress, failed: why, answer } }) =>
+      (progress !== undefined ? this.asked?.progress?.(progress) : why === undefined ? this.end(answer, true) : failed(` (${why})`));
+    worker.onerror = () => failed('');
+    return worker;
+  }
+
+  /** Ends what is asked, with such an answer; nothing means that something newer came. What was not answered may have left anything behind: the next question gets a new worker. */
+  end(answer, isAnswered) {
     if (!this.asked) return;
-    this.worker?.terminate();
-    this.worker = null;
-    const { resolve } = this.asked;
+    if (!isAnswered) {
+      this.worker?.terminate();
+      this.worker = null;
+    }
+    this.asked.resolve(answer);
     this.asked = null;
-    resolve(answer);
     this.next();
   }
 }
@@ -58,4 +54,4 @@ export function fitTrace(name, asked, file, progress) {
 }
 
 /** Ends the fit that is computed. */
-export const cancelFit = () => fits.end(undefined);
+export const cancelFit = () => fits.end();

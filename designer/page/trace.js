@@ -3,7 +3,7 @@
 import { html, nothing, render } from './lit-html.js';
 import { $, watch } from './dom.js';
 import { change, model, tell } from './model.js';
-import { parse } from './numbers.js';
+import { taken } from './numbers.js';
 import { UNITS } from './presets.js';
 import { GIVEN, LAMP, fromScene, inUnit, isCount, isSameShape, perSecond, short, tidy } from './scene.js';
 import { cancelFit, fitTrace, parseScene } from './studio.js';
@@ -28,6 +28,7 @@ export function startTraces() {
     model.busy.cancel();
     tell({ note: { words: `${words}: stopped.` } });
   };
+  for (const type of ['dragover', 'drop']) addEventListener(type, (event) => event.preventDefault());
   let depth = 0;
   const shows = (by) => ($('drop').hidden = (depth = Math.max(0, depth + by)) === 0);
   addEventListener('dragenter', () => shows(1));
@@ -54,7 +55,7 @@ async function openScene(file) {
   const busy = computing(`Opening ${file.name}`);
   const answer = await parseScene(file.name, await file.text());
   if (model.busy !== busy || !answer) return;
-  if (answer.Err) return refuseFile(answer.Err.reason);
+  if (answer.Err) return refuseFile(answer.Err);
   tell({ busy: null });
   change({ scene: { ...fromScene(name, answer.Ok), given: GIVEN }, trace: null, speeds: null });
 }
@@ -75,7 +76,7 @@ function computing(words) {
 
 // The fit to a file that is read as is asked for; nothing if something newer came first.
 async function fitted(busy, file, asked) {
-  if (file.size > LONGEST_TRACE) return { Err: { reason: `${file.size >> 20} MB: cut the trace to the pulse` } };
+  if (file.size > LONGEST_TRACE) return { Err: `${file.size >> 20} MB: cut the trace to the pulse` };
   const answer = await fitTrace(file.name, asked, file, (share) => {
     busy.share = share;
     if (model.busy === busy) tell({ busy });
@@ -94,7 +95,7 @@ export async function readTrace(file, asked, wanted) {
   if (!answer) return;
   // Another number was chosen meanwhile.
   if (!wanted && there() !== triggers) return readTrace(file, asked);
-  if (answer.Err) return refuseFile(`${file.name}: ${answer.Err.reason}`);
+  if (answer.Err) return refuseFile(`${file.name}: ${answer.Err}`);
   const { fit: { Ok: fit, Err }, ...measured } = answer.Ok;
   // What cannot be fitted as it is read can be read otherwise.
   if (!fit) return tell({ busy: null, note: { words: `${file.name}: ${Err.text}`, isWrong: true }, pending: { file, name: file.name, asked, measured, words: Err.text, mend: Err.mend } });
@@ -121,7 +122,7 @@ function withFit(scene, name, fit, isSame) {
   const kept = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'set_up', 'lamp_lag', ...(isSame ? ['nominal', 'name', ...(isSynced ? [] : ['delay', 'delay_spread', 'sync_falls'])] : [])].filter((key) => given.includes(key));
   for (const key of given.includes('lamp') ? [...kept, ...LAMP] : kept) fresh[key] = old[key];
   Object.assign(fresh, { triggers: scene.triggers, given: [...given, 'name'], doubts: doubtsOf(fit) });
-  if (!fit.own) return fit.explained ? fresh : { ...fresh, untold: 'no curve explains this trace, and its own triggers could not be told' };
+  if (!fit.own) return fit.json.fit.explained ? fresh : { ...fresh, untold: 'no curve explains this trace, and its own triggers could not be told' };
   const { times, timer_hz, until_curve } = fit.own, per = perSecond(unit);
   if (!given.includes('timer_hz')) fresh.timer_hz = timer_hz;
   return { ...fresh, times: fresh.times.map((t) => tidy(t + until_curve * per, 9)), measured: times.map((t) => tidy(t * per)), pulse: null, duty: null, min_pulse: null, fully_open: null };
@@ -135,8 +136,8 @@ async function measure(files) {
     const answer = await fitted(busy, file, { triggers: 12 });
     if (!answer) return;
     const fit = answer.Ok?.fit.Ok;
-    const why = answer.Err?.reason ?? answer.Ok.fit.Err?.text;
-    const [exposure, error, scatter, pulses] = fit ? [...fit.exposure, fit.scatter, fit.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0];
+    const why = answer.Err ?? answer.Ok.fit.Err?.text;
+    const [exposure, error, scatter, pulses] = fit ? [fit.json.exposure_s, fit.json.exposure_error_s, fit.scatter, fit.json.pulses].map((x) => tidy(x, 6)) : [0, 0, 0, 0];
     const kind = fit ? (fit.own ? 'the trace itself' : fit.kind) : `not measured: ${why.split('\n')[0]}`;
     speeds.push({ name: file.name, kind, exposure, error, scatter, pulses, dial: null, doubts: fit ? doubtsOf(fit).map(({ text }) => text) : [] });
   }
@@ -146,7 +147,7 @@ async function measure(files) {
 }
 
 /** What is doubtful about a fit, and about which number. */
-const doubtsOf = (fit) => [...(fit.tested ? [] : [{ about: 'test', text: 'there is too little dark to know the noise by' }]), ...fit.warnings.map(({ text, about }) => ({ text, about }))];
+const doubtsOf = (fit) => [...(fit.json.fit.tested ? [] : [{ about: 'test', text: 'there is too little dark to know the noise by' }]), ...fit.warnings.map(({ text, about }) => ({ text, about }))];
 
 const isNewTrace = watch();
 
@@ -192,31 +193,25 @@ function readingForm({ file, asked, measured: { names, read }, fit }) {
   const again = (changes) => readTrace(file, (wanted = { ...wanted, ...changes }));
   const choice = (words, name, options, value, change) => html`<label>${words}<select name=${name} .value=${String(value)} @change=${({ target }) => again(change(target.value, target.form ?? target.closest('fieldset')))}>
     ${options.map(([of, words]) => html`<option value=${of} ?selected=${String(of) === String(value)}>${words}</option>`)}</select></label>`;
-  const number = (words, name, value, placeholder) => html`<label>${words}<input name=${name} inputmode="decimal" placeholder=${placeholder} .value=${value ?? ''} @change=${({ target }) => {
-    let x = null;
-    target.setCustomValidity('');
-    try {
-      x = parse(target.value, name === 'rate' ? 'rate' : 'part');
-    } catch (error) {
-      target.setCustomValidity(error.message);
-      return target.reportValidity();
-    }
-    again({ [name]: Number.isNaN(x) ? null : x });
-  }}></label>`;
+  const number = (words, name, kind, value, placeholder, per = 1) => html`<label>${words}<input name=${name} inputmode="decimal" placeholder=${placeholder} .value=${value == null ? '' : tidy(value * per)}
+    @change=${taken(kind, (x) => again({ [name]: x === null ? null : x / per }), unit)}></label>`;
   const count = Math.max(names.length, read?.columns ?? 0);
   const columns = Array.from({ length: count }, (_, i) => [i + 1, names[i] ? `${i + 1}: ${names[i]}` : `column ${i + 1}`]);
+  // What counts of the trace is told in the unit of its times.
+  const unit = asked.unit ?? read?.unit ?? 's';
   const time = read ? (read.time ?? '') : count > 1 ? 1 : '';
   const both = (_, fields) => ({ columns: ['time', 'signal'].map((name) => fields.querySelector(`[name=${name}]`).value).filter(Boolean).map(Number) });
-  const way = fit ? `${fit.falls ? 'falls' : 'rises'}, by itself` : 'as it seems';
-  const pulses = fit?.pulses ?? asked.frame;
+  const way = fit ? `${fit.json.light_lowers ? 'falls' : 'rises'}, by itself` : 'as it seems';
+  const pulses = fit?.json.pulses ?? asked.frame;
   return html`<fieldset class="reading"><legend class="sr">How the file is read</legend>
     ${count ? [choice('time', 'time', [['', 'none: by the rate'], ...columns], time, both), choice('light', 'signal', columns, read?.signal ?? Math.min(2, count), both),
       choice('sync', 'sync', [['', 'none'], ...columns], asked.sync ?? '', (value) => ({ sync: value ? Number(value) : null }))] : nothing}
     ${choice('unit of the time', 'unit', [['', 'as the file says'], ...UNITS.map((unit) => [unit, unit])], asked.unit ?? '', (unit) => ({ unit: unit || null, rate: null }))}
-    ${number('samples a second', 'rate', asked.rate ?? (read?.rate ? short(read.rate, 7) : ''), 'by the times')}
+    ${number('samples a second', 'rate', 'rate', asked.rate ?? (read?.rate && tidy(read.rate, 7)), 'by the times')}
     ${choice('in light the signal', 'rises', [['', way], ['true', 'rises'], ['false', 'falls']], asked.rises ?? '', (value) => ({ rises: value ? value === 'true' : null }))}
-    ${number('signal of full light', 'full', asked.full, 'the peak')}
-    ${fit?.pulses > 1 || asked.frame ? choice('pulse', 'frame', Array.from({ length: Math.min(pulses, 200) }, (_, i) => [i + 1, `${i + 1} of ${fit?.pulses ?? '?'}`]), asked.frame ?? fit.pulse, (value) => ({ frame: Number(value) })) : nothing}
+    ${number(`from, ${unit}`, 'from', 'time', asked.from, 'the beginning', perSecond(unit))}${number(`to, ${unit}`, 'to', 'time', asked.to, 'the end', perSecond(unit))}
+    ${number('signal of full light', 'full', 'part', asked.full, 'the peak')}
+    ${fit?.json.pulses > 1 || asked.frame ? choice('pulse', 'frame', Array.from({ length: Math.min(pulses, 200) }, (_, i) => [i + 1, `${i + 1} of ${fit?.json.pulses ?? '?'}`]), asked.frame ?? fit.json.pulse, (value) => ({ frame: Number(value) })) : nothing}
   </fieldset>`;
 }
 

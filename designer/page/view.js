@@ -1,12 +1,10 @@
 // The crate as WebAssembly, for what follows the mouse.
 
-import { UNITS } from './presets.js';
+import { CODES, KEYS, UNITS } from './presets.js';
 import { CHOICES, INNER, NUMBERS, TIMES } from './scene.js';
 
-const decoder = new TextDecoder();
-const folder = document.currentScript.src;
 /** The address of a file beside this script. */
-export const fileOf = (name) => new URL(name, folder);
+export const fileOf = (name) => new URL(name, import.meta.url);
 
 let engine;
 let exports;
@@ -27,53 +25,43 @@ function numberOf(scene, key) {
   return i >= 0 ? scene.times[i] : k >= 0 ? (scene.inner?.[k] ?? NaN) : (scene[key] ?? NaN);
 }
 
-function ask(scene) {
-  const question = [UNITS.indexOf(scene.unit), ...NUMBERS.map((key) => numberOf(scene, key)), ...(scene.measured ?? [])];
-  const to = exports.question(8 * question.length);
-  const bytes = new DataView(exports.memory.buffer, to);
-  question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
+// What the engine answers about a scene; what fails may have left anything behind.
+function ask(scene, answer, failed) {
+  try {
+    const question = [UNITS.indexOf(scene.unit), ...NUMBERS.map((key) => numberOf(scene, key)), ...(scene.measured ?? [])];
+    const to = exports.question(8 * question.length);
+    const bytes = new DataView(exports.memory.buffer, to);
+    question.forEach((x, i) => bytes.setFloat64(8 * i, x, true));
+    return answer();
+  } catch (fault) {
+    instantiate();
+    return failed(fault);
+  }
 }
 
 /** Has a scene a curve? */
-export function allowed(scene) {
-  try {
-    ask(scene);
-    return Boolean(exports.allowed());
-  } catch {
-    instantiate();
-    return false;
-  }
-}
+export const allowed = (scene) => ask(scene, () => Boolean(exports.allowed()), () => false);
 
 /** All that is shown of a scene, as `{ Ok }` or `{ Err }`. */
-export function viewOf(scene) {
-  try {
-    ask(scene);
-    const length = exports.view();
-    const answer = JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
-    if (answer.Ok) readNumbers(answer.Ok, exports.memory.buffer, exports.numbers());
-    return answer;
-  } catch (fault) {
-    instantiate();
-    return { Err: { reason: `this could not be computed (${fault.message})`, notes: [] } };
-  }
-}
+export const viewOf = (scene) => ask(scene, () => {
+  const length = exports.view(), at = exports.answer();
+  const numbers = new Float64Array(exports.memory.buffer.slice(at, at + length));
+  const parts = [];
+  for (let i = 0; i < numbers.length; i += 1 + numbers[i]) parts.push(Array.from(numbers.subarray(i + 1, i + 1 + numbers[i])));
+  return shown(parts);
+}, ({ message }) => ({ Err: { reason: `this could not be computed (${message})` } }));
 
-// Puts the numbers into a view, which only tells where they are.
-function readNumbers(view, memory, at) {
-  const numbers = ([from, to]) => Array.from(new Float64Array(memory, at + 8 * from, to - from));
-  const tuples = (part, size) => {
-    const all = numbers(part);
-    return Array.from({ length: all.length / size }, (_, i) => all.slice(size * i, size * (i + 1)));
+// The engine's answer, whose parts are told in view.rs.
+function shown(parts) {
+  const tuples = (list, size) => Array.from({ length: list.length / size }, (_, i) => list.slice(size * i, size * (i + 1)));
+  const wrong = () => {
+    const [[code, key, from, to, ...values], remedies] = parts.slice(-2);
+    return { Err: { code: CODES[code], key: KEYS[key], inner: from >= 0 ? [from, to] : null, values, remedies: tuples(remedies, 2) } };
   };
-  view.times = numbers(view.times);
-  const points = tuples(view.ramps, 2);
-  view.ramps = [points.slice(0, 4), points.slice(4)];
-  view.cdf = tuples(view.cdf, 2);
-  view.edges = numbers(view.edges);
-  view.marks = tuples(view.marks, 3);
-  [view.exposure, view.efficiency] = numbers(view.exposure);
-  const plan = view.plan.Ok;
-  if (!plan) return;
-  [plan.closest, plan.min_gap, plan.half_open] = numbers(plan.seconds);
+  if (parts.length === 2) return wrong();
+  const [times, ramps, cdf, [exposure, efficiency], edges, marks, seconds, ticks, pulses, doses] = parts;
+  const points = tuples(ramps, 2);
+  const [timer_hz, early, delay, most, closest, min_gap, half_open, drift, coarse] = seconds.map((x) => (Number.isNaN(x) ? null : x));
+  const plan = doses ? { Ok: { ticks, pulses: tuples(pulses, 2), doses, timer_hz, early, delay, most, closest, min_gap, half_open, drift, coarse } } : wrong();
+  return { Ok: { times, ramps: [points.slice(0, 4), points.slice(4)], cdf: tuples(cdf, 2), exposure, efficiency, edges, marks: tuples(marks, 3), plan } };
 }

@@ -6,14 +6,13 @@ const loaded = WebAssembly.instantiateStreaming(fetch(new URL('studio.wasm', imp
 
 async function answer({ question, payload }) {
   const { exports } = (await loaded).instance;
-  const write = (room, bytes) => {
-    const to = room(bytes.length);
-    if (!to && bytes.length) throw new Error(`no memory for ${bytes.length >> 20} MB`);
-    new Uint8Array(exports.memory.buffer).set(bytes, to);
-  };
-  write(exports.question, encoder.encode(question));
-  if (payload) write(exports.payload, new Uint8Array(await payload.arrayBuffer()));
-  const length = exports.ask();
+  const data = payload ? new Uint8Array(await payload.arrayBuffer()) : [], words = encoder.encode(question);
+  const to = exports.question(data.length + words.length);
+  if (!to) throw new Error(`no memory for ${data.length >> 20} MB`);
+  const memory = new Uint8Array(exports.memory.buffer, to);
+  memory.set(data);
+  memory.set(words, data.length);
+  const length = exports.ask(data.length);
   return JSON.parse(decoder.decode(new Uint8Array(exports.memory.buffer, exports.answer(), length)));
 }
 

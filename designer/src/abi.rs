@@ -7,10 +7,7 @@ use std::cell::RefCell;
 
 thread_local! {
     static QUESTION: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
-    #[cfg(feature = "studio")]
-    static PAYLOAD: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
-    static NUMBERS: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
-    static ANSWER: RefCell<String> = const { RefCell::new(String::new()) };
+    static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
 #[cfg(feature = "studio")]
@@ -19,45 +16,44 @@ unsafe extern "C" {
     safe fn progress(share: f64);
 }
 
-/// Where a question of so many bytes is to be written.
+/// Where a question of so many bytes is to be written; null if there is no room.
 #[unsafe(no_mangle)]
 pub extern "C" fn question(length: usize) -> *mut u8 {
-    QUESTION.with_borrow_mut(|bytes| room(bytes, length))
-}
-
-/// Where a payload of so many bytes is to be written; null if there is no room.
-#[cfg(feature = "studio")]
-#[unsafe(no_mangle)]
-pub extern "C" fn payload(length: usize) -> *mut u8 {
-    PAYLOAD.with_borrow_mut(|bytes| room(bytes, length))
+    QUESTION.with_borrow_mut(|bytes| {
+        bytes.clear();
+        if bytes.try_reserve_exact(length).is_err() {
+            return std::ptr::null_mut();
+        }
+        bytes.resize(length, 0);
+        bytes.as_mut_ptr()
+    })
 }
 
 /// Answers the question with what is shown of a scene; the answer has so many bytes.
+#[cfg(not(feature = "studio"))]
 #[unsafe(no_mangle)]
 pub extern "C" fn view() -> usize {
-    let (answer, numbers) = QUESTION.with_borrow(|question| crate::view(question));
-    NUMBERS.set(numbers);
-    told(answer)
+    let numbers = QUESTION.with_borrow(|question| crate::view(question));
+    told(numbers.into_iter().flat_map(f64::to_le_bytes).collect())
 }
 
 /// Has the scene in the question a curve?
+#[cfg(not(feature = "studio"))]
 #[unsafe(no_mangle)]
 pub extern "C" fn allowed() -> bool {
     QUESTION.with_borrow(|question| crate::allowed(question))
 }
 
-/// Answers any other question, with its payload.
+/// Answers any other question, which stands behind so many bytes of its payload.
 #[cfg(feature = "studio")]
 #[unsafe(no_mangle)]
-pub extern "C" fn ask() -> usize {
-    let payload = PAYLOAD.take();
-    told(
-        QUESTION
-            .with_borrow(|question| crate::ask(question, payload, &mut |share| progress(share))),
-    )
+pub extern "C" fn ask(payload: usize) -> usize {
+    let mut bytes = QUESTION.take();
+    let question = bytes.split_off(payload);
+    told(crate::ask(&question, bytes, &mut |share| progress(share)).into_bytes())
 }
 
-fn told(answer: String) -> usize {
+fn told(answer: Vec<u8>) -> usize {
     let length = answer.len();
     ANSWER.set(answer);
     length
@@ -67,19 +63,4 @@ fn told(answer: String) -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> *const u8 {
     ANSWER.with_borrow(|answer| answer.as_ptr())
-}
-
-/// Where the numbers of a view are.
-#[unsafe(no_mangle)]
-pub extern "C" fn numbers() -> *const f64 {
-    NUMBERS.with_borrow(|numbers| numbers.as_ptr())
-}
-
-fn room(bytes: &mut Vec<u8>, length: usize) -> *mut u8 {
-    bytes.clear();
-    if bytes.try_reserve_exact(length).is_err() {
-        return std::ptr::null_mut();
-    }
-    bytes.resize(length, 0);
-    bytes.as_mut_ptr()
 }

@@ -2,16 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
+use shutter::fault::Fault;
 use shutter::fitted::{self, Zero};
 use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
 use shutter_fit::delay::{self, Sync};
 use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
-use shutter_fit::unit::{Unit, plus_minus};
+use shutter_fit::unit::Unit;
 use shutter_fit::{From, Options, report};
 
-use crate::answer::{Wrong, json};
 use crate::words::{self, Told};
 
 /// More samples are drawn as the least and the greatest of neighbours.
@@ -39,8 +39,13 @@ pub fn ask(question: &[u8], payload: Vec<u8>, progress: &mut dyn FnMut(f64)) -> 
         Ok(Question::Emit { name, scene, form }) => json(&emitted(&name, &scene, &form)),
         Ok(Question::Scene { name, scene }) => json(&checked(&name, &scene)),
         Ok(Question::Fit { name, asked }) => json(&measured(&name, payload, &asked, progress)),
-        Err(error) => json(&Err::<(), _>(error.to_string().into())),
+        Err(error) => json(&Err::<(), _>(error.to_string())),
     }
+}
+
+/// The answer: what was asked for as `Ok`, or else what is wrong as `Err`.
+fn json(answer: &Result<impl Serialize, String>) -> String {
+    serde_json::to_string(answer).unwrap_or_default()
 }
 
 /// A plan in one of the forms, and what its file is called.
@@ -50,28 +55,28 @@ struct Emitted {
     file: String,
 }
 
-fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, Wrong> {
+fn emitted(name: &str, scene: &str, form: &str) -> Result<Emitted, String> {
     let (form, file) = match form {
         // The file's name is the module's.
         "rust" => (Form::Rust, emit::module(name) + ".rs"),
         "c" => (Form::C, emit::identifier(name) + ".h"),
         "csv" => (Form::Csv, emit::identifier(name) + ".csv"),
         "json" => (Form::Json, emit::identifier(name) + ".json"),
-        _ => return Err(format!("there is no form {form}").into()),
+        _ => return Err(format!("there is no form {form}")),
     };
     let planned = Planned::parse(scene).map_err(|fault| fault.locate(name, scene))?;
     Ok(Emitted { text: emit::emit(form, name, &planned, false)?, file })
 }
 
 /// The scene, if it can be planned.
-fn checked(name: &str, text: &str) -> Result<scene::Scene, Wrong> {
-    let located = |fault: scene::Fault| fault.locate(name, text);
+fn checked(name: &str, text: &str) -> Result<scene::Scene, String> {
+    let located = |fault: Fault| fault.locate(name, text);
     if let Planned::Times(_) = Planned::parse(text).map_err(located)? {
         let reason = "these are trigger times as they were measured, and this page needs the curve that they lack: open their \
                       trace here, or give the times to `shutter plan` in a terminal";
-        return Err(format!("{name}: {reason}").into());
+        return Err(format!("{name}: {reason}"));
     }
-    Ok(scene::parse(text).map_err(located)?)
+    scene::parse(text).map_err(located)
 }
 
 /// How a file is to be read, and what of it is to be fitted; what is left out is the file's own.
@@ -81,6 +86,9 @@ struct Asked {
     unit: Option<Unit>,
     /// The samples in a second.
     rate: Option<f64>,
+    /// The first time that counts, in seconds, and the last one.
+    from: Option<f64>,
+    to: Option<f64>,
     /// The time's and the signal's column, from 1, or the signal's alone.
     columns: Vec<usize>,
     /// The sync's column, from 1.
@@ -103,13 +111,14 @@ struct Measured {
     fit: Result<Fitted, Told>,
 }
 
-/// How a file was read.
+/// How a file was read: the columns by their numbers, and the unit of its times or their rate.
 #[derive(Serialize)]
 struct Read {
     columns: usize,
     time: Option<usize>,
     signal: usize,
     sync: Option<usize>,
+    unit: Option<Unit>,
     rate: Option<f64>,
 }
 
@@ -123,25 +132,18 @@ struct Fitted {
     /// As the program prints it.
     report: String,
     kind: &'static str,
-    rms: f64,
+    /// As a program reads it.
+    json: serde_json::Value,
     /// The efficiency, and the times of testers, as the report has them.
     efficiency: String,
     tester: String,
     /// From the sync's edge to the opening, where that is known.
     delay: Option<String>,
-    /// Told, and in seconds with its standard error.
-    told: String,
-    exposure: (f64, f64),
-    /// Does the model explain the trace; could that be tested?
-    explained: bool,
-    tested: bool,
+    exposure: String,
     /// In seconds after the opening, each with its standard error.
     triggers: Vec<(f64, f64)>,
-    pulses: usize,
-    /// By what share their exposures differ.
+    /// By what share the exposures of all pulses differ.
     scatter: f64,
-    pulse: usize,
-    falls: bool,
     warnings: Vec<Told>,
     /// The trace as (time in seconds of the scene, openness, residual).
     samples: Vec<(f64, f64, f64)>,
@@ -163,9 +165,9 @@ fn measured(
     bytes: Vec<u8>,
     asked: &Asked,
     progress: &mut dyn FnMut(f64),
-) -> Result<Measured, Wrong> {
+) -> Result<Measured, String> {
     if bytes.len() > LONGEST {
-        return Err(format!("{} MB: cut the trace to the pulse", bytes.len() >> 20).into());
+        return Err(format!("{} MB: cut the trace to the pulse", bytes.len() >> 20));
     }
     let preview = trace::preview(&bytes, ROWS).unwrap_or(Preview { names: vec![], rows: vec![] });
     let columns = asked.columns.iter().map(|number| Column::Number(*number)).collect();
@@ -173,8 +175,9 @@ fn measured(
         unit: asked.unit,
         columns,
         rate: asked.rate,
+        from: asked.from,
+        to: asked.to,
         sync: asked.sync.map(Column::Number),
-        ..Default::default()
     };
     let recording = trace::open(&bytes, &options);
     drop(bytes);
@@ -186,16 +189,18 @@ fn measured(
 }
 
 impl Read {
-    fn new(reading: &Reading) -> Self {
+    fn new(Reading { columns, time, signal, sync, clock, .. }: &Reading) -> Self {
+        let (unit, rate) = match *clock {
+            Clock::Unit(unit) => (Some(unit), None),
+            Clock::Rate(rate) => (None, Some(rate)),
+        };
         Self {
-            columns: reading.columns,
-            time: reading.time.as_ref().map(|(number, _)| *number),
-            signal: reading.signal.0,
-            sync: reading.sync.as_ref().map(|(number, _)| *number),
-            rate: match reading.clock {
-                Clock::Unit(_) => None,
-                Clock::Rate(rate) => Some(rate),
-            },
+            columns: *columns,
+            time: time.as_ref().map(|it| it.0),
+            signal: signal.0,
+            sync: sync.as_ref().map(|it| it.0),
+            unit,
+            rate,
         }
     }
 }
@@ -222,10 +227,9 @@ fn fitted(
     fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
     let text = fitted::curve_scene(&fit, name, Zero::Open, None)?.text;
-    let no_scene = |fault: scene::Fault| Refusal::NoScene { reason: fault.reason };
+    let no_scene = |fault: Fault| Refusal::NoScene { reason: fault.reason() };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
-    let best = fit.best();
-    let signal = &best.signal;
+    let signal = &fit.best().signal;
     let own = match fit.from {
         From::Model => None,
         From::Trace => {
@@ -247,8 +251,8 @@ fn fitted(
         scene: scene::parse(&text).map_err(no_scene)?,
         report: report.join("\n"),
         kind: fit.chosen.title(),
-        rms: best.rms,
-        exposure: (fit.exposure.value, fit.exposure.error),
+        json: shutter_fit::json(name, &fit, &[]),
+        exposure: report::exposure(&fit),
         efficiency: report::efficiency(&fit),
         tester: report
             .iter()
@@ -257,19 +261,9 @@ fn fitted(
             .trim()
             .into(),
         delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
-        told: plus_minus(
-            fit.unit().of(fit.exposure.value),
-            fit.unit().of(fit.exposure.error),
-            fit.unit().name(),
-        ),
-        explained: fit.test.explained,
-        tested: fit.test.tested,
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
-        pulses: fit.frames.count,
         scatter: fit.frames.scatter,
-        pulse: fit.frames.fitted,
-        falls: fit.inverted,
         warnings,
         samples: fewer(samples.collect()),
     })

@@ -1,70 +1,46 @@
 //! All that the page shows of a scene.
+//!
+//! The answer is numbers, in parts that each begin with their length: the page reads them as they are in memory, which is faster
+//! than any text, and its first load has nothing that writes one. Times are in seconds; NaN is none.
 
-use serde::Serialize;
-use shutter::facts::{Facts, drift, few};
+use shutter::facts::{Facts, coarse, drift, ends};
+use shutter::fault::{Code, Fault, Pair, What};
 use shutter::lamp::Lamp;
 use shutter::plan::{MOST_TRIGGERS, Plan};
+use shutter::planned::Planned;
 use shutter::scene::{KEYS, Scene};
 use shutter::set_up::doses;
 use shutter::shape::Shape;
 use shutter::times::Times;
-use shutter_curve::CubicBezier;
+use shutter_curve::{CubicBezier, CurveError};
 use shutter_fit::unit::Unit;
-
-use crate::answer::{Wrong, json};
 
 /// The points along the cdf.
 const POINTS: u16 = 200;
+/// What would help, each tried: fewer triggers, no gap, a timer of 32 bits, a lamp without pulses.
+const REMEDIES: [&[&str]; 4] =
+    [&["triggers"], &["min_gap"], &["timer_bits"], &["pulse", "duty", "min_pulse", "fully_open"]];
 
-/// A scene's curve, and its plan where it has one. Times are in seconds.
-#[derive(Serialize)]
-struct View {
-    times: Part,
-    /// Both ramps' control points, time and openness of each.
-    ramps: Part,
-    /// Times, each with its share of the exposure.
-    cdf: Part,
-    /// Where the equal shares of the exposure begin and end; none where a trace tells the triggers.
-    edges: Part,
-    /// Of each trigger the time, the openness and the share of the exposure.
-    marks: Part,
-    /// The curve's exposure, and the share of the interval that it is.
-    exposure: Part,
-    plan: Result<Planned, Wrong>,
-}
-
-#[derive(Serialize)]
-struct Planned {
-    ticks: Vec<u32>,
-    pulses: Vec<(u32, u32)>,
-    /// The rate of all ticks.
-    timer_hz: u32,
-    /// In ticks, from the sync's edge to the start of opening.
-    delay: Option<u32>,
-    /// So many triggers keep what is asked for; unknown of times that were measured.
-    most: Option<u32>,
-    /// The least gap between two, or the least darkness, where there are two; what is asked for; how long it is half open.
-    seconds: Part,
-    /// The light of the first, the middle and the last flash, where the set-up is known and they differ.
-    doses: Option<String>,
-    /// When a delay that moves matters, as the program says it.
-    drift: Option<String>,
-}
-
-/// Where numbers of the answer are, from and to: the page reads them as they are in memory, which is faster than as text and
-/// leaves out of its first load what writes floats.
-#[derive(Serialize)]
-struct Part(usize, usize);
-
-/// All numbers of an answer.
+/// Numbers in parts.
 #[derive(Default)]
-struct Numbers(Vec<f64>);
+struct Parts(Vec<f64>);
 
-impl Numbers {
-    fn put<T: Into<f64>>(&mut self, numbers: impl IntoIterator<Item = T>) -> Part {
-        let from = self.0.len();
+impl Parts {
+    fn put<T: Into<f64>>(&mut self, numbers: impl IntoIterator<Item = T>) {
+        let length = self.0.len();
+        self.0.push(0.0);
         self.0.extend(numbers.into_iter().map(Into::into));
-        Part(from, self.0.len())
+        self.0[length] = (self.0.len() - length - 1) as f64;
+    }
+
+    /// What is wrong, as code, key, place among the inner control points and the values; and what would help: each remedy with a
+    /// number.
+    fn put_wrong(&mut self, fault: &Fault, question: &Question) {
+        let place = |i: Option<usize>| i.map_or(f64::NAN, |i| i as f64);
+        let inner = [fault.inner.map(|inner| inner.0), fault.inner.map(|inner| inner.1)].map(place);
+        let head = [place(Some(Code::from(&*fault.what) as usize)), place(fault.at)];
+        self.put(head.into_iter().chain(inner).chain(values(&fault.what)));
+        self.put(question.remedies());
     }
 }
 
@@ -77,163 +53,193 @@ struct Question {
 
 impl Question {
     /// Of the bytes of `f64`: the unit's place among all, the scene's numbers, the measured times.
-    fn read(bytes: &[u8]) -> Result<Self, Wrong> {
+    fn read(bytes: &[u8]) -> Option<Self> {
         let numbers: Vec<_> =
             bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
-        let short = || Wrong::from("the question is too short".to_string());
-        let (unit, numbers) = numbers.split_first().ok_or_else(short)?;
-        let (numbers, measured) = numbers.split_first_chunk().ok_or_else(short)?;
-        let unit = Unit::ALL.get(*unit as usize).copied().unwrap_or(Unit::Second);
-        Ok(Self { unit, numbers: *numbers, measured: measured.to_vec() })
+        let (unit, numbers) = numbers.split_first()?;
+        let (numbers, measured) = numbers.split_first_chunk()?;
+        let unit = Unit::ALL.get(*unit as usize).copied()?;
+        Some(Self { unit, numbers: *numbers, measured: measured.to_vec() })
     }
 
     fn scene(&self) -> Scene {
         Scene::of_numbers(self.unit, &self.numbers)
     }
 
-    /// Can it be planned with other numbers? NaN is none.
-    fn is_planned(&self, changes: &[(&str, f64)]) -> bool {
-        let mut numbers = self.numbers;
-        for (key, number) in changes {
-            let place = KEYS.iter().position(|known| known == key).unwrap_or_default();
-            let curve = KEYS.iter().position(|known| *known == "shutteropening");
-            // That key has eight numbers.
-            numbers[place + if Some(place) > curve { 7 } else { 0 }] = *number;
-        }
-        let scene = Scene::of_numbers(self.unit, &numbers);
+    /// Its plan, of the trace's own times where it has them.
+    fn plan(&self) -> Result<Planned, Fault> {
         match &*self.measured {
-            [] => Plan::new(&scene).is_ok(),
-            times => Times::of_numbers(scene, times).is_ok(),
+            [] => Plan::new(&self.scene()).map(Planned::from),
+            times => Times::of_numbers(self.scene(), times).map(Planned::from),
         }
     }
 
-    /// What would help a scene that cannot be planned.
-    fn remedies(&self) -> Vec<(&'static str, u32)> {
-        let with = |n: u32| self.is_planned(&[("triggers", n.into())]);
+    /// Can it be planned with other numbers of these keys?
+    fn is_planned(&self, keys: &[&str], number: f64) -> bool {
+        let mut numbers = self.numbers;
+        for key in keys {
+            let place = |key| KEYS.iter().position(|known| *known == key).unwrap_or_default();
+            // One key has eight numbers.
+            let later = place(*key) > place("shutteropening");
+            numbers[place(*key) + if later { 7 } else { 0 }] = number;
+        }
+        Self { unit: self.unit, numbers, measured: self.measured.clone() }.plan().is_ok()
+    }
+
+    /// What would help a scene that cannot be planned: each place among the remedies, and its number.
+    fn remedies(&self) -> Vec<f64> {
         let asked = self.scene().triggers().min(MOST_TRIGGERS + 1);
         let (mut low, mut high) = (0, if self.measured.is_empty() { asked } else { 0 });
         while high > low + 1 {
             let middle = low.midpoint(high);
-            *(if with(middle) { &mut low } else { &mut high }) = middle;
+            let is_planned = self.is_planned(REMEDIES[0], middle.into());
+            *(if is_planned { &mut low } else { &mut high }) = middle;
         }
-        let none = f64::NAN;
-        let lamp = ["pulse", "duty", "min_pulse", "fully_open"].map(|key| (key, none));
-        let others: [(_, &[_]); 3] = [
-            ("min_gap", &[("min_gap", 0.0)]),
-            ("timer_bits", &[("timer_bits", none)]),
-            ("lamp", &lamp),
-        ];
-        let helps = others.into_iter().filter(|(_, changes)| self.is_planned(changes));
-        let fewer = (low > 0).then_some(("triggers", low));
-        fewer.into_iter().chain(helps.map(|(code, _)| (code, 0))).collect()
+        let numbers = [low.into(), 0.0, f64::NAN, f64::NAN];
+        let helps = |i: &usize| match i {
+            0 => low > 0,
+            i => self.is_planned(REMEDIES[*i], numbers[*i]),
+        };
+        (0..REMEDIES.len()).filter(helps).flat_map(|i| [i as f64, numbers[i]]).collect()
     }
 }
 
-/// All that is shown of the scene in the question: JSON, and the numbers that it speaks of.
-pub fn view(question: &[u8]) -> (String, Vec<f64>) {
-    let mut numbers = Numbers::default();
-    let view = Question::read(question).and_then(|question| View::new(question, &mut numbers));
-    (json(&view), numbers.0)
+/// All that is shown of the scene in the question. Two parts are what is wrong and what would help; a scene with a curve has six
+/// before them, and in their place four where it can be planned.
+pub fn view(question: &[u8]) -> Vec<f64> {
+    let mut parts = Parts::default();
+    if let Some(question) = Question::read(question)
+        && let Err(fault) = show(&question, &mut parts)
+    {
+        parts.put_wrong(&fault, &question);
+    }
+    parts.0
 }
 
 /// Has the scene in the question a curve?
 pub fn allowed(question: &[u8]) -> bool {
-    Question::read(question).is_ok_and(|question| question.scene().curve().is_ok())
+    Question::read(question).is_some_and(|question| question.scene().curve().is_ok())
 }
 
-impl View {
-    /// Of a scene.
-    ///
-    /// # Errors
-    /// A scene without a curve. What is only wrong with its triggers is told where the plan would be.
-    fn new(question: Question, numbers: &mut Numbers) -> Result<Self, Wrong> {
-        let (scene, measured) = (question.scene(), &question.measured);
-        // What would help is tried where something is wrong.
-        let wrong = |fault| Wrong { remedies: question.remedies(), ..Wrong::from(fault) };
-        let (shape, curve) = scene.curve()?;
-        let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
-        let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
-        let points = ramps(&shape).map(|ramp| ramp.points());
-        let common = Self {
-            times: numbers.put(shape.times),
-            ramps: numbers.put(points.into_iter().flatten().flat_map(|(t, y)| [t, y])),
-            cdf: numbers.put(times.flat_map(|t| [t, curve.cdf(t)])),
-            exposure: numbers.put([curve.exposure(), curve.efficiency()]),
-            edges: Part(0, 0),
-            marks: Part(0, 0),
-            plan: Err(String::new().into()),
-        };
-        if !measured.is_empty() {
-            let n = measured.len() as f64;
-            let mark =
-                |(i, t): (usize, f64)| [t, curve.openness(t as f32).into(), (i as f64 + 0.5) / n];
-            let times = measured.iter().map(|time| scene.unit().seconds(*time));
-            return Ok(Self {
-                marks: numbers.put(times.enumerate().flat_map(mark)),
-                plan: Times::of_numbers(scene, measured)
-                    .map(|times| Planned::of_times(times, numbers))
-                    .map_err(wrong),
-                ..common
-            });
+fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
+    let (scene, measured) = (question.scene(), &question.measured);
+    let (shape, curve) = scene.curve()?;
+    let (start, length) = (curve.open_start(), curve.close_end() - curve.open_start());
+    let times = (0..=POINTS).map(|i| start + length * (f32::from(i) / f32::from(POINTS)));
+    let points = ramps(&shape).map(|ramp| ramp.points());
+    parts.put(shape.times);
+    // Both ramps' control points, time and openness of each.
+    parts.put(points.into_iter().flatten().flat_map(|(t, y)| [t, y]));
+    parts.put(times.flat_map(|t| [t, curve.cdf(t)]));
+    parts.put([curve.exposure(), curve.efficiency()]);
+    let plan = question.plan();
+    let n = scene.triggers().min(MOST_TRIGGERS);
+    let u = |i: f32| i / n as f32;
+    // Flashes while the shutter is fully open share out the time, not the exposure; measured ones have no curve that does.
+    let is_shared = matches!(&plan, Ok(Planned::Curve(plan)) if plan.lamp != Lamp::FullyOpen);
+    // Where the equal shares of the exposure begin and end.
+    parts.put((0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32))));
+    let mark = |t: f32, u: f32| [t, curve.openness(t), u].map(f64::from);
+    let given = measured.iter().map(|time| scene.unit().seconds(*time)).zip(0..);
+    // Of each trigger the time, the openness and the share of the exposure.
+    parts.put(match &plan {
+        _ if !measured.is_empty() => given
+            .flat_map(|(t, i)| {
+                let u = (f64::from(i) + 0.5) / measured.len() as f64;
+                [t, curve.openness(t as f32).into(), u]
+            })
+            .collect(),
+        Ok(Planned::Curve(plan)) => {
+            plan.triggers.iter().flat_map(|it| mark(it.time, it.u)).collect::<Vec<_>>()
         }
-        let n = scene.triggers().min(MOST_TRIGGERS);
-        let u = |i: f32| i / n as f32;
-        let plan = Plan::new(&scene);
-        let mark = |t, u| [t, curve.openness(t), u];
-        let marks: Vec<_> = match &plan {
-            Ok(plan) => plan.triggers.iter().map(|it| mark(it.time, it.u)).collect(),
-            Err(_) => {
-                let middles = (0..n).map(|i| u(i as f32 + 0.5));
-                middles.map(|u| mark(curve.inverse_cdf(u), u)).collect()
-            }
-        };
-        // Flashes while the shutter is fully open share out the time, not the exposure.
-        let is_shared = plan.as_ref().is_ok_and(|plan| plan.lamp != Lamp::FullyOpen);
-        let edges = (0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32)));
-        Ok(Self {
-            edges: numbers.put(edges),
-            marks: numbers.put(marks.into_iter().flatten()),
-            plan: plan.map(|plan| Planned::new(plan, numbers)).map_err(wrong),
-            ..common
-        })
+        _ => {
+            let middles = (0..n).map(|i| u(i as f32 + 0.5));
+            middles.flat_map(|u| mark(curve.inverse_cdf(u), u)).collect()
+        }
+    });
+    put_plan(&plan?, parts);
+    Ok(())
+}
+
+fn put_plan(planned: &Planned, parts: &mut Parts) {
+    let (timer, delay) = (planned.timer(), planned.delay());
+    let plan = planned.plan();
+    // What a lamp's lag takes off each tick.
+    let early = planned.lag().map_or(0, |lag| lag.ticks);
+    let (ticks, pulses, min_gap): (Vec<_>, Vec<_>, _) = match planned {
+        Planned::Curve(plan) => {
+            let pulses = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
+            (plan.triggers.iter().map(|it| it.ticks).collect(), pulses.collect(), plan.min_gap)
+        }
+        Planned::Times(times) => {
+            (times.triggers.iter().map(|it| it.ticks).collect(), Vec::new(), times.min_gap)
+        }
+    };
+    // The least gap between two, or the least darkness.
+    let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
+    let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
+    let closest = if pulses.is_empty() { gaps } else { dark };
+    let none = f64::NAN;
+    parts.put([
+        timer.hz.into(),
+        early.into(),
+        delay.map_or(none, |delay| delay.ticks.into()),
+        plan.map_or(none, |plan| plan.most.into()),
+        closest.map_or(none, |ticks| f64::from(ticks) / f64::from(timer.hz)),
+        min_gap,
+        plan.map_or(none, |plan| Facts::new(plan).half_open),
+        drift(planned).unwrap_or(none),
+        coarse(planned).unwrap_or(none),
+    ]);
+    parts.put(ticks.into_iter().map(|ticks| ticks - early));
+    parts.put(pulses.into_iter().flat_map(|(on, off)| [on, off]));
+    // The light of the first, the middle and the last flash, where the set-up is known and they differ.
+    let doses = plan.and_then(|plan| Some(doses(plan.set_up?, plan))).unwrap_or_default();
+    let is_even = doses.iter().all(|dose| *dose > 0.985);
+    parts.put(if is_even { Vec::new() } else { ends(&doses) });
+}
+
+/// The values of what is wrong: how many flashes would do, before all others.
+fn values(what: &What) -> Vec<f64> {
+    use What as W;
+    let many = |most: &Option<u32>| most.unwrap_or_default().into();
+    let of = |Pair { first, gap, least }: &Pair| [*first as f64, gap.seconds(), least.seconds()];
+    let with = |most, pair: &Pair| [&[many(most)], &of(pair)[..]].concat();
+    match what {
+        W::Curve(error) | W::Lasts { error, .. } => vec![kind(error)],
+        W::Inner { error, number } => vec![kind(error), *number],
+        W::Lost { percent, .. } => vec![*percent],
+        W::Whole { most, .. } | W::RateTooHigh { most } => vec![(*most).into()],
+        W::Wraps { bits, by, hz, .. } => vec![(*bits).into(), *by, *hz],
+        W::PulseOfNoTick { hz } => vec![(*hz).into()],
+        W::Lag { by, most, .. } => vec![*by, *most],
+        W::Close { pair, most } | W::DosesClose { pair, most } => with(most, pair),
+        W::DoseShort { i, lasts, least, most } => {
+            vec![many(most), *i as f64, lasts.seconds(), least.seconds()]
+        }
+        W::Pulses { length, pair, longest, most } => {
+            let own = [many(most), length.seconds(), longest.seconds()];
+            own.into_iter().chain(pair.iter().flat_map(of)).collect()
+        }
+        W::Unfit { most } => vec![many(most)],
+        W::TimesEarly { i } | W::TimesLate { i } | W::TimesOutOfOrder { i } => vec![*i as f64],
+        W::TimesClose(pair) => of(pair).into(),
+        _ => Vec::new(),
     }
 }
 
-impl Planned {
-    fn new(plan: Plan, numbers: &mut Numbers) -> Self {
-        let pulses: Vec<_> = plan.triggers.iter().filter_map(|trigger| trigger.pulse).collect();
-        let dark = pulses.windows(2).map(|pair| pair[1].0 - pair[0].1).min();
-        let closest = if pulses.is_empty() { plan.gaps().min() } else { dark };
-        let closest = closest.map_or(f64::NAN, |ticks| plan.seconds(ticks));
-        Self {
-            ticks: plan.triggers.iter().map(|trigger| trigger.ticks).collect(),
-            pulses,
-            timer_hz: plan.timer.hz,
-            delay: plan.delay.map(|delay| delay.ticks),
-            most: Some(plan.most),
-            seconds: numbers.put([closest, plan.min_gap, Facts::new(&plan).half_open]),
-            doses: plan.set_up.map(|set_up| doses(set_up, &plan)).and_then(|doses| {
-                let is_even = doses.iter().all(|dose| *dose > 0.985);
-                (!is_even).then(|| few(&doses))
-            }),
-            drift: drift(&plan.into()),
-        }
-    }
-
-    fn of_times(times: Times, numbers: &mut Numbers) -> Self {
-        let ticks: Vec<_> = times.triggers.iter().map(|given| given.ticks).collect();
-        let closest = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
-        let closest = closest.map_or(f64::NAN, |gap| f64::from(gap) / f64::from(times.timer.hz));
-        Self {
-            ticks,
-            pulses: Vec::new(),
-            timer_hz: times.timer.hz,
-            delay: times.delay.map(|delay| delay.ticks),
-            most: None,
-            seconds: numbers.put([closest, times.min_gap, f64::NAN]),
-            doses: None,
-            drift: drift(&times.into()),
-        }
+/// The number of a curve's error, for the page's words.
+fn kind(error: &CurveError) -> f64 {
+    use CurveError as E;
+    match error {
+        E::TimesOutOfOrder => 0.0,
+        E::FractionOutsideRamp { .. } => 1.0,
+        E::OpennessOutOfRange { .. } => 2.0,
+        E::TimesCross(_) => 3.0,
+        E::TooShort(_) => 4.0,
+        E::IntervalUnresolved => 5.0,
+        E::IntervalOutOfRange => 6.0,
+        _ => 7.0,
     }
 }
 

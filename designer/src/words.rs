@@ -110,11 +110,13 @@ mod tests {
 
     #[test]
     fn what_is_left_is_a_sentence() {
-        let told = warning(&Warning::NoPlateau).text;
-        assert!(told.ends_with("unless the signal of full light is given"), "{told}");
-        let told = refusal(&Refusal::FullTooLow { given: 1.0, seen: 2.0 }, false).text;
-        assert!(told.starts_with("the trace reaches 2.0000, more"), "{told}");
-        let told = refusal(&Refusal::UnclearUnit { name: "a--b".into() }, false).text;
-        assert!(told.contains("a--b") && !told.contains("--unit"), "{told}");
+        let full = Refusal::FullTooLow { given: 1.0, seen: 2.0 };
+        for (told, part) in [
+            (warning(&Warning::NoPlateau), "unless the signal of full light is given"),
+            (refusal(&full, false), "the trace reaches 2.0000, more"),
+            (refusal(&Refusal::UnclearUnit { name: "a--b".into() }, false), "'a--b' above"),
+        ] {
+            assert!(told.text.contains(part) && !told.text.contains(" --"), "{}", told.text);
+        }
     }
 }

@@ -117,7 +117,7 @@ export function extend(page) {
       it.focus();
       if (it.type === 'checkbox') return it.checked === value || it.click();
       it.value = value;
-      for (const type of it.tagName === 'SELECT' ? ['input', 'change'] : ['input']) it.dispatchEvent(new Event(type, { bubbles: true }));
+      for (const type of ['input', 'change']) it.dispatchEvent(new Event(type, { bubbles: true }));
     }, value),
     until: (what, ...args) => page.waitForFunction(what, {}, ...args),
     /** Until the page says so. */

@@ -31,7 +31,7 @@ async function play({ seed, count }) {
     send(pick(['pointerup', 'pointerup', 'pointercancel']), dx, dy);
   };
   const key = (target, name, more) => target.dispatchEvent(new KeyboardEvent('keydown', { key: name, bubbles: true, ...more }));
-  const numbers = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'nominal', 'delay', 'delay_spread', 'open_start', 'open_end', 'close_start', 'close_end', 't1', 'y2', 't5', 'y6'];
+  const numbers = ['triggers', 'timer_hz', 'timer_bits', 'min_gap', 'nominal', 'delay', 'delay_spread', 'lamp_lag', 'open_start', 'open_end', 'close_start', 'close_end', 't1', 'y2', 't5', 'y6'];
   const values = ['1', '2,5', '0.3', '7', '-1', '1,000', '', 'x', '12', '12.5', '1e6', '1e300', '1/125', '16', '12 000 us', '32.768 kHz', '0', '40'];
   const actions = {
     drag, preset: () => pick([...$('presets').children].slice(0, 4)).click(), unit: () => input('unit', pick(['s', 'ms', 'µs', 'ns'])),
@@ -58,7 +58,7 @@ async function play({ seed, count }) {
     if (Boolean(view) && wrong && $('problem').hidden) fault('what is wrong is not told');
     if (view) {
       const told = Number(/^Exposure([\d.e+-]+)/.exec($('facts').querySelector('dl').textContent)?.[1]);
-      const isFitted = trace && told === Number(trace.fit.told.split(' ')[0]);
+      const isFitted = trace && told === Number(trace.fit.exposure.split(' ')[0]);
       const per = { s: 1, ms: 1e3, µs: 1e6, ns: 1e9 }[scene.unit];
       if (!isFitted && !scene.measured && !(Math.abs(told / (per * last.exposure) - 1) < 1e-4)) fault(`the facts tell ${told}, it is ${per * last.exposure}`);
       for (const { text } of scene.doubts) if (!$('facts').textContent.includes(text)) fault(`no doubt: ${text}`);
@@ -100,12 +100,14 @@ for (const seed of [7, 2026]) {
   test(`anything in any order, from ${seed}`, { timeout: 300_000 }, async () => {
     await open('');
     const first = await seen();
-    for (const [round, files] of [[], [['good.csv', trace()]], [['bad.csv', refused()]], [['clipped.csv', clipped()]], [['TEK.csv', trace({ open: 1.5 })], ['TEK.csv', trace({ open: 5.5 })]]].entries()) {
-      if (files.length) {
+    const [good, bad] = [[['good.csv', trace()]], [['bad.csv', refused()]]];
+    // One that is refused beside a good one, too.
+    for (const [round, drops] of [[], [good], [good, bad], [[['clipped.csv', clipped()]]], [[['TEK.csv', trace({ open: 1.5 })], ['TEK.csv', trace({ open: 5.5 })]]]].entries()) {
+      for (const files of drops) {
         await drop(...files);
-        await page.until(() => !designer.model.busy && (designer.model.note || designer.model.pending || designer.model.now.trace || designer.model.now.speeds));
+        await page.until((n, name) => !designer.model.busy && (n > 1 ? designer.model.now.speeds : designer.model.note || (designer.model.pending ?? designer.model.now.trace)?.name === name), files.length, files[0][0]);
+        if (files.length > 1) await page.click('#speeds-close');
       }
-      if (files.length > 1) await page.click('#speeds-close');
       const { faults, done } = await page.evaluate(play, { seed: seed + round, count: 60 });
       assert.deepEqual(faults, []);
       assert.ok(Object.keys(done).length > 10, JSON.stringify(done));

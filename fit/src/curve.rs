@@ -149,10 +149,19 @@ impl Exposure {
     /// Does it come to a point, or nearly, by how much of the time above half it is above 95 % of its peak? A tenth of a triangle's,
     /// three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau of a tenth of the whole.
     pub fn is_peak(&self) -> bool {
+        self.is_narrower(3.0)
+    }
+
+    /// May it be a bell that never reaches full light?
+    pub fn may_be_peak(&self) -> bool {
+        self.is_narrower(2.4)
+    }
+
+    fn is_narrower(&self, times: f64) -> bool {
         let [top, half] =
             [0.95, 0.5].map(|openness| self.between(openness)).map(|[from, to]| to - from);
         let curve = self.curve;
-        top < 0.25 * half || 3.0 * top < half && curve.plateau < 0.1 * curve.length()
+        top < 0.25 * half || times * top < half && curve.plateau < 0.1 * curve.length()
     }
 
     /// When it reaches an openness, and when it leaves it.

@@ -207,7 +207,7 @@ fn lost_ramps(fit: &Fit, correlation: f64, frame: &Frame, step: f64) -> Option<W
 }
 
 fn no_plateau(fit: &Fit) -> Option<Warning> {
-    Exposure::new(&fit.best().signal.curve).is_peak().then_some(Warning::NoPlateau)
+    Exposure::new(&fit.best().signal.curve).may_be_peak().then_some(Warning::NoPlateau)
 }
 
 /// What the test does not see.

@@ -106,7 +106,8 @@ pub fn is_one(bins: &[Bin], signal: &Signal) -> bool {
     // The part of it that is in phase.
     let shared = alone.cosine * hum.cosine + alone.sine * hum.sine;
     let share = shared / hum.amplitude().powi(2);
-    let beyond = if periods(bins, &hum) < FEWEST { SHORT_STANDS_OUT } else { STANDS_OUT };
+    // The fewer its periods, the more has 1/f noise at its frequency than above.
+    let beyond = if periods(bins, &hum) < 2.0 * FEWEST { SHORT_STANDS_OUT } else { STANDS_OUT };
     (0.5..2.0).contains(&share) && power * ABOVE.len() as f64 > beyond * usual
 }
 

@@ -152,8 +152,11 @@ pub fn fit_records(
     let from_trace = if test.explained { None } else { running::results(fits, Kind::Free, n) };
     let from = if from_trace.is_some() { From::Trace } else { From::Model };
     let results = match from_trace {
-        Some(results) => {
+        Some(mut results) => {
+            // Full light is in doubt where the model is.
+            let apart = results.exposure.value - model.exposure.value;
             model = model.apart_from(&results);
+            results.exposure.error = results.exposure.error.hypot(apart);
             results
         }
         None => model.clone(),

@@ -111,7 +111,7 @@ impl Structure {
         }
         let (unseen, least) = (self.strict * pattern.unseen(), self.strict * pattern.least);
         self.unseen = self.unseen.max(unseen);
-        if unseen > UNSEEN {
+        if unseen > UNSEEN || self.strict > 1.0 {
             let [of_triggers, of_exposure] = self.unseen_moves;
             self.unseen_moves =
                 [of_triggers.max(least * triggers), of_exposure.max(least * exposure.abs())];

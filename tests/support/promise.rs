@@ -462,9 +462,14 @@ impl<'a> Questions<'a> {
         Self { rates, ..Self::of(exact, us, ts, frames) }
     }
 
+    /// These fractions and times, as far as they are on the curve.
+    pub fn any(exact: &'a Exact, us: Vec<f32>, ts: Vec<f32>) -> Self {
+        Self { walk: 0, ..Self::of(exact, us, ts, Vec::new()) }
+    }
+
     /// These fractions alone.
     pub fn fractions(exact: &'a Exact, us: Vec<f32>, is_typical: bool) -> Self {
-        Self { is_typical, walk: 0, ..Self::of(exact, us, Vec::new(), Vec::new()) }
+        Self { is_typical, ..Self::any(exact, us, Vec::new()) }
     }
 
     /// A part of a frame alone, at one rate.

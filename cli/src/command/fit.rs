@@ -418,7 +418,7 @@ fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
 fn merged(old: &Old, text: &str, file: &Path) -> Result<(String, Vec<String>), String> {
     let (text, kept) = old.kept_in(text);
     Planned::parse(&text).map_err(|fault| {
-        let (file, reason) = (file.display(), fault.reason);
+        let (file, reason) = (file.display(), fault.reason());
         format!("{file}: with what it keeps, {reason}; --force replaces it all")
     })?;
     Ok((text, kept))
@@ -446,7 +446,7 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     let Read { path, reading, .. } = &read[fit.record];
     fit.reading = Some(reading.clone());
     let mut warnings = Vec::new();
-    read::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
+    Warning::add(&mut warnings, read.iter().flat_map(|it| it.warnings.iter().cloned()));
     warnings.extend(fit.warnings.iter().cloned());
     Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
 }

@@ -4,6 +4,8 @@ use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use shutter_fit::unit::short;
+
 use super::input::{self, shown, stem};
 use super::mark::{self, Comment};
 use super::output::{Outputs, svg_path};
@@ -82,8 +84,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
             format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
         }));
         let coarse = plans.iter().filter_map(|(name, plan)| Some((name, facts::coarse(plan)?)));
-        told.extend(coarse.map(|(name, percent)| {
-            format!("warning: {name}: a tick is so long that flashes move by up to {percent} % of a share; a faster timer moves them less\n")
+        told.extend(coarse.map(|(name, by)| {
+            let by = short(by, 2);
+            format!("warning: {name}: a tick is so long that flashes move by up to {by} % of a share; a faster timer moves them less\n")
         }));
     }
     let text = match (plans.as_slice(), form) {

@@ -82,11 +82,13 @@ impl<'a> Read<'a> {
                     how.columns.clear();
                 }
                 let other = open(file, &how).map_err(told)?;
-                same_record(&trace, &other).map_err(told)?;
+                if !other.warnings.contains(&Warning::Changes) {
+                    same_record(&trace, &other).map_err(told)?;
+                }
                 let (number, name) = other.reading.signal;
                 let name = name.map_or(String::new(), |name| format!("{name} of "));
                 reading.sync = Some((number, Some(name + &file_name(file))));
-                add(&mut warnings, other.warnings);
+                Warning::add(&mut warnings, other.warnings);
                 Some(Sync::Channel(other.trace))
             }
             _ => channel.map(Sync::Channel),
@@ -126,15 +128,6 @@ impl<'a> Read<'a> {
             shown(self.path),
             shown(other.path)
         ))
-    }
-}
-
-/// The warnings, without those that are told already.
-pub fn add(warnings: &mut Vec<Warning>, others: impl IntoIterator<Item = Warning>) {
-    for other in others {
-        if warnings.iter().all(|told| told.code() != other.code()) {
-            warnings.push(other);
-        }
     }
 }
 

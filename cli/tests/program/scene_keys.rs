@@ -16,7 +16,8 @@ fn rows() -> Vec<(&'static str, &'static str)> {
 /// What the program expects where it finds another key.
 fn known(scene: &str) -> Vec<String> {
     let fault = Planned::parse(&format!("other = 0\n{scene}")).err().expect("no such key");
-    let (_, expected) = fault.reason.split_once("expected one of ").expect("a list of keys");
+    let reason = fault.reason();
+    let (_, expected) = reason.split_once("expected one of ").expect("a list of keys");
     expected.split('`').skip(1).step_by(2).map(String::from).collect()
 }
 
@@ -40,7 +41,7 @@ fn the_page_says_what_is_required() {
         let value = |key: &str, place| if key == "min_gap" { 0 } else { place };
         lines.map(|(key, place)| format!("{key} = {}\n", value(key, place))).collect()
     };
-    let reason = |without| Planned::parse(&scene(without)).err().map(|fault| fault.reason);
+    let reason = |without| Planned::parse(&scene(without)).err().map(|fault| fault.reason());
     assert_eq!(reason(""), None);
     for key in &required {
         assert_eq!(reason(key), Some(format!("missing field `{key}`")));

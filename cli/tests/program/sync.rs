@@ -374,6 +374,14 @@ fn a_sync_may_have_a_file_of_its_own() {
         assert!((number(&one, key) - number(&two, key)).abs() < 1e-3 * number(&one, key), "{key}");
     }
     assert_eq!(two["columns"]["sync_name"], "CH2 of 2.csv");
+    // A logic analyser lists the changes alone.
+    let mut changes = record.rows();
+    changes.dedup_by_key(|row| row[2] > 1.6);
+    let changes = changes.iter().map(|row| format!("{:.7},{}\n", row[0], u8::from(row[2] > 1.6)));
+    folder.write("changes.csv", format!("Time [s],D0\n{}", changes.collect::<String>()));
+    let three = folder.json("1.csv --sync changes.csv");
+    assert!((number(&one, "delay_s") - number(&three, "delay_s")).abs() < 5e-6, "{three}");
+    assert!(codes(&three).contains(&"changes"), "{three}");
     let other =
         "fewer.csv: it is no channel of the same record: 14399 samples, and the light has 14400";
     folder.refuses(&[

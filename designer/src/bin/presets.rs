@@ -1,11 +1,14 @@
-//! Prints what the page takes from here: scenes of `cli/scenes`, the order of the numbers in a question, where the crate lives.
+//! Prints what the page takes from here: scenes of `cli/scenes`, the order of the numbers in a question
+//! and of the codes in an answer, where the crate lives.
 
 use std::error::Error;
 use std::fs;
 
 use serde::Serialize;
+use shutter::fault::Code;
 use shutter::scene::{self, KEYS, Scene};
 use shutter_fit::unit::Unit;
+use strum::VariantNames;
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../cli/scenes");
 /// The one place that has the repository's address.
@@ -32,6 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("export const REPOSITORY = {};", repository.unwrap_or("null"));
     println!("export const UNITS = {};", serde_json::to_string(&Unit::ALL)?);
     println!("export const KEYS = {};", serde_json::to_string(&KEYS)?);
+    println!("export const CODES = {};", serde_json::to_string(Code::VARIANTS)?);
     println!("export default {};", serde_json::to_string(&presets)?);
     Ok(())
 }

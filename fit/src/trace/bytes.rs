@@ -52,17 +52,15 @@ pub fn decode(bytes: &[u8]) -> Result<String, Refusal> {
         _ if is_wide(bytes, 0) => wide(bytes, u16::from_be_bytes),
         _ => String::from_utf8_lossy(bytes).into_owned(),
     };
-    let text = match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.into(),
-        None => text,
-    };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     if text.trim().is_empty() {
         return no_csv("it is empty");
     }
     if text.contains('\0') {
         return no_csv("it holds bytes of 0, so it is binary");
     }
-    Ok(text)
+    // An old Mac's lines end without a line feed.
+    Ok(if text.contains('\n') { text.into() } else { text.replace('\r', "\n") })
 }
 
 fn wide(bytes: &[u8], pair: fn([u8; 2]) -> u16) -> String {

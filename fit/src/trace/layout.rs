@@ -89,12 +89,9 @@ impl Layout {
 
     /// Where the times of a signal are: of several columns of times, the next one to its left.
     fn time_of(&self, signal: usize) -> Time {
-        match self.time {
-            Time::Column(_, unit) => match self.times.iter().rev().find(|k| **k < signal) {
-                Some(column) => Time::Column(*column, unit),
-                None => self.time,
-            },
-            steps => steps,
+        match (self.time, self.times.iter().rev().find(|k| **k < signal)) {
+            (Time::Column(_, unit), Some(column)) => Time::Column(*column, unit),
+            (time, _) => time,
         }
     }
 
@@ -182,33 +179,24 @@ impl Columns<'_> {
         runs(&self.table.spread[k])
     }
 
-    /// The column with a name that is no more than this.
-    fn named_exactly(&self, column: &Column) -> Option<usize> {
-        (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string())
-    }
-
     /// The sync's column, which is not asked for as another.
     fn sync(&self, column: &Column, asked: &[usize]) -> Result<usize, Refusal> {
-        let refused = |reason: String| Err(Refusal::NoDelay { reason });
-        match self.table.column(column) {
-            Err(refusal) => refused(format!(
-                "{refusal}; a time has a unit, as in 1.5ms, and a file has to be there"
-            )),
+        let named = (0..self.table.width).find(|k| self.table.labels(*k)[0] == column.to_string());
+        let reason = match (self.table.column(column), named) {
+            (Err(refusal), _) => {
+                format!("{refusal}; a time has a unit, as in 1.5ms, and a file has to be there")
+            }
             // A number may be a name as well.
-            Ok(k) if self.named_exactly(column).is_some_and(|named| named != k) => {
-                let named =
-                    self.named_exactly(column).map_or(String::new(), |named| self.name(named));
-                refused(format!(
-                    "'{column}' is the number of column {}, and the name of column {named}; give the whole name",
-                    self.name(k)
-                ))
-            }
-            Ok(k) if self.runs(k) => refused(format!("column {} holds times", self.name(k))),
-            Ok(k) if asked.contains(&k) => {
-                refused(format!("column {} is the signal's", self.name(k)))
-            }
-            Ok(k) => Ok(k),
-        }
+            (Ok(k), Some(named)) if named != k => format!(
+                "'{column}' is the number of column {}, and the name of column {}; give the whole name",
+                self.name(k),
+                self.name(named)
+            ),
+            (Ok(k), _) if self.runs(k) => format!("column {} holds times", self.name(k)),
+            (Ok(k), _) if asked.contains(&k) => format!("column {} is the signal's", self.name(k)),
+            (Ok(k), _) => return Ok(k),
+        };
+        Err(Refusal::NoDelay { reason })
     }
 
     /// The signals: those that are asked for, or all columns that are neither times nor counts, if there are others.
@@ -228,7 +216,8 @@ impl Columns<'_> {
             let reason = format!("beside column {} no other holds a signal", self.name(sync));
             return Err(Refusal::NoDelay { reason });
         }
-        let is_signal = |k: &usize| !(self.counts(*k) || self.is_time(*k) && self.runs(*k));
+        let is_time = |k: usize| self.is_time(k) || matches!(self.unit(k), Said::Unit(_));
+        let is_signal = |k: &usize| !(self.counts(*k) || is_time(*k) && self.runs(*k));
         let signals: Vec<usize> = others.iter().copied().filter(is_signal).collect();
         let found = [signals, others].into_iter().find(|found| !found.is_empty());
         Ok(found.unwrap_or_else(|| columns.clone()))

@@ -25,7 +25,7 @@ const FACTORS: &str = "ten tens tenth tenths hundred hundreds hundredth hundredt
 const TIMES: &str = "time times t timestamp elapsed timer zeit temps tiempo tempo tid tijd czas aika millis micros seconds";
 /// These may stand beside one of the former.
 const BESIDE_TIMES: &str =
-    "stamp since start trigger boot axis x rel relative abs absolute in of the";
+    "stamp since start trigger boot fractional axis x rel relative abs absolute in of the";
 const COUNTS: &str = "sample samples index idx n no nr num number point points sequence seq i count counter row tick ticks";
 const SIGNALS: &str = "v mv uv µv kv volt volts mvolt mvolts millivolts a ma ua amp amps ampere w lx lux % db dbv code adc raw \
                        value logic sequence ampl unknown";
@@ -172,7 +172,7 @@ mod tests {
         let none = |is: fn(&str) -> bool, names: &str| !names.split(';').any(is);
         assert!(all(
             is_time,
-            "Time;TIME (s);t_us;Elapsed time;Zeit;time since start;time hundreds of us"
+            "Time;TIME (s);t_us;Fractional Seconds;Elapsed time;Zeit;time since start;time hundreds of us"
         ));
         assert!(none(is_time, "Real Time;Exposure time;Rise time (ms);TrigTime;CH1;x-axis"));
         assert!(all(is_axis, "x-axis;X_Value;X") && none(is_axis, "X1;CH1"));

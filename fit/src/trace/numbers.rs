@@ -23,18 +23,25 @@ pub fn split(line: &str, delimiter: char) -> impl Iterator<Item = &str> {
     fields.filter(move |field| !(blank && field.is_empty()))
 }
 
+/// What parts thousands and nothing else: blanks that do not break (the last as another encoding's), and apostrophes.
+pub const THOUSANDS: [char; 5] = ['\u{a0}', '\u{202f}', char::REPLACEMENT_CHARACTER, '\'', '’'];
+
 /// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here. Below zero with
-/// either minus, or in an accountant's brackets.
+/// either minus, or in an accountant's brackets; a sign may stand apart.
 pub fn number(field: &str, comma: bool) -> Option<f64> {
     let with_point = (comma && field.contains(',')).then(|| field.replacen(',', ".", 1));
     let field = with_point.as_deref().unwrap_or(field);
-    let below = || {
+    let other = || {
         let brackets = field.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
-        let size = brackets.or_else(|| field.strip_prefix(['\u{2212}', '\u{2013}']))?;
-        let size = size.trim_start();
-        size.starts_with(|c: char| c.is_ascii_digit() || c == '.').then(|| size.parse().ok())?
+        let below = brackets.or_else(|| field.strip_prefix(['-', '\u{2212}', '\u{2013}']));
+        let size = below.unwrap_or(field.strip_prefix('+').unwrap_or(field)).trim_start();
+        let size = size.starts_with(|c: char| c.is_ascii_digit() || c == '.').then_some(size)?;
+        let is_parted = is_grouped(&size.replace(THOUSANDS, ","));
+        let joined = if is_parted { size.replace(THOUSANDS, "") } else { size.into() };
+        let size: f64 = joined.parse().ok()?;
+        Some(if below.is_some() { -size } else { size })
     };
-    field.parse().ok().or_else(|| below().map(|size: f64| -size)).or_else(|| overload(field))
+    field.parse().ok().or_else(other).or_else(|| overload(field))
 }
 
 /// The signs by which an instrument says that a signal is too large for it.
@@ -92,6 +99,12 @@ mod tests {
             ("\u{2212}5.0", false, Some(-5.0)),
             ("\u{2013}5,0", true, Some(-5.0)),
             ("(5.00)", false, Some(-5.0)),
+            ("+    0.05", false, Some(0.05)),
+            ("- 12,5", true, Some(-12.5)),
+            ("-12\u{202f}345,5", true, Some(-12345.5)),
+            ("1'234.5", false, Some(1234.5)),
+            ("1 234.5", false, None),
+            ("12'34", false, None),
             ("-OVL", false, Some(f64::NEG_INFINITY)),
             ("(V)", false, None),
             ("(-5)", false, None),

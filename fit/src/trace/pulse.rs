@@ -219,7 +219,14 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
         let (low, high) = range(near.map(|k| values[k]));
         let outside = (values[i] - high).max(low - values[i]);
         // A step of the values more is no spike.
-        outside > (SPIKE * noise).max(1.5 * (high - low)) + least
+        if outside <= (SPIKE * noise).max(1.5 * (high - low)) + least {
+            return false;
+        }
+        // Light has noise of its own, by which neighbours differ.
+        let differ = |part: Range<usize>| part.map(|k| (values[k + 1] - values[k]).abs());
+        let (from, to) = (i.saturating_sub(14), (i + 14).min(n - 1));
+        let around = differ(from..i.saturating_sub(2)).chain(differ((i + 2).min(to)..to));
+        outside > SPIKE * median(around.collect()) / 0.954
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
@@ -442,7 +449,7 @@ fn frame(
     let (from, to) = window(t, &samples, crossings, 0.5);
     let usual = sampling_interval(&t[samples.clone()]);
     // Across a gap no sample stands for more than the usual time: nothing is known of the rest.
-    let owned = |step: f64| 0.5 * if step > 1.5 * usual { usual } else { step };
+    let owned = |step: f64| 0.5 * if step > 4.0 * usual { usual } else { step };
     let exposure = (from..to)
         .map(|i| {
             let before = t[i] - t[i.saturating_sub(1).max(samples.start)];

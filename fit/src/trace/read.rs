@@ -59,6 +59,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         }
     };
     warnings.extend(samples.warnings);
+    Warning::add(&mut warnings, sync.iter().flat_map(|sync| sync.warnings.clone()));
     let (trace, timing) = (samples.trace, samples.timing);
     let mut reading = layout.reading(&table, signal);
     reading.window = [options.from, options.to];

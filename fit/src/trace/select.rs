@@ -37,7 +37,7 @@ fn is_gate(trace: &Trace) -> bool {
 /// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told, as
 /// `name` has them, with the option that chooses them.
 pub fn light_among(
-    all: Vec<(usize, Result<Samples, Refusal>)>,
+    mut all: Vec<(usize, Result<Samples, Refusal>)>,
     name: impl Fn(usize) -> String,
     time: Option<usize>,
     warnings: &mut Vec<Warning>,
@@ -54,7 +54,6 @@ pub fn light_among(
             option: format!("--columns {choice}{}", all[other].0 + 1),
         });
     }
-    let mut all = all;
     let (column, samples) = all.swap_remove(taken);
     samples.map(|samples| (column, samples))
 }

@@ -12,7 +12,7 @@ enum Kind {
     Rate,
     /// The time from one sample to the next.
     Step,
-    /// The same, if it has a unit of time: else it is a processor's clock.
+    /// The same, if it has a unit of time: else it is another thing's.
     Clock,
     /// The first sample's time.
     Start,
@@ -38,10 +38,10 @@ const NAMES: [(Kind, &str); 9] = [
     (
         Kind::Step,
         "sampleinterval samplinginterval sampleperiod samplingperiod sampletime samplingtime samplespacing timestep \
-                  abtastintervall timeinterval timeincrement increment tinc xinc xincr xincrement hresolution deltax deltat dt",
+                  abtastintervall timeinterval timeincrement increment wfincrement tinc xinc xincr xincrement hresolution deltax deltat dt",
     ),
-    (Kind::Clock, "clock"),
-    (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime"),
+    (Kind::Clock, "clock interval delta"),
+    (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime wfstartoffset"),
     (Kind::Begin, "start"),
     (
         Kind::Trigger,
@@ -83,13 +83,12 @@ impl Measure {
 
 /// The kind of a setting's name, and the unit that it holds: in brackets, or as its last word.
 fn named(name: &str) -> Option<(Kind, Option<Measure>)> {
-    let (name, inside) = match name.split_once(['(', '[']) {
-        Some((name, inside)) => (name, Some(inside.trim_end().trim_end_matches([')', ']', ':']))),
+    let (name, mut unit) = match name.split_once(['(', '[']) {
+        Some((name, inside)) => {
+            let inside = inside.trim_end().trim_end_matches([')', ']', ':']).trim();
+            (name, Some(Measure::parse(inside)?))
+        }
         None => (name, None),
-    };
-    let mut unit = match inside {
-        Some(text) => Some(Measure::parse(text.trim())?),
-        None => None,
     };
     let mut words = words(name);
     if let (None, [_, .., last]) = (unit, words.as_slice()) {
@@ -119,6 +118,9 @@ fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
     let is_unit = |c: &char| c.is_alphanumeric() || matches!(c, '/' | 'µ' | 'μ' | '\u{fffd}');
     let behind = text[end..].trim_start();
     let unit: String = behind.chars().take_while(is_unit).collect();
+    if let Some(each) = unit.to_lowercase().strip_suffix("/sample").and_then(unit_of) {
+        return Some((1.0 / each.seconds(x), Some(Measure::Hertz(1.0))));
+    }
     // Another rate behind the first leaves open which one is meant.
     let others = behind[unit.len()..].split([' ', '(', ')', ',', ';']);
     let mut others = others.filter_map(Measure::parse);
@@ -151,44 +153,39 @@ impl Settings {
     /// From lines, each with its fields; what stands in the next line below a name may be its value.
     pub fn new(lines: &[(&str, Vec<String>)], comma: bool) -> Self {
         let mut settings = Self::default();
+        let is_digit = |c: char| c.is_ascii_digit();
         for (k, (line, fields)) in lines.iter().enumerate() {
             let below = lines.get(k + 1).map_or(&[][..], |(_, fields)| fields);
             let known = settings.steps.len();
             let is_alone = fields.iter().filter(|field| !field.is_empty()).count() == 1;
+            let several = line.matches('=').count() > 1;
             for (c, field) in fields.iter().enumerate() {
                 let at = |k: usize| fields.get(k).map_or("", String::as_str);
                 let unit = Some(at(c + 2)).filter(|unit| Measure::parse(unit).is_some());
                 let beside = format!("{} {}", at(c + 1), unit.unwrap_or_default());
                 let below = below.get(c).map_or("", String::as_str);
-                let digit = field.find(|c: char| c.is_ascii_digit()).unwrap_or(field.len());
+                let digit = field.find(is_digit).unwrap_or(field.len());
                 let mark = field.find(['=', ':']).filter(|k| !field[k + 1..].trim().is_empty());
                 // Of `100,000 Hz` it stays open what the comma means.
-                let digits =
-                    at(c + 1).find(|c: char| !c.is_ascii_digit()).unwrap_or(at(c + 1).len());
-                let several = line.matches('=').count() > 1;
+                let goes_on = at(c + 1).starts_with(is_digit);
+                let words = if several { field } else { *line };
+                let mut add = |words: &str, name, text| settings.add(words, name, text, comma);
                 let _ = match mark {
-                    Some(_) if digits > 0 => false,
-                    Some(at) if several => {
-                        settings.add(field, &field[..at], &field[at + 1..], comma)
-                    }
-                    Some(at) => settings.add(line, &field[..at], &field[at + 1..], comma),
+                    Some(at) => !goes_on && add(words, &field[..at], &field[at + 1..]),
                     None => {
-                        settings.add(line, field, &beside, comma)
-                            || settings.add(&format!("{field} {below}"), field, below, comma)
-                            || digits == 0
+                        add(line, field, &beside)
+                            || add(&format!("{field} {below}"), field, below)
+                            || !goes_on
                                 && (is_alone || digit > 0)
-                                && settings.add(line, &field[..digit], &field[digit..], comma)
+                                && add(line, &field[..digit], &field[digit..])
                     }
                 };
             }
-            let line = line.to_lowercase();
-            let may_tell =
-                ["sampl", "rate", "interval", "increment"].iter().any(|w| line.contains(w));
-            if may_tell
-                && settings.steps.len() == known
-                && line.contains(|c: char| c.is_ascii_digit())
-            {
-                settings.unread.get_or_insert(short_of(lines[k].0.trim()));
+            let words = line.to_lowercase();
+            let is_near =
+                ["sampl", "rate", "interval", "increment"].iter().any(|it| words.contains(it));
+            if is_near && settings.steps.len() == known && line.contains(is_digit) {
+                settings.unread.get_or_insert(short_of(line.trim()));
             }
         }
         settings
@@ -288,7 +285,7 @@ mod tests {
         let ten_microseconds = "Sample rate: 100000 Hz|Samplerate: 100 kHz|Sampling rate 100 kHz|Sampling rate (kHz): 100\
             |Sample Rate [kS/s],100|Sampling Rate:100.0KSa/s|sampling_rate_hz=100000|Sample Rate: 100000 Hz. Values are linear.\
             |100 kHz|100.000 kHz|Sample rate: 100000.000|XInc,10\nXUnits,us|HResolution,1E-5\nHUnit,s|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
-            |XInc:,1.0E-05|CLOCK=10.0uS|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
+            |XInc:,1.0E-05|CLOCK=10.0uS|Interval=,1E-05 s|Delta(second),1.0E-05|0.01 msec/sample|Unit,wf_increment\nV,0.00001|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
         for text in ten_microseconds.split('|') {
             assert!(
                 (step(text).unwrap_or_default() - 1e-5).abs() < 1e-15,
@@ -296,7 +293,7 @@ mod tests {
                 step(text)
             );
         }
-        let nothing = "Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
+        let nothing = "Interval,2|Delta,1.0E-05|10 msec|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
             |Sample rate: 100.000 Hz|Sample rate: 1.000.000|Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
         nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));
@@ -309,7 +306,7 @@ mod tests {
     #[test]
     fn a_setting_gives_the_first_time() {
         let start = |text: &str| settings(text, ',', false).start(1e-5);
-        let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|XOrg:,-6.0E-03\nStart:,0\
+        let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|Unit,wf_start_offset\nV,-0.006|XOrg:,-6.0E-03\nStart:,0\
             |Trigger Point,600,Samples|Trigger position: 600|Trigger Address,600|Zero Index,600|X,Start\nSequence,-6.0ms";
         for text in six_before.split('|') {
             assert!(

@@ -1,8 +1,8 @@
 //! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands above them.
 
 use super::asked::Column;
-use super::names::{is_axis, is_time, is_unit, words};
-use super::numbers::{is_decimal, is_grouped, number, short_of, split};
+use super::names::{has, is_axis, is_time, is_unit, words};
+use super::numbers::{THOUSANDS, is_decimal, is_grouped, number, short_of, split};
 use super::settings::{Settings, is_setting};
 use super::told::Refusal;
 
@@ -43,7 +43,8 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
     }
     let fields = || lines.iter().flat_map(|line| split(line, delimiter));
     // Without its marks a number is digits, whichever mark is which.
-    let is_number = |field: &&str| number(&field.replace([',', '.'], ""), false).is_some();
+    let is_mark = |c: char| matches!(c, ',' | '.') || THOUSANDS.contains(&c);
+    let is_number = |field: &&str| number(&field.replace(is_mark, ""), false).is_some();
     let Some(comma) = fields().find(|field| field.contains(',') && is_number(field)) else {
         return Ok((delimiter, false));
     };
@@ -165,7 +166,10 @@ impl<'a> Table<'a> {
         if table.columns.is_empty() {
             return Err(table.no_rows(total));
         }
-        let count = table.without_header(&lines, first, &most);
+        let mut count = table.without_header(&lines, first, &most);
+        // Below the names may be how many rows follow.
+        let counts = |line: usize| table.counts(lines[line], total - count);
+        count += usize::from(count + 1 < lines.len() && counts(count) && !counts(count + 1));
         table.above = lines[..count].iter().map(|line| (*line, table.fields_above(line))).collect();
         table.width = split(lines[first], delimiter).count();
         table.names = table.names();
@@ -247,12 +251,18 @@ impl<'a> Table<'a> {
         first - (0..first).rev().take_while(|line| self.columns.len() > 1 && is_row(line)).count()
     }
 
+    /// Is each of its numbers, to a hundredth, how many rows there are?
+    fn counts(&self, line: &str, rows: usize) -> bool {
+        let mut fields = split(line, self.delimiter);
+        let is_count = |x: f64| (x / rows as f64 - 1.0).abs() < 0.01;
+        fields.all(|field| number(field, self.decimal_comma).is_none_or(is_count))
+    }
+
     fn no_rows(&self, total: usize) -> Refusal {
         // A line of the middle shows best what the rows are.
-        let shown = filled_lines(self.text)
-            .nth(total / 2)
-            .map(|line| line.chars().take(60).collect::<String>());
-        let shown = shown.unwrap_or_default().replace(|c: char| c.is_control(), " ");
+        let line = filled_lines(self.text).nth(total / 2).unwrap_or_default();
+        let shown = line.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60);
+        let shown: String = shown.collect();
         let reason = format!("there is no row of numbers in it; its middle line is '{shown}'");
         Refusal::NotCsv { reason }
     }
@@ -297,12 +307,13 @@ impl<'a> Table<'a> {
                 && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
         };
         // Names that are told to be some.
-        let is_told =
-            |(_, fields): &&Above| words(&fields[0]).concat() == "tracename" && is_wide(fields);
+        let is_told = |(_, fields): &&Above| {
+            has("tracename channeltitle", &words(&fields[0]).concat()) && is_wide(fields)
+        };
         if let Some((_, fields)) = self.above.iter().find(is_told) {
             return [fields.clone(), Vec::new()];
         }
-        let has_words = |line: &str| line.contains(char::is_alphanumeric);
+        let has_words = |line: &str| line.contains(char::is_alphabetic);
         let is_it = |(line, fields): &Above| has_words(line) && is_wide(fields);
         let Some(lowest) = self.above.iter().rposition(is_it) else {
             return Default::default();
@@ -320,6 +331,7 @@ impl<'a> Table<'a> {
     fn is_setting(&self, fields: &[String]) -> bool {
         let first = fields[self.columns[0]].as_str();
         let before_brackets = first.split(['(', '[']).next().unwrap_or_default();
+        let behind_mark = before_brackets.rsplit_once(['=', ':']).map(|(_, behind)| behind);
         let is_number = |field: &str| number(field, self.decimal_comma).is_some();
         let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
         let is_date = |field: &str| {
@@ -334,7 +346,9 @@ impl<'a> Table<'a> {
             !may_be && (is_number(field) || is_date(field) || is_measure(field))
         };
         let is_setting_before = self.columns[0] > 0 && is_setting(&fields[0]);
-        is_setting_before || fields.iter().any(is_value) || before_brackets.contains(['=', ':'])
+        is_setting_before
+            || fields.iter().any(is_value)
+            || behind_mark.is_some_and(|name| !is_time(name))
     }
 
     /// What the lines above the rows say of the times.
@@ -348,13 +362,8 @@ impl<'a> Table<'a> {
         // Settings may stand beside the first rows, where others have nothing.
         let beside = self.rows().take(JUDGED).map(|(_, row)| {
             let fields = split(row, self.delimiter).enumerate();
-            (
-                row,
-                fields
-                    .filter(|(k, _)| !self.columns.contains(k))
-                    .map(|(_, field)| field.into())
-                    .collect(),
-            )
+            let others = fields.filter(|(k, _)| !self.columns.contains(k));
+            (row, others.map(|(_, field)| field.into()).collect())
         });
         let has_words =
             |(_, fields): &Above| fields.iter().any(|field| field.contains(char::is_alphabetic));
@@ -367,12 +376,8 @@ impl<'a> Table<'a> {
     /// Is the line a row of names, though not of these columns?
     pub fn names_others(&self, line: &str) -> bool {
         let fields = self.fields_above(line);
-        let is_name = |k: &usize| {
-            fields.get(*k).is_some_and(|field| {
-                field.starts_with(char::is_alphabetic)
-                    && number(field, self.decimal_comma).is_none()
-            })
-        };
+        let is_name =
+            |k: &usize| fields.get(*k).is_some_and(|field| self.holds(field) == Holds::Word);
         self.columns.len() > 1
             && self.columns.iter().all(is_name)
             && self.columns.iter().any(|k| self.names[0].get(*k) != fields.get(*k))

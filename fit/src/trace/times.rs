@@ -1,7 +1,7 @@
 //! What the times of a file's rows are beside numbers: segments that begin anew, values that were rounded, changes of a level that stays
 //! in between.
 
-use super::samples::{Trace, median};
+use super::samples::{Trace, median, range};
 use super::table::Table;
 use super::told::Warning;
 use crate::unit::Unit;
@@ -42,23 +42,26 @@ const OFTEN: usize = 20;
 const STAYS: usize = 4000;
 const USUAL: f64 = 1000.0;
 
-/// Goes on where a timer of so many bits began anew at 0, if it is no segment that does.
+/// A fraction of it begins anew, whether it began at 0 or not.
+const SECOND: f64 = 1.0;
+
+/// Goes on where a timer of so many bits, or a second's fraction, began anew at 0, if it is no segment that does.
 fn unwrap(rows: &mut [Sample]) {
     let Some(step) =
         rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0)
     else {
         return;
     };
-    for whole in [1u64 << 16, 1 << 32]
-        .iter()
-        .flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)))
-    {
+    let timers = [1u64 << 16, 1 << 32];
+    let timers = timers.iter().flat_map(|bits| Unit::ALL.map(|unit| unit.seconds(*bits as f64)));
+    for whole in timers.chain([SECOND]) {
         let wraps = |pair: &[Sample]| {
             pair[1].time < pair[0].time
                 && (0.0..5.0 * step).contains(&pair[1].time)
                 && (0.0..5.0 * step).contains(&(whole - pair[0].time))
         };
-        if rows[0].time < 5.0 * step || !rows.windows(2).any(wraps) {
+        let is_segment = rows[0].time < 5.0 * step && whole != SECOND;
+        if is_segment || !rows.windows(2).any(wraps) {
             continue;
         }
         let (mut later, mut before) = (0.0, rows[0]);
@@ -106,8 +109,7 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
     let again = || rows.windows(2).filter(|pair| pair[1].time == pair[0].time);
     let differ = again().filter(|pair| pair[1].value != pair[0].value).count();
     // Without repeated times there are two steps that differ by one of the rounding.
-    let (least, most) =
-        steps().fold((f64::INFINITY, 0.0), |(a, b), step| (f64::min(a, step), f64::max(b, step)));
+    let (least, most) = range(steps());
     let rounding = most - least;
     let near = |to: f64| steps().filter(|step| (step - to).abs() < 0.1 * rounding).count() * OFTEN;
     let is_two =
@@ -190,8 +192,7 @@ pub fn lists_changes(table: &Table, time: usize) -> bool {
         values.len() == times.len() && values.iter().all(|v| *v == values[0] || Some(v) == other)
     };
     let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let (least, most) =
-        steps().fold((f64::INFINITY, 0.0), |(a, b), step| (f64::min(a, step), f64::max(b, step)));
+    let (least, most) = range(steps());
     let changes = |k: &usize| others.iter().any(|values| values[*k] != values[k - 1]);
     let n = times.len();
     n > 2

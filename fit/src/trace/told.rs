@@ -14,7 +14,6 @@ use crate::unit::{self, short};
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
 pub enum Refusal {
-    /// Nothing that looks like rows of numbers.
     #[error(
         "this is no CSV of samples: {reason}; export the trace as text, a time and a value in each row, both plain \
          numbers"
@@ -27,27 +26,22 @@ pub enum Refusal {
         no_rate(.quoted)
     )]
     NoTimes { columns: String, text: Option<String>, quoted: Option<String> },
-    /// Numbers that count rows, and no rate.
     #[error(
         "column {name} counts without a unit, so it is no time, {}; {RATE}, or the unit with --unit if it is one",
         no_rate(.quoted)
     )]
     Counter { name: String, quoted: Option<String> },
-    /// A unit of time with something beside it.
     #[error(
         "'{name}' above the times is more than a unit, or one that is not read; give the unit with --unit us, ms or s, \
          or the sampling rate in hertz, as in --rate 100000"
     )]
     UnclearUnit { name: String },
-    /// A column that is asked for twice.
     #[error("column {name} is asked for twice; see --columns")]
     SameColumn { name: String },
-    /// Several recordings below each other.
     #[error(
         "line {line}: '{text}' between the rows begins another recording; put each into a file of its own"
     )]
     Blocks { line: u64, text: String },
-    /// Two lines above the numbers tell different rates.
     #[error(
         "'{first}' and '{second}' above the numbers tell different rates; give the right one, as in --rate 100000"
     )]
@@ -55,10 +49,8 @@ pub enum Refusal {
     /// A number with a comma, beside another with a point or alone.
     #[error("{}", thousands(.number, .other))]
     Thousands { number: String, other: String },
-    /// A column that is asked for is not there.
     #[error("there is no column '{name}'; there are {there}; see --columns")]
     NoColumn { name: String, there: String },
-    /// Too many rows that are no samples.
     #[error(
         "line {line}: {reason}; {count} of {rows} rows are like that, too many to leave out; is this the file, and are \
          --columns right? Read: {reading}"
@@ -69,16 +61,13 @@ pub enum Refusal {
         "times and values have to be as many, finite numbers up to {LARGEST:e}, and times in order"
     )]
     Unsound,
-    /// So few that nothing can be told.
     #[error("{} in the trace, and at least {required} are required; sample faster", counted(.samples, "sample"))]
     TooFewSamples { samples: usize, required: usize },
-    /// The signal stays at one level.
     #[error(
         "no pulse: the brightest part stands out by {contrast:.1} times the noise, and {CONTRAST} are required; is \
          this the right channel (--columns), and was the light on?"
     )]
     NoPulse { contrast: f64 },
-    /// The pulse has so few samples that its shape cannot be told.
     #[error(
         "the pulse has {}, and at least {required} are required to tell its shape; {}",
         counted(.samples, "sample"),
@@ -103,16 +92,13 @@ pub enum Refusal {
          light moves the signal (--light up or --light down)"
     )]
     WhichWay,
-    /// A frame that is asked for is not there.
     #[error("there is no frame {number}; the trace has {}", counted(.frames, "whole frame"))]
     NoFrame { number: usize, frames: usize },
-    /// The full light that is given is less than the trace shows.
     #[error(
         "--full {given}: the trace reaches {seen:.4}, more than the signal of full light; it is given in the trace's \
          own unit, the dark level included"
     )]
     FullTooLow { given: f64, seen: f64 },
-    /// The samples of a ramp are missing.
     #[error(
         "samples are missing from {} to {}, and the light changes there: a ramp is lost; record it again",
         short(*.from, 4),
@@ -128,7 +114,6 @@ pub enum Refusal {
          fall, with samples on each?"
     )]
     Undetermined,
-    /// No scene can be written that can be planned.
     #[error(
         "no scene can be made of this: {reason}; {}",
         if reason.starts_with("triggers ") {
@@ -177,13 +162,10 @@ fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
 #[non_exhaustive]
 #[strum(serialize_all = "snake_case")]
 pub enum Warning {
-    /// Rows that are no samples were left out.
     #[error("line {line}: {reason}; {} left out", such_rows(.count))]
     BrokenRows { count: usize, line: u64, reason: String },
-    /// Samples that were out of order.
     #[error("line {line}: time runs back; the samples are put in order")]
     Unsorted { line: u64 },
-    /// Samples at the same time, averaged.
     #[error(
         "line {line}: the same time again; {} {} averaged with the other of their time",
         counted(.count, "sample"),
@@ -197,23 +179,19 @@ pub enum Warning {
         time(.to)
     )]
     RoundedTimes { to: f64 },
-    /// The rows are changes of levels.
     #[error(
         "the rows list the changes of a level of two values, as a logic analyser's do: it is taken to stay in between, so no \
          ramp shows"
     )]
     Changes,
-    /// The file does not tell the time's unit.
     #[error(
         "the file does not say in which unit its times are; they are taken as seconds (see --unit)"
     )]
     UnitAssumed,
-    /// Another column holds a pulse as well, and an option takes that.
     #[error(
         "two columns hold a pulse: {taken} is taken for the light, and {other} is not ({option} takes that)"
     )]
     SecondSignal { taken: String, other: String, option: String },
-    /// Values that the instrument could not show.
     #[error(
         "line {line}: the value is infinite; {} of the instrument {} taken as clipped, so the exposure may come out \
          wrong; choose a larger range",
@@ -229,14 +207,12 @@ pub enum Warning {
         time(.by)
     )]
     SyncBounced { few: usize, all: usize, by: f64 },
-    /// So many of all shots have no edge before them.
     #[error(
         "{few} of {} of this speed have no edge of the sync before them, and do not count in the delay; check the \
          lead",
         counted(.all, "shot")
     )]
     SyncMissing { few: usize, all: usize },
-    /// So many edges start no shot.
     #[error("{} of the sync {} no whole shot of the trace", counted(.edges, "edge"), if *.edges == 1 { "starts" } else { "start" })]
     SyncOthers { edges: usize },
     /// The edge comes after the opening in so many of all shots, by so much at most.
@@ -247,26 +223,21 @@ pub enum Warning {
         time(.by)
     )]
     SyncLate { few: usize, all: usize, by: f64 },
-    /// The file is a sound.
     #[error(
         "a sound card passes no steady light: it is coupled by a capacitor, and may change its gain by itself; take a \
          recorder that is coupled for DC, where the exposure matters"
     )]
     SoundCard,
-    /// The file ends before all samples that its beginning announces.
     #[error(
         "the file is cut off: it announces {} and holds {samples}; what was recorded after these is missing, so copy \
          or save it again",
         counted(.announced, "sample")
     )]
     CutOff { samples: usize, announced: usize },
-    /// Samples left out as spikes.
     #[error("{} left out, the first at {} s", counted(.count, "spike"), short(*.first, 9))]
     Spikes { count: usize, first: f64 },
-    /// Flashes too small to be frames, left out.
     #[error("{} left out: with less than a fifth of the light of the largest pulse", counted(.count, "small pulse"))]
     Glitches { count: usize },
-    /// A pulse that the trace's beginning or end cuts, or that has another right beside it.
     #[error(
         "pulse {number} of the trace has too little dark beside it, and is left out; --frame counts those that are \
          whole"
@@ -279,7 +250,6 @@ pub enum Warning {
         percent(.scatter)
     )]
     ShotsDiffer { scatter: f64 },
-    /// The lamp is switched on and off, and what was found are its pulses.
     #[error(
         "pulses follow each other at {} Hz: that is a lamp which is switched on and off (PWM), and the exposure is one \
          of its pulses', not the shutter's; use a steady lamp",
@@ -293,21 +263,18 @@ pub enum Warning {
     )]
     #[strum(serialize = "ac_coupled")]
     Coupled { seconds: f64 },
-    /// The signal goes to both sides of the dark.
     #[error(
         "the signal goes {} of the light to the other side of the dark, which light does not do: a recorder that is \
          coupled by a capacitor (AC, a sound card) does, and no result of such a trace is right; couple it for DC",
         percent(.share)
     )]
     Undershoot { share: f64 },
-    /// The trace ends before the light does.
     #[error(
         "the signal still falls where the trace ends, {} of the light above the dark before: the tail is cut off, so \
          the exposure comes out too short; record a longer window",
         percent(.left)
     )]
     CutTail { left: f64 },
-    /// The signal sinks slowly to the dark behind the pulse.
     #[error(
         "a tail that begins with {} of the light follows the pulse: it is taken for the sensor's lag, and left out; if it is the \
          light's own, the exposure is {}; a faster sensor tells",
@@ -315,14 +282,12 @@ pub enum Warning {
         unit::Unit::fit(*with).show(*with)
     )]
     SlowTail { share: f64, with: f64 },
-    /// The lamp's light goes up and down, which is taken out.
     #[error(
         "the lamp flickers at {} Hz by {} of its light, which is fitted and taken out; a steady lamp is better",
         short(*.hertz, 4),
         percent(.amplitude)
     )]
     Flicker { hertz: f64, amplitude: f64 },
-    /// Light lowers the signal, by all appearance.
     #[error(
         "light seems to lower the signal, so it is turned round; if it does not, the trace begins and ends in the \
          light (--light up)"
@@ -336,7 +301,6 @@ pub enum Warning {
         short(*.at, 4)
     )]
     Clipped { share: f64, at: f64 },
-    /// A sine in the signal.
     #[error(
         "hum of {} Hz, {:.2} % of the light, fitted and taken out; if it is the lamp's own flicker (mains, or an LED's \
          PWM), use a steady one",
@@ -352,24 +316,20 @@ pub enum Warning {
         mains(*.hertz, *.is_known)
     )]
     ShortHum { hertz: f64, amplitude: f64, periods: f64, is_known: bool },
-    /// The dark level drifts so far over the frame.
     #[error("the dark level drifts by {:.2} % of the light over the samples that are fitted, and is taken out", 100.0 * amount)]
     Drift { amount: f64 },
-    /// The ramps are lost in the noise.
     #[error(
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
         100.0 * noise
     )]
     #[strum(serialize = "noise")]
     NoiseHidesRamps { noise: f64 },
-    /// Edges that take two samples at most.
     #[error(
         "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
          faster if that matters",
         time(&(step / 12f64.sqrt()))
     )]
     SharpEdges { step: f64 },
-    /// There is no plateau: full light may never be reached.
     #[error(
         "there is no plateau to speak of: the shutter may never open fully; the peak counts as full light, unless the \
          signal of full light is given (--full)"
@@ -382,7 +342,6 @@ pub enum Warning {
         percent(.share)
     )]
     WideError { share: f64 },
-    /// Samples are missing in the pulse or beside it: the longest gap's ends.
     #[error(
         "samples are missing at {} in the pulse or beside it, the longest from {} to {} s: what the shutter did \
          there is not known; record it again",
@@ -398,7 +357,6 @@ pub enum Warning {
         percent(.share)
     )]
     Unseen { share: f64 },
-    /// A drift that may as well be a capacitor's step.
     #[error(
         "the dark is {:.2} % of the light {} after the pulse than before: a drift, as which it is taken out, or a \
          capacitor before the recorder (AC), which would move the triggers; couple it for DC, or record more dark",
@@ -420,12 +378,10 @@ pub enum Warning {
         }
     )]
     Misfit { share: f64, after: f64, by_trace: bool },
-    /// There is too little dark to tell whether the model explains the trace.
     #[error(
         "there is too little dark beside the pulse to tell whether the model explains the trace; record more of it"
     )]
     Untested,
-    /// The times are too far from 0 for the scene's numbers.
     #[error(
         "the trace's times are too far from 0 for the scene's numbers; time 0 is where the shutter starts to open, as \
          with --zero open"
@@ -437,6 +393,15 @@ impl Warning {
     /// A name that a program can ask for: it stays as it is.
     pub fn code(&self) -> &'static str {
         self.into()
+    }
+
+    /// Adds those of others that are not told yet.
+    pub fn add(told: &mut Vec<Self>, others: impl IntoIterator<Item = Self>) {
+        for other in others {
+            if told.iter().all(|it| it.code() != other.code()) {
+                told.push(other);
+            }
+        }
     }
 }
 

@@ -11,8 +11,8 @@ use crate::generator::{Random, each};
 
 /// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in exponential
 /// notation, `{mv}` in thousands, `{adc}` in whole ones, `{g}` a gate of 5 V, `{d}` one of 0 and 1, `{z}` a channel that is not
-/// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{ns}`; `{i}` counts; `{set}` is a setting
-/// in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
+/// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{k us}` with its thousands apart,
+/// `{ns}`; `{i}` counts; `{set}` is a setting in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
 pub fn rows(row: &str) -> String {
     let settings =
         ["Record Length,1200", "Sample Interval,1e-05", "Trigger Point,600", "Source,CH1"];
@@ -31,6 +31,7 @@ pub fn rows(row: &str) -> String {
             ("ms", format!("{:.4}", t * 1e3)),
             ("-ms", format!("{:.4}", t * 1e3 - 6.0)),
             ("us", format!("{:.1}", t * 1e6)),
+            ("k us", format!("{}\u{202f}{:05.1}", 1 + i / 100, t * 1e6 % 1e3)),
             ("ns", format!("{:.0}", t * 1e9)),
             ("v", format!("{v:.5}")),
             ("e", format!("{v:.5e}")),
@@ -204,6 +205,13 @@ const EXPORTS: &[Export] = &[
     ("catman", "Zeit  1 - Standardmessrate [s]\tMGCplus_1_CH 1 [V]\n", "{,t}\t{,v}", 2, "in s, by its name", ""),
     ("Nicolet", "Time/s,Ch1/V\n", "{t},{v}", 2, "in s, by its name", ""),
     ("Origin", "Time\tCH1\nms\tV\n", "{ms}\t{v}", 2, "in ms, by its name", ""),
+    ("LabChart", "Interval=\t1E-05 s\nChannelTitle=\tLight\tSync\nRange=\t2.000 V\t5.000 V\nUnitName=\tV\tV\n", "{t}\t{v}\t{g}", 2,
+        "in s, by 'Interval= 1E-05 s'", "second_signal"),
+    ("AcqKnowledge", "0.01 msec/sample\n2 channels\nLight\nVolts\nmsec\tCH1\tCH2\t\n\t1200\t1200\t\n", "{ms}\t{v}\t{g}\t", 2,
+        "\"msec\" in ms, by its name", "second_signal"),
+    ("AcqKnowledge, without times", "0.01 msec/sample\nCH1\tCH2\n1199\t1201\n", "{v}\t{g}", 1,
+        "100000 samples a second, by '0.01 msec/sample'", "second_signal"),
+    ("Graphical Analysis", "Run 1: Time (ms),Run 1: Light (lx)\n", "{ms},{v}", 2, "in ms, by its name", ""),
     ("LabJack", "Time\tAIN0\n", "{t}\t{v}", 2, "in s, assumed", "unit_assumed"),
     ("TracerDAQ", "Sample Rate (Hz): 100000\nSample,CHANNEL0\n", "{i},{v}", 2, "100000 samples a second, by 'Sample Rate (Hz)", ""),
     ("LabJack stream", "Scan Rate,100000\nAIN0,AIN1\n", "{v},{g}", 1, "100000 samples a second, by 'Scan Rate", "second_signal"),
@@ -245,6 +253,8 @@ const EXPORTS: &[Export] = &[
     ("an index, without names", "", "{i};{t};{v}", 3, "column 2 in s, assumed", "unit_assumed"),
     ("a count with a rate above", "# Sample rate: 100000 Hz\nSample,CH1\n", "{i},{v}", 2, "100000 samples a second, by '# Sample", ""),
     ("a lone rate", "100000 Hz\n# bits: 12\n", "{v}", 1, "100000 samples a second, by '100000 Hz'", ""),
+    ("a blank between thousands", "sep=;\nTemps (µs);Lumière\n", "{,k us};{,v}", 2, "in µs, by its name", ""),
+    ("signs apart", "NO.,Time,ms,V\n", "{i},2026/11/20 10:00:07,+ {ms},+  {v}", 4, "in ms, by its name", ""),
     ("quoted decimal commas", "", "\"{,ms}\",\"{,v}\"", 2, "in s, assumed", "unit_assumed"),
     ("a flat channel beside it", "Time [s],A,B\n", "{t},{z},{v}", 3, "\"Time [s]\" in s", ""),
     // A setting above the names tells no unit.

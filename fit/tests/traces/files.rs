@@ -64,15 +64,17 @@ fn of_two_signals_the_light_is_taken_and_the_other_named() {
 
 #[test]
 fn an_infinite_value_is_an_overload() {
-    for sign in ["inf", "∞", "1.#INF", "OL"] {
+    for (sign, of_sync) in [("inf", false), ("∞", true), ("1.#INF", false), ("OL", true)] {
         let row = |_, t: f64, v: f64| {
-            if v > 0.9 { format!("{t:.6},{sign}") } else { format!("{t:.6},{v:.5}") }
+            let sign_of = |is: bool| if is && v > 0.9 { sign.into() } else { format!("{v:.5}") };
+            format!("{t:.6},{},{}", sign_of(!of_sync), sign_of(of_sync))
         };
-        let (recording, _) =
-            read(with("time_s,v\n", row).as_bytes(), &trace::Options::default()).unwrap();
+        let (sync, text) = (Some(Column::Number(3)), with("time_s,v,w\n", row));
+        let how = trace::Options { sync, ..Default::default() };
+        let (recording, _) = read(text.as_bytes(), &how).unwrap();
         assert_eq!(recording.trace.times.len(), 1200, "{sign}");
-        let told = recording.warnings.iter().any(|w| matches!(w, Warning::Overload { .. }));
-        assert!(told, "{sign}: {:?}", recording.warnings);
+        let told: Vec<_> = recording.warnings.iter().map(Warning::code).collect();
+        assert!(told.contains(&"overload"), "{sign}: {told:?}");
     }
 }
 
@@ -154,6 +156,7 @@ fn other_files_of_the_same_trace_are_read() {
         (wide(&marked, u16::to_le_bytes), vec![]),
         (wide(&marked, u16::to_be_bytes), vec![]),
         (marked.into(), vec![]),
+        (text.replace('\n', "\r").into(), vec![]),
         (broken.into(), vec![broken_rows, Warning::Overload { count: 1, line: 308 }]),
         (lines.join("\n").into(), unsorted.into()),
     ] {
@@ -304,14 +307,30 @@ fn segments_whose_times_begin_anew_are_shots() {
     assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
 }
 
-/// A timer of 16 or 32 bits that begins anew goes on; nobody counts seconds by the hundred; a number may be a name.
+/// As a simulator chooses its steps.
+#[test]
+fn uneven_samples_count_for_their_own_time() {
+    let text = with("time_s,v\n", |_, t, v| format!("{t:.6},{v:.4}"));
+    let lines = text.lines().enumerate().filter(|(i, _)| [0, 1, 2, 3, 5, 8].contains(&(i % 9)));
+    let text: String = lines.map(|(_, line)| format!("{line}\n")).collect();
+    let (recording, _) = read(text.as_bytes(), &trace::Options::default()).unwrap();
+    let pulses = trace::pulses(&recording.trace, trace::Light::Auto).unwrap();
+    assert!((pulses.frames[0].exposure / 0.005 - 1.0).abs() < 5e-3, "{:?}", pulses.frames);
+}
+
+/// A timer of 16 or 32 bits, or a second's fraction, goes on when it begins anew; nobody counts seconds by the hundred; a number may
+/// be a name.
 #[test]
 fn a_timers_count_and_a_channels_number_are_not_misread() {
-    for (bits, tick) in [(16, 50), (32, 10)] {
-        let first = (1u64 << bits) - 600 * tick;
-        let text = with("micros,adc\n", |i, _, v| {
-            format!("{},{v:.4}", (first + tick * i as u64) % (1 << bits))
-        });
+    let second = 1_000_000;
+    let timers =
+        [(1u64 << 16, 50, 600), (1 << 32, 10, 600), (second, 10, 600), (second, 1250, 800)];
+    for (whole, tick, before) in timers {
+        let first = whole - before * tick;
+        let text =
+            with("us,adc\n", |i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
+        let rated = trace::Options { rate: Some(1e6 / tick as f64), ..Default::default() };
+        assert_eq!(open(text.as_bytes(), &rated).unwrap().reading.signal.0, 2);
         let (fit, _, codes) = doubted(&text, None);
         let truth = 500e-6 * tick as f64;
         assert!(

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use shutter_fit::trace::Warning;
+use shutter_fit::trace::{Trace, Warning};
 use shutter_fit::{From, Options, Sync, fit};
 use strum::IntoEnumIterator;
 
@@ -284,4 +284,38 @@ fn the_true_start_of_opening_is_within_its_stated_error() {
     });
     let missed = held.iter().filter(|held| !**held).count();
     assert!(20 * missed <= held.len(), "{missed} of {}", held.len());
+}
+
+/// The codes of what is told of a pulse: 2000 samples of this openness from -1 to 1, and of this noise, by the light.
+fn told(openness: impl Fn(f64) -> f64, noise: impl Fn(f64) -> f64, seed: u64) -> Vec<&'static str> {
+    let mut random = Random::new(seed);
+    let times: Vec<f64> = (0..2000).map(|i| f64::from(i) * 2e-6 - 2e-3).collect();
+    let values = times.iter().map(|t| {
+        let light = openness(t * 1e3);
+        light + noise(light) * random.normal()
+    });
+    let trace = Trace { values: values.collect(), times };
+    let fit = fit(&trace, &Options::default(), &mut |_| ()).expect("a fit");
+    fit.warnings.iter().map(Warning::code).collect()
+}
+
+/// Noise of the light is no spike, and a spike in it still is one.
+#[test]
+fn shot_noise_has_no_spikes() {
+    let trapezoid = |t: f64| ((0.8 - t.abs()) / 0.1).clamp(0.0, 1.0);
+    let shot = |light: f64| 0.002 + 0.03 * light.sqrt();
+    let false_ones = (0..20).filter(|seed| told(trapezoid, shot, *seed).contains(&"spikes"));
+    assert_eq!(false_ones.count(), 0);
+    let struck = |t: f64| trapezoid(t) + if (0.1..0.102).contains(&t) { 0.4 } else { 0.0 };
+    let found = (0..20).filter(|seed| told(struck, shot, *seed).contains(&"spikes"));
+    assert_eq!(found.count(), 20);
+}
+
+/// A slit that passes a wider sensor never opens fully, and says so; a short plateau does.
+#[test]
+fn a_bell_may_never_be_fully_open() {
+    let bell = |t: f64| 0.4 * (1.0 - (t / 0.7).abs().powf(2.5)).max(0.0);
+    assert!(told(bell, |_| 0.001, 1).contains(&"no_plateau"));
+    let short = |t: f64| ((0.7 - t.abs()) / 0.5).clamp(0.0, 1.0);
+    assert!(!told(short, |_| 0.002, 1).contains(&"no_plateau"));
 }
