@@ -2,6 +2,7 @@
 //! ticks and the numbers of the plan to the bit.
 
 use std::env;
+use std::fmt::Display;
 use std::path::Path;
 use std::process::Command;
 use std::sync::OnceLock;
@@ -72,8 +73,9 @@ fn ran(folder: &Folder, main: &str, args: &[&str]) -> String {
 
 /// Compiles a file of modules as a library that asks for documentation, with all that Clippy could say, and checks how they are
 /// written.
-fn is_clean(folder: &Folder, file: &str, modules: &[&str], linked: &[&str]) {
-    let modules: String = modules.iter().map(|name| format!("/// .\npub mod {name};\n")).collect();
+fn is_clean(folder: &Folder, file: &str, modules: &[impl Display], linked: &[&str]) {
+    let module = |name| format!("/// .\npub mod {name};\n");
+    let modules: String = modules.iter().map(module).collect();
     folder.write(file, format!("//! .\n#![no_std]\n{modules}"));
     let args = ["--crate-type", "lib", "-D", "missing_docs", "-D", "clippy::pedantic", file];
     compile("clippy-driver".as_ref(), folder, &[&["-D", "warnings"], linked, &args].concat());
@@ -125,9 +127,8 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
         curves.push(format!("{module}_curve"));
         alone.push(module);
     }
-    let names = |modules: &'static [String]| modules.iter().map(String::as_str).collect::<Vec<_>>();
-    is_clean(&folder, "alone.rs", &names(alone.leak()), &[]);
-    is_clean(&folder, "curves.rs", &names(curves.leak()), &["--extern", the_crate()]);
+    is_clean(&folder, "alone.rs", &alone, &[]);
+    is_clean(&folder, "curves.rs", &curves, &["--extern", the_crate()]);
     let libraries = ["--extern", "alone=libalone.rlib", "--extern", "curves=libcurves.rlib"];
     let args = [&libraries[..], &["-L", "../crate"]].concat();
     assert_eq!(ran(&folder, &format!("fn main() {{\n{main}}}\n"), &args), expected);
