@@ -2,7 +2,6 @@
 //! that a Newton step or two give the exact answer. Fast enough for every `f32`, and judged by the oracle where it finds
 //! the greatest errors.
 
-use crate::methods::peers::horner;
 use crate::support::oracle::{Curve, Points, ulp_f32};
 
 /// The exact inverse, cdf and openness of a curve.
@@ -207,4 +206,9 @@ fn bisect(is_below: impl Fn(f64) -> bool) -> f64 {
         *(if is_below(middle) { &mut low } else { &mut high }) = middle;
     }
     high
+}
+
+/// The polynomial with these coefficients, the constant first, and its derivative.
+fn horner<const N: usize>(c: &[f64; N], x: f64) -> (f64, f64) {
+    c.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * x + c, slope * x + value))
 }

@@ -9,12 +9,9 @@ use crate::support::cases::shutter;
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Points};
 use baseline::{InverseTable, NearerEnd, StraightRamps, TextbookNewton};
-use peers::{MonotoneCubicTable, Parts, animation, bracketed, doubles};
 
 #[path = "../../baseline.rs"]
 mod baseline;
-#[path = "peers.rs"]
-pub mod peers;
 
 /// About a third of the mass in ramps; all of it; a third in straight ramps; none.
 pub const CURVES: [(&str, Curve); 4] = [
@@ -108,11 +105,7 @@ pub enum Method {
     Octaves16,
     Nearer,
     Textbook,
-    Bracketed,
-    Doubles,
     Table256,
-    Table1024,
-    CubicTable,
     RootLibm,
     RootMicromath,
     RootFpu,
@@ -121,18 +114,14 @@ pub enum Method {
 use Method::*;
 
 /// This crate's, those for every curve, and those for straight ramps alone.
-pub const METHODS: [Method; 14] = [
+pub const METHODS: [Method; 10] = [
     Octaves0,
     Octaves4,
     Octaves8,
     Octaves16,
     Nearer,
     Textbook,
-    Bracketed,
-    Doubles,
     Table256,
-    Table1024,
-    CubicTable,
     RootLibm,
     RootMicromath,
     RootFpu,
@@ -156,11 +145,7 @@ impl Method {
             Octaves16 => "`OCTAVES = 16`",
             Nearer => "Newton, nearer end",
             Textbook => "textbook Newton",
-            Bracketed => "bracketed Newton",
-            Doubles => "Newton in f64",
             Table256 => "table of 256",
-            Table1024 => "table of 1024",
-            CubicTable => "cubic table of 64",
             RootLibm => "`libm::sqrtf`",
             RootMicromath => "`micromath` `sqrt`",
             RootFpu => "the FPU's square root",
@@ -200,24 +185,8 @@ impl Method {
                 let newton = TextbookNewton::new(c.opening, c.closing);
                 task.on(move |u| newton.inverse_cdf(u))
             }
-            Bracketed => {
-                let parts = Parts::<f32>::new(c.opening, c.closing);
-                task.on(move |u| parts.inverse_cdf(u, bracketed).0)
-            }
-            Doubles => {
-                let parts = Parts::<f64>::new(c.opening, c.closing);
-                task.on(move |u| parts.inverse_cdf(u, doubles).0)
-            }
             Table256 => {
                 let table = InverseTable::<256>::new(exact());
-                task.on(move |u| table.inverse_cdf(u))
-            }
-            Table1024 => {
-                let table = InverseTable::<1024>::new(exact());
-                task.on(move |u| table.inverse_cdf(u))
-            }
-            CubicTable => {
-                let table = MonotoneCubicTable::<64>::new(exact());
                 task.on(move |u| table.inverse_cdf(u))
             }
             RootLibm => {
@@ -249,32 +218,4 @@ fn straight(curve: &Curve) -> Option<StraightRamps> {
     let is_straight = is_line(curve.opening, [0.0, 1.0]) && is_line(curve.closing, [1.0, 0.0]);
     let times = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
     is_straight.then(|| StraightRamps::new(times))
-}
-
-/// Answers for times, and how they are prepared.
-pub type Forward = Box<dyn Fn(&[f32], &mut [f32])>;
-type Prepared = fn(&Curve) -> Forward;
-
-/// The openness and the cdf in turn, by this crate and by the usual solver of animation curves.
-pub const FORWARDS: [(&str, Prepared); 4] = [
-    ("`openness`", |c| forward(shutter::<8>(c), |ours, t| ours.openness(t))),
-    ("`cdf`", |c| forward(shutter::<8>(c), |ours, t| ours.cdf(t))),
-    ("openness, 8 Newton steps", |c| {
-        forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {
-            parts.openness(t, |ramp, t| animation(ramp, t, 1e-6).unwrap_or(0.0))
-        })
-    }),
-    ("cdf, 8 Newton steps", |c| {
-        forward(Parts::<f32>::new(c.opening, c.closing), |parts, t| {
-            parts.cdf(t, |ramp, t| animation(ramp, t, 1e-6).unwrap_or(0.0))
-        })
-    }),
-];
-
-fn forward<T: 'static>(curve: T, call: impl Fn(&T, f32) -> f32 + 'static) -> Forward {
-    Box::new(move |times, values| {
-        for (t, value) in times.iter().zip(values) {
-            *value = call(&curve, black_box(*t));
-        }
-    })
 }

@@ -8,9 +8,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style::{self, Area, BLUE, FAINT, GREY, Graph, INK, VERMILION, dressed};
 
 use crate::accuracy::judge;
-use crate::methods::Method::{
-    Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256, Table1024,
-};
+use crate::methods::Method::{Nearer, Octaves4, Octaves8, Octaves16, RootFpu, RootLibm, Table256};
 use crate::methods::{METHODS, Method, SOFT, TRAPEZOID};
 use crate::report::{Measured, cycles, time};
 use crate::support::cases::shutter;
@@ -111,7 +109,7 @@ fn superscript(n: i32) -> String {
 /// costs.
 pub fn frontier(path: &str, measured: &Measured) {
     let on = |method: Method| if method.is_root() { TRAPEZOID } else { SOFT };
-    let times = METHODS.map(|method| time(&measured.times[on(method)].0, method));
+    let times = METHODS.map(|method| time(&measured.times[on(method)], method));
     let cycles = METHODS.map(|method| cycles(measured, method, on(method)));
     let panels = [
         ("nanoseconds a sample on the host, soft curve", times),
@@ -158,7 +156,6 @@ pub fn frontier(path: &str, measured: &Measured) {
                     Octaves8 => (0, -54, HPos::Center),
                     Octaves4 => (0, -26, HPos::Center),
                     Table256 => (-18, -10, HPos::Right),
-                    Table1024 => (-18, 14, HPos::Right),
                     RootFpu => (-18, 0, HPos::Right),
                     // Below the ring.
                     Nearer => (0, 118, HPos::Center),

@@ -4,13 +4,12 @@ use rayon::prelude::*;
 
 use crate::accuracy::{Figures, breaking_us, judge_on, mended, of_triggers};
 use crate::methods::Method::{Nearer, Textbook};
-use crate::methods::{CURVES, FORWARDS, METHODS, Method, SOFT, TRAPEZOID};
+use crate::methods::{CURVES, METHODS, Method, SOFT, TRAPEZOID};
 use crate::support::aimed::{FAMILIES, aimed, aimed_us};
 use crate::support::cases::{CASES, shutter};
 use crate::support::curves::Rng;
 use crate::support::oracle::{Curve, Exact};
 use crate::table::{Row, number, shown, table};
-use crate::timing::Times;
 
 /// The curves of each family of `aimed`.
 const AIMED: u64 = 1000;
@@ -21,7 +20,7 @@ pub struct Measured {
     pub samples: usize,
     pub figures: Vec<Figures>,
     /// By curve.
-    pub times: [Times; CURVES.len()],
+    pub times: [Vec<Option<f64>>; CURVES.len()],
     /// The text of `docs/internals/cost.md`.
     pub cost: String,
     pub search: Vec<Row>,
@@ -29,20 +28,14 @@ pub struct Measured {
 }
 
 pub fn write(measured: &Measured) -> String {
-    let sections = [
-        methods(measured),
-        forwards(measured),
-        hard_cases(),
-        search(measured),
-        every_f32(measured),
-    ];
+    let sections = [methods(measured), hard_cases(), search(measured), every_f32(measured)];
     sections.join("\n\n") + "\n"
 }
 
 /// The times of this crate's methods on *soft* and *all ramp*, as shares of the careful Newton's.
 pub fn ratios(measured: &Measured) -> String {
     let rows = METHODS.iter().filter(|method| method.is_ours()).map(|method| {
-        let shares = measured.times[..2].iter().map(|(times, _)| {
+        let shares = measured.times[..2].iter().map(|times| {
             let share = time(times, *method).zip(time(times, Nearer)).map(|(own, one)| own / one);
             share.map_or_else(|| "-".into(), |share| format!("{share:.2}"))
         });
@@ -68,7 +61,7 @@ pub fn cycles(measured: &Measured, method: Method, curve: usize) -> Option<f64> 
 fn methods(measured: &Measured) -> String {
     let rows = METHODS.iter().zip(&measured.figures).map(|(method, figures)| {
         let curve = if method.is_root() { TRAPEZOID } else { SOFT };
-        let time = time(&measured.times[curve].0, *method);
+        let time = time(&measured.times[curve], *method);
         let time = time.map_or_else(|| "-".into(), |time| format!("{time:.1}"));
         let errors = [figures.forward, figures.of_interval.0, figures.steps_back, figures.failures];
         let triggers = of_triggers(*method).map_or_else(|| "-".into(), number);
@@ -91,9 +84,9 @@ Full dots are the greatest error, rings the mean. [cost.md](cost.md) has the cur
 ## The methods
 
 The first four are this crate. *{nearer}* is what one writes without it, with care: sextics from both ends of each ramp, in
-`f32` but built in `f64`, and Newton's steps inside a bracket. *Textbook* and *bracketed* Newton are those of two renderers, with
-an absolute tolerance of 1e-6. Tables have exact entries at equally spaced `u`. Square roots, from the nearer end, are for straight
-ramps alone. `tests/support` has them all, in `baseline.rs` and `peers.rs`.
+`f32` but built in `f64`, and Newton's steps inside a bracket. *Textbook Newton* is a renderer's, from 1/2 and
+to an absolute 1e-6. The table has exact entries at equally spaced `u`. Square roots, from the nearer end, are for straight ramps
+alone. `benches/baseline.rs` has them all.
 
 {table}
 
@@ -115,22 +108,6 @@ Each random curve's worst `u` of about 1000 that are likely to be bad. Of those 
         curves = measured.curves,
         samples = measured.samples,
         straight = measured.figures.last().map_or(0, |figures| figures.curves),
-    )
-}
-
-fn forwards(measured: &Measured) -> String {
-    let rows = FORWARDS.iter().enumerate().map(|(i, (name, _))| {
-        let (time, error) = measured.times[SOFT].1[i];
-        vec![(*name).into(), format!("{time:.1}"), number(error)]
-    });
-    let table = table("*soft* | ns | greatest error", 1, rows);
-    format!(
-        "## Openness and cdf
-
-Against the usual solver of animation curves in `f32`: 8 Newton steps to an absolute 1e-6, then bisection. Errors are absolute.
-No table gives the place of a time, so this crate searches for it, to the promised ulp.
-
-{table}"
     )
 }
 

@@ -1,11 +1,10 @@
 //! Host time a sample: medians of interleaved repeats, in runs so short that a busy machine interrupts few of them.
 
-use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
 
-use crate::methods::{FORWARDS, METHODS, fractions};
-use crate::support::oracle::{Curve, Exact};
+use crate::methods::{METHODS, fractions};
+use crate::support::oracle::Curve;
 
 /// Samples a run.
 const RUN: usize = 1 << 11;
@@ -31,38 +30,14 @@ fn medians(
     times.iter_mut().map(|runs| runs.iter_mut().map(median).sum::<f64>() / samples as f64).collect()
 }
 
-/// Nanoseconds a sample of the methods that serve a curve, and the same and errors of [`FORWARDS`].
-pub type Times = (Vec<Option<f64>>, Vec<(f64, f64)>);
-
-/// For every method its time on the curve; and of [`FORWARDS`] the times and the greatest errors.
-pub fn times(curve: &Curve, repeats: usize) -> Times {
-    let u = fractions();
-    let length = curve.close_end() - curve.open_start();
-    let ts: Vec<f32> = u.iter().map(|u| curve.open_start() + u * length).collect();
+/// Nanoseconds a sample of every method on a curve, if it serves that.
+pub fn times(curve: &Curve, repeats: usize) -> Vec<Option<f64>> {
+    let u = &fractions();
     let methods = METHODS.map(|method| method.build(curve));
-    let forwards = FORWARDS.map(|(_, build)| build(curve));
-    let (u, ts) = (&u, &ts);
     let mut calls: Vec<Box<dyn FnMut(Range<usize>)>> = Vec::new();
     for method in methods.iter().flatten() {
         calls.push(Box::new(|run| method.singles(&u[run])));
     }
-    for forward in &forwards {
-        let mut out = vec![0.0; u.len()];
-        calls.push(Box::new(move |run| forward(&ts[run.clone()], black_box(&mut out[run]))));
-    }
-    let medians = medians(&mut calls, u.len(), repeats);
-    let (inverses, times) = medians.split_at(methods.iter().flatten().count());
-    let mut inverses = inverses.iter().copied();
-    let inverses = methods.iter().map(|method| method.as_ref().and_then(|_| inverses.next()));
-    let inverses: Vec<Option<f64>> = inverses.collect();
-    let exact = Exact::new(curve);
-    let forwards = forwards.iter().zip(times).enumerate().map(|(i, (forward, time))| {
-        let truth = |t| if i % 2 == 0 { exact.openness(t).hi } else { exact.cdf(t).hi };
-        let mut out = vec![0.0; ts.len()];
-        forward(ts, &mut out);
-        let some = ts.iter().zip(&out).step_by(8);
-        let errors = some.map(|(t, got)| (f64::from(*got) - truth(*t)).abs());
-        (*time, errors.fold(0.0, f64::max))
-    });
-    (inverses, forwards.collect())
+    let mut medians = medians(&mut calls, u.len(), repeats).into_iter();
+    methods.iter().map(|method| method.as_ref().and_then(|_| medians.next())).collect()
 }
