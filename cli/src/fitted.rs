@@ -5,6 +5,7 @@ use shutter_fit::trace::Refusal;
 use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
+use crate::fault::{Fault, What};
 use crate::plan::Plan;
 use crate::planned::Planned;
 
@@ -47,7 +48,7 @@ pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Sc
     let text = write_times(fit, name, zero, unit.unwrap_or(fit.unit()));
     match Planned::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(Refusal::NoScene { reason: fault.reason() }),
+        Err(fault) => Err(no_scene(&fault)),
     }
 }
 
@@ -72,8 +73,14 @@ pub fn curve_scene(
     let text = write_curve(fit, name, &resolved(&curve), unit);
     match Plan::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(Refusal::NoScene { reason: fault.reason() }),
+        Err(fault) => Err(no_scene(&fault)),
     }
+}
+
+/// What keeps a fit from being a scene.
+pub fn no_scene(fault: &Fault) -> Refusal {
+    let crowded = matches!(*fault.what, What::Close { .. } | What::TimesClose(_));
+    Refusal::NoScene { reason: fault.reason(), crowded }
 }
 
 fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
