@@ -4,8 +4,7 @@ use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::{Delay, Lag};
-use crate::lamp::SetUp;
-use crate::lamp::{FullyOpen, Lamp};
+use crate::lamp::{FullyOpen, Lamp, SetUp};
 use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::set_up::doses;
@@ -92,7 +91,7 @@ pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
 }
 
 fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
-    let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit());
+    let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit);
     let of = |seconds: f64| short(unit.of(seconds), 5);
     let mut lines = vec![
         ("scene", name.to_string()),
@@ -124,7 +123,7 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
-    lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length()))));
+    lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length))));
     lines.push(("delay", delay(plan.delay, unit)));
     lines.extend(lag(plan.lag, unit));
     lines.push(("gap", gap(plan)));
@@ -148,7 +147,7 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
 
 /// Without a curve there is less to say.
 fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
-    let (unit, triggers) = (times.unit(), &times.triggers);
+    let (unit, triggers) = (times.unit, &times.triggers);
     let mut lines = vec![
         ("scene", name.to_string()),
         ("shutter", "no curve: trigger times as measured".into()),
@@ -156,10 +155,9 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
     ];
     lines.extend(times.fitted.iter().cloned());
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
-    let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
-    let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer.hz));
+    let gap = times.gaps().min().map(|ticks| times.seconds(ticks));
     lines.extend([
-        ("timer", times.timer.told(from_edge(times.delay, times.length()))),
+        ("timer", times.timer.told(from_edge(times.delay, times.length))),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
         ("set-up", if times.set_up.is_some() { FLASHES } else { "not said" }.into()),
@@ -171,7 +169,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
 
 /// What the gap is to be, and what it is.
 fn gap(plan: &Plan) -> String {
-    let unit = plan.unit();
+    let unit = plan.unit;
     let mut gap = format!("at least {}", unit.show(plan.min_gap));
     if plan.lamp.has_pulses() {
         gap += " of darkness between pulses";
@@ -204,20 +202,14 @@ fn share(plan: &Planned) -> Option<f64> {
             };
             Some(all / plan.triggers.len() as f64)
         }
-        Planned::Times(times) => {
-            let gaps = times.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks);
-            gaps.min().map(|ticks| f64::from(ticks) / f64::from(times.timer.hz))
-        }
+        Planned::Times(times) => times.gaps().min().map(|ticks| times.seconds(ticks)),
     }
 }
 
 /// What the delay's spread between shots does to a frame, if the scene tells it.
 pub fn spread(plan: &Planned) -> Option<String> {
-    let (spread, share, unit) = (plan.delay()?.spread?, share(plan)?, plan.unit());
-    let gap = match plan {
-        Planned::Curve(plan) => plan.min_gap,
-        Planned::Times(times) => times.min_gap,
-    };
+    let (spread, share, unit) = (plan.delay?.spread?, share(plan)?, plan.unit);
+    let gap = plan.min_gap;
     let percent = |of: f64| format!("{} %", short(100.0 * spread / of, 2));
     let gap = if gap > 0.0 { format!(" and {} of the gap", percent(gap)) } else { String::new() };
     let most = MATTERS * share * plan.rows().len() as f64 / spread;
@@ -236,16 +228,12 @@ pub fn spread(plan: &Planned) -> Option<String> {
 
 /// In how many frames a delay that moves by a tick a second moves by 1 % of a share, if there is a delay and a share.
 pub fn drift(plan: &Planned) -> Option<f64> {
-    let length = match plan {
-        Planned::Curve(plan) => plan.length(),
-        Planned::Times(times) => times.length(),
-    };
-    if !plan.timer().is_given {
+    if !plan.timer.is_given {
         return None;
     }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
-    let ticks = share(plan)? * f64::from(plan.timer().hz);
-    Some(MATTERS * ticks / from_edge(Some(plan.delay()?), length))
+    let ticks = share(plan)? * f64::from(plan.timer.hz);
+    Some(MATTERS * ticks / from_edge(Some(plan.delay?), plan.length))
 }
 
 /// From the edge to the end of a frame that lasts so many seconds.
@@ -275,7 +263,7 @@ fn lag(lag: Option<Lag>, unit: Unit) -> Option<(&'static str, String)> {
 
 /// How long the lamp's pulses are, if it has any.
 fn pulses(plan: &Plan) -> Option<String> {
-    let unit = plan.unit();
+    let unit = plan.unit;
     match plan.lamp {
         Lamp::Triggered | Lamp::FullyOpen => None,
         Lamp::Equal { ticks } => {
@@ -338,8 +326,8 @@ pub fn unequal(plan: &Plan) -> Option<String> {
 /// By how much the timer's ticks move a flash without a dose of its own, in percent of a share, if it is more than one.
 pub fn coarse(plan: &Planned) -> Option<f64> {
     let has_doses = plan.plan().is_some_and(|plan| matches!(plan.lamp, Lamp::Doses { .. }));
-    let percent = 50.0 / (share(plan)? * f64::from(plan.timer().hz));
-    let is_told = plan.timer().is_given && !has_doses && percent > 100.0 * MATTERS;
+    let percent = 50.0 / (share(plan)? * f64::from(plan.timer.hz));
+    let is_told = plan.timer.is_given && !has_doses && percent > 100.0 * MATTERS;
     is_told.then_some(percent)
 }
 

@@ -50,7 +50,7 @@ pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
 }
 
 fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
-    let unit = plan.unit();
+    let unit = plan.unit;
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
         unit.show(plan.curve.exposure()),
@@ -113,7 +113,7 @@ enum Key {
 }
 
 fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let at = |t: f32| (unit.of(t), f64::from(curve.openness(t)));
     let ramps = plan.shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
     let heights = ramps.iter().flatten().flatten().map(|(_, y)| f64::from(*y));
@@ -163,7 +163,7 @@ fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
         graph.draw_series([PathElement::new([(edge, 0.0), (edge, 1.0)], pen(INK, 2.0))])?;
     }
     // An arrow whose tip is the start of opening.
-    let (y, tip) = (0.62, 0.012 * unit.of(plan.length()));
+    let (y, tip) = (0.62, 0.012 * unit.of(plan.length));
     let head = [(start - tip, y + 0.025), (start, y), (start - tip, y - 0.025)];
     graph.draw_series([PathElement::new([(from, y), (start, y)], pen(INK, 1.2))])?;
     graph.draw_series([PathElement::new(head, pen(INK, 1.2))])?;
@@ -178,7 +178,7 @@ fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
 }
 
 fn draw_cdf(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let time = format!("time ({})", unit.name());
     let y = "fraction of the exposure";
     let mut graph = graph(area, plan, unit, y, Some(&time), 0.0..1.05)?;

@@ -9,8 +9,7 @@ use shutter_fit::unit::{Unit, decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::facts;
-use crate::lamp::Lamp;
-use crate::lamp::SetUp;
+use crate::lamp::{Lamp, SetUp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
 use crate::times::Times;
@@ -58,7 +57,7 @@ fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> 
 }
 
 fn write_curve(out: &mut String, plan: &Plan, cells: usize) -> fmt::Result {
-    let (unit, curve) = (plan.unit(), &plan.curve);
+    let (unit, curve) = (plan.unit, &plan.curve);
     writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
     out.push_str(&drawing(plan, unit, cells, |t| curve.openness(t)));
     writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
@@ -68,13 +67,13 @@ fn write_curve(out: &mut String, plan: &Plan, cells: usize) -> fmt::Result {
 
 /// The triggers on a line of time.
 fn write_times(out: &mut String, times: &Times, cells: usize) -> fmt::Result {
-    let unit = times.unit();
+    let unit = times.unit;
     let mut line = vec!['─'; cells];
     for trigger in &times.triggers {
-        let part = (trigger.time - times.open_start) / times.length();
+        let part = (trigger.time - times.open_start) / times.length;
         line[(part * (cells - 1) as f64).round() as usize] = '┼';
     }
-    let ends = [times.open_start, times.open_start + times.length()];
+    let ends = [times.open_start, times.open_start + times.length];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
     writeln!(out, "\ntriggers over time ({})", unit.name())?;
     writeln!(out, "{}", String::from_iter(line))?;
@@ -113,10 +112,10 @@ fn drawing(plan: &Plan, unit: Unit, cells: usize, f: impl Fn(f32) -> f32) -> Str
 }
 
 fn table(out: &mut String, planned: &Planned) -> fmt::Result {
-    let (unit, rows, timer) = (planned.unit(), planned.rows(), planned.timer());
+    let (unit, rows, timer) = (planned.unit, planned.rows(), planned.timer);
     // A digit more than tells one tick from the next, as far as f32 has them.
     let tick = unit.of(1.0 / f64::from(timer.hz));
-    let places = decimals(tick, 2).min(decimals(unit.of(planned.length()), 7));
+    let places = decimals(tick, 2).min(decimals(unit.of(planned.length), 7));
     let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
     let is_dimmed = planned.plan().is_some_and(|plan| {
         plan.set_up == Some(SetUp::InPath)
@@ -127,7 +126,7 @@ fn table(out: &mut String, planned: &Planned) -> fmt::Result {
         true => format!("  {cell:>width$}"),
         false => String::new(),
     };
-    let (by_curve, has_edge) = (planned.plan().is_some(), planned.delay().is_some());
+    let (by_curve, has_edge) = (planned.plan().is_some(), planned.delay.is_some());
     let ticks = |name: &dyn Display, edge: &dyn Display, on: &dyn Display, off: &dyn Display| {
         // By the timer's count at the sync's edge, where that is known.
         column(timer.is_given, name, 10)

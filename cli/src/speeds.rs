@@ -8,7 +8,7 @@ use crate::planned::Planned;
 /// A row for each plan, under the names of what stands in it.
 pub fn text(plans: &[(String, Planned)]) -> String {
     let row = |(name, planned): &(String, Planned)| {
-        let unit = planned.unit();
+        let unit = planned.unit;
         // Times without a curve tell of no exposure.
         let by_curve = planned.plan().map(|plan| (plan, Facts::new(plan)));
         let facts = by_curve.as_ref().map(|(_, facts)| facts);
@@ -20,11 +20,11 @@ pub fn text(plans: &[(String, Planned)]) -> String {
         let name: String = name.chars().filter(|c| !c.is_control()).collect();
         [
             name,
-            optional(planned.nominal()),
+            optional(planned.nominal),
             optional(facts.map(|facts| facts.exposure)),
             delta.map_or("-".into(), stops),
             efficiency.unwrap_or("-".into()),
-            optional(planned.delay().map(|delay| delay.seconds)),
+            optional(planned.delay.map(|delay| delay.seconds)),
             match by_curve {
                 Some((plan, _)) => format!("{triggers} of {}", plan.most),
                 None => format!("{triggers} as measured"),

@@ -1,5 +1,7 @@
 //! Trigger times as they were measured, in place of a curve: a scene's `trigger_times`, checked.
 
+use std::ops::Deref;
+
 use serde::Deserialize;
 use shutter_fit::unit::Unit;
 use toml::Spanned;
@@ -9,6 +11,7 @@ use crate::delay::{Delay, LAST, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
+use crate::planned::Common;
 use crate::scene::{self, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
 
@@ -45,23 +48,17 @@ pub struct Given {
 pub struct Times {
     /// When the shutter starts to open, in seconds: ticks count from there.
     pub open_start: f64,
-    /// What counts the ticks.
-    pub timer: Timer,
-    /// From the edge of the camera's sync to the start of opening, if the scene tells.
-    pub delay: Option<Delay>,
-    /// Of the lamp, if the scene tells.
-    pub lag: Option<Lag>,
-    /// The set-up, if the scene tells; it is not in the light's path.
-    pub set_up: Option<SetUp>,
-    /// Between two triggers, at least so many seconds, as the scene asks.
-    pub min_gap: f64,
-    /// The exposure that the shutter's maker names, in seconds.
-    pub nominal: Option<f64>,
     /// In order.
     pub triggers: Vec<Given>,
-    /// What the scene's text keeps of the fit that it comes from.
-    pub fitted: Vec<(&'static str, String)>,
-    unit: Option<Unit>,
+    common: Common,
+}
+
+impl Deref for Times {
+    type Target = Common;
+
+    fn deref(&self) -> &Common {
+        &self.common
+    }
 }
 
 /// Why a key that goes with a curve has no meaning beside trigger times.
@@ -82,13 +79,6 @@ fn of_a_curve(key: &str) -> Option<&'static str> {
 impl Times {
     /// The triggers of the scene that `text` describes.
     ///
-    /// ```
-    /// let times = shutter::times::Times::parse(
-    ///     "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3.5, 6]\ntimer_hz = 1000\nmin_gap = 1\n",
-    /// ).expect("a good scene");
-    /// assert!(times.triggers.iter().map(|trigger| trigger.ticks).eq([1, 3, 5]));
-    /// ```
-    ///
     /// # Errors
     /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
@@ -98,8 +88,9 @@ impl Times {
                 return Err(Fault::at(key, What::Text(format!("{}: {why}", key.get_ref()))));
             }
         }
-        let times = Self::new(&scene::read(text)?)?;
-        Ok(Self { fitted: scene::fitted(text), ..times })
+        let mut times = Self::new(&scene::read(text)?)?;
+        times.common.fitted = scene::fitted(text);
+        Ok(times)
     }
 
     /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
@@ -152,29 +143,17 @@ impl Times {
         Lag::checked(lag, first, &sync, unit, timer.hz)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
         let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
-        Ok(Self {
-            open_start,
-            timer,
-            delay,
-            lag,
-            set_up,
-            min_gap,
-            nominal,
-            triggers,
-            fitted: Vec::new(),
-            unit: scene.unit,
-        })
+        let last = triggers.last().map_or(0.0, |last| last.time - open_start);
+        let length = last.max(1.0 / f64::from(timer.hz));
+        let unit = scene.unit.unwrap_or_else(|| Unit::fit(length));
+        let fitted = Vec::new();
+        let common = Common { timer, delay, lag, set_up, min_gap, nominal, fitted, unit, length };
+        Ok(Self { open_start, triggers, common })
     }
 
-    /// From the start of opening to the last trigger, in seconds; a tick at least.
-    pub fn length(&self) -> f64 {
-        let last = self.triggers.last().map_or(0.0, |last| last.time - self.open_start);
-        last.max(1.0 / f64::from(self.timer.hz))
-    }
-
-    /// The scene's unit, or the one that suits its times.
-    pub fn unit(&self) -> Unit {
-        self.unit.unwrap_or_else(|| Unit::fit(self.length()))
+    /// From each trigger to the next, in ticks.
+    pub fn gaps(&self) -> impl Iterator<Item = u32> {
+        self.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks)
     }
 }
 

@@ -300,6 +300,6 @@ fn what_the_fit_doubted_is_in_every_form() {
 fn a_set_up_has_the_name_that_a_scene_gives_it() {
     for set_up in [SetUp::Emulated, SetUp::InPath] {
         let plan = planned(&format!("triggers = 1\nset_up = '{}'\n", set_up.name()));
-        assert_eq!(plan.set_up(), Some(set_up));
+        assert_eq!(plan.set_up, Some(set_up));
     }
 }

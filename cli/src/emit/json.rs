@@ -50,19 +50,19 @@ struct Document<'a> {
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
-        let (timer, length) = (plan.timer(), facts::from_edge(plan.delay(), plan.length()));
+        let (timer, length) = (plan.timer, facts::from_edge(plan.delay, plan.length));
         let rate = (timer.off(length) >= HALF_TICK).then(|| timer.told(length));
         let fact = |of: fn(&Facts) -> f64| facts.as_ref().map(|facts| of(facts) as f32);
         Self {
             scene,
-            set_up: plan.set_up(),
+            set_up: plan.set_up,
             timer_hz: timer.hz,
-            nominal_s: plan.nominal(),
-            delay_s: plan.delay().map(|delay| delay.seconds),
-            delay_ticks: plan.delay().map(|delay| delay.ticks),
-            delay_spread_s: plan.delay().and_then(|delay| delay.spread),
-            sync_falls: plan.delay().and_then(|delay| delay.falls),
-            lamp_lag_s: plan.lag().map(|lag| lag.seconds),
+            nominal_s: plan.nominal,
+            delay_s: plan.delay.map(|delay| delay.seconds),
+            delay_ticks: plan.delay.map(|delay| delay.ticks),
+            delay_spread_s: plan.delay.and_then(|delay| delay.spread),
+            sync_falls: plan.delay.and_then(|delay| delay.falls),
+            lamp_lag_s: plan.lag.map(|lag| lag.seconds),
             opening_s: fact(|it| it.opening),
             open_s: fact(|it| it.open),
             closing_s: fact(|it| it.closing),

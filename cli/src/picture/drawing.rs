@@ -108,7 +108,7 @@ pub fn graph<'a, 'b>(
     x: Option<&str>,
     range: Range<f64>,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let places = decimals(unit.of(plan.length()), 3);
+    let places = decimals(unit.of(plan.length), 3);
     let time = Axis { range: time_range(plan, unit), name: x, label: &|t| trimmed(*t, places) };
     axes(area, time, Axis { range, name: Some(y), label: &|y| format!("{y:.1}") }, 60)
 }
@@ -128,7 +128,7 @@ pub fn sync(plan: &Plan, unit: Unit) -> Option<f64> {
 
 /// Can the edge be on the axis without squeezing the curve?
 pub fn is_near(plan: &Plan, unit: Unit, edge: f64) -> bool {
-    unit.of(plan.curve.open_start()) - edge <= 1.5 * unit.of(plan.length())
+    unit.of(plan.curve.open_start()) - edge <= 1.5 * unit.of(plan.length)
 }
 
 /// So many steps from `from` to `to`, both ends included.

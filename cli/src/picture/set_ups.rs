@@ -56,7 +56,7 @@ fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
 
 /// The lamp in outlines, and what of its light comes through.
 fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let time = format!("time ({})", unit.name());
     let mut graph = graph(area, plan, unit, "openness", Some(&time), 0.0..1.08)?;
     let at = |t: f32| {

@@ -15,8 +15,8 @@ const HEADING: i32 = 70;
 
 /// The triggers of the scene `name`.
 pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
-    let unit = times.unit();
-    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length()));
+    let unit = times.unit;
+    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length));
     // The sync is shown where it does not make the triggers small.
     let edge = times.delay.map(|delay| start - unit.of(delay.seconds));
     let edge = edge.filter(|edge| start - edge < end - start);
