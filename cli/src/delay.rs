@@ -4,7 +4,7 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 
 use crate::fault::{Fault, What};
-use crate::scene::{Number, seconds};
+use crate::scene::{Number, not_negative, seconds};
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.
@@ -51,19 +51,14 @@ impl Delay {
         timer_hz: u32,
         end: f64,
     ) -> Result<(Option<Self>, Option<Lag>), Fault> {
-        let of_spread = |place| Ok((place, seconds(unit, "delay_spread", place)?));
-        let spread = spread.map(of_spread).transpose()?;
-        if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
+        let deviation = spread.map(|place| seconds(unit, "delay_spread", place)).transpose()?;
+        if let Some(place) = spread.filter(|_| delay.is_none() || deviation < Some(0.0)) {
             return Err(Fault::at(place, What::Spread));
         }
         if let (None, Some(place)) = (delay, falls) {
             return Err(Fault::at(place, What::Falls));
         }
-        let lag = lag.map(|place| Ok((place, seconds(unit, "lamp_lag", place)?))).transpose()?;
-        if let Some((place, _)) = lag.filter(|(_, lag)| *lag < 0.0) {
-            return Err(Fault::at(place, What::NotNegative { key: "lamp_lag" }));
-        }
-        let lag = lag.map(|(_, lag)| lag);
+        let lag = lag.map(|place| not_negative(unit, "lamp_lag", place)).transpose()?;
         let count = |seconds: f64| (seconds.max(0.0) * f64::from(timer_hz)).round();
         // The cast saturates; what is so long is refused later.
         let beyond =
@@ -79,10 +74,9 @@ impl Delay {
             return Err(Fault::at(place, What::DelayTooLong { most }));
         }
         // Neither is -0.
-        let spread = spread.map(|(_, spread)| spread);
         let falls = falls.map(|falls| *falls.get_ref());
-        let delay = Self { seconds: seconds + 0.0, ticks: ticks as u32, spread, falls };
-        Ok((Some(delay), beyond(seconds)))
+        let (seconds, ticks) = (seconds + 0.0, ticks as u32);
+        Ok((Some(Self { seconds, ticks, spread: deviation, falls }), beyond(seconds)))
     }
 }
 

@@ -84,7 +84,7 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
     if !plan.timer.is_given {
         lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
     }
-    if plan.delay.is_some_and(|delay| delay.falls.is_none()) {
+    if plan.delay.is_some() && falls(plan).is_none() {
         lacks.push(
             "sync_falls = ...     # true, or false if the delay counts from an edge that rises"
                 .into(),
@@ -139,33 +139,28 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
         if form == Form::Csv {
             continue;
         }
-        let (has, lacks) = match (one.delay.is_some(), plan.delay.is_some()) {
-            (true, false) => (first, name),
-            (false, true) => (name, first),
-            _ => (name, name),
-        };
-        if has != lacks {
+        let [a, b] = [one, plan];
+        if a.delay.is_some() != b.delay.is_some() {
+            let (has, lacks) = if a.delay.is_some() { (first, name) } else { (name, first) };
             return Err(format!(
                 "delay: {has} has one and {lacks} has none; an array needs all or none"
             ));
         }
-        let falls = |plan: &Planned| plan.delay.and_then(|delay| delay.falls);
-        if falls(one) != falls(plan) {
-            return Err(format!("sync_falls: {first} and {name} differ; an array is for one edge"));
+        let differ = format!("{first} and {name} differ; an array is for one");
+        if falls(a) != falls(b) {
+            return Err(format!("sync_falls: {differ} edge"));
         }
-        if one.set_up != plan.set_up {
-            return Err(format!("set_up: {first} and {name} differ; an array is for one set-up"));
+        if a.set_up != b.set_up {
+            return Err(format!("set_up: {differ} set-up"));
         }
-        if has_pulses(one) != has_pulses(plan) {
+        if has_pulses(a) != has_pulses(b) {
             return Err(format!(
                 "pulses: one of {first} and {name} has them; an array needs all or none"
             ));
         }
-        let identifier = |name: &str| name::identifier(name);
-        if let Some((other, _)) =
-            plans[..i].iter().find(|(other, _)| identifier(other) == identifier(name))
-        {
-            return Err(format!("{other} and {name} would both be called {}", identifier(name)));
+        let called = identifier(name);
+        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| identifier(other) == called) {
+            return Err(format!("{other} and {name} would both be called {called}"));
         }
     }
     Ok(())
@@ -216,6 +211,11 @@ fn origin<'a>(mut plans: impl Iterator<Item = &'a Planned>) -> &'static str {
         true => "counted from the end of the delay",
         false => "counted from the start of opening",
     }
+}
+
+/// Which edge of the sync counts, if the scene tells.
+fn falls(plan: &Planned) -> Option<bool> {
+    plan.delay?.falls
 }
 
 fn has_pulses(plan: &Planned) -> bool {

@@ -25,8 +25,6 @@ pub struct Facts {
     pub exposure: f64,
     /// The effective exposure as a part of the time from the start of opening to the end of closing.
     pub efficiency: f64,
-    /// Frames of up to so many triggers are placed without a search on the microcontroller.
-    pub direct_triggers: u32,
     /// By how many stops the exposure is longer than the nominal one, where that is known; negative if it is shorter.
     pub delta_ev: Option<f64>,
 }
@@ -43,20 +41,13 @@ impl Facts {
             opening: open_end - open_start,
             open: close_start - open_end,
             closing: close_end - close_start,
-            half_open: half_open(curve),
+            half_open: f64::from(half(curve, curve.close_end(), curve.close_start()))
+                - f64::from(half(curve, curve.open_start(), curve.open_end())),
             exposure,
             efficiency: curve.efficiency().into(),
-            direct_triggers: curve.direct_triggers(),
             delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
         }
     }
-}
-
-/// From the first to the last time at which the shutter is half open.
-fn half_open(curve: &ShutterCurve) -> f64 {
-    let first = half(curve, curve.open_start(), curve.open_end());
-    let last = half(curve, curve.close_end(), curve.close_start());
-    f64::from(last) - f64::from(first)
 }
 
 /// The first time on the way from `dark` to `open` at which the shutter is half open.
@@ -137,7 +128,7 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
     lines.push((
         "direct",
-        match facts.direct_triggers {
+        match curve.direct_triggers() {
             0 => "every frame needs a search".into(),
             n => format!("frames of up to {} never need a search", count(n, "trigger")),
         },

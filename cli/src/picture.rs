@@ -31,9 +31,6 @@ const OPENNESS: i32 = 330;
 const TICK: f64 = 0.04;
 
 /// The plan of the scene `name`, as an SVG.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
     let plan = match planned {
         Planned::Curve(plan) => plan,

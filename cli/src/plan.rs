@@ -10,7 +10,7 @@ use crate::delay::{Delay, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
 use crate::planned::Common;
-use crate::scene::{Scene, min_gap, positive, whole};
+use crate::scene::{Scene, not_negative, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
 
@@ -53,9 +53,6 @@ impl Deref for Plan {
 
 impl Plan {
     /// The plan of the scene that `text` describes.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let scene = crate::scene::parse(text)?;
         let mut plan = Self::new(&scene).map_err(|fault| scene.noted(fault))?;
@@ -64,9 +61,6 @@ impl Plan {
     }
 
     /// The plan of a scene.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
         let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
         let (shape, curve) = scene.curve()?;
@@ -154,7 +148,7 @@ struct Asked {
 impl Asked {
     fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32) -> Result<Self, Fault> {
         let unit = scene.unit();
-        let min_gap = min_gap(unit, &scene.min_gap)?;
+        let min_gap = not_negative(unit, "min_gap", &scene.min_gap)?;
         let nominal = positive(unit, "nominal", scene.nominal.as_ref())?;
         let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
         let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;

@@ -101,9 +101,6 @@ pub(crate) struct Row {
 
 impl Planned {
     /// What the scene that `text` describes becomes.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         match trigger_times_at(text) {
             Some(_) => Times::parse(text).map(Self::from),

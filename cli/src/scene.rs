@@ -82,7 +82,8 @@ impl Scene {
     pub const NUMBERS: usize = KEYS.len() + 7;
 
     /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
-    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. The place in its faults is the number of a key; [`Fault::key`] tells which.
+    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. A fault's
+    /// place is that of its key.
     pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
         let number = |key: &str| {
             let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
@@ -356,11 +357,15 @@ pub(crate) fn positive(
     Err(Fault::at(place, What::Positive { key }))
 }
 
-/// The least gap, in seconds.
-pub(crate) fn min_gap(unit: Unit, time: &Spanned<Number>) -> Result<f64, Fault> {
-    let seconds = seconds(unit, "min_gap", time)?;
+/// A time in seconds that has to be 0 or more.
+pub(crate) fn not_negative(
+    unit: Unit,
+    key: &'static str,
+    time: &Spanned<Number>,
+) -> Result<f64, Fault> {
+    let seconds = seconds(unit, key, time)?;
     if seconds < 0.0 {
-        return Err(Fault::at(time, What::NotNegative { key: "min_gap" }));
+        return Err(Fault::at(time, What::NotNegative { key }));
     }
     Ok(seconds)
 }

@@ -78,9 +78,6 @@ fn of_a_curve(key: &str) -> Option<&'static str> {
 
 impl Times {
     /// The triggers of the scene that `text` describes.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         for key in table.keys() {
@@ -94,9 +91,6 @@ impl Times {
     }
 
     /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene.
     pub fn of_numbers(scene: scene::Scene, times: &[f64]) -> Result<Self, Fault> {
         let place = scene.triggers.span();
         let at = |time| Spanned::new(place.clone(), Number::Any(time));
@@ -127,7 +121,7 @@ impl Times {
         let delay = scene.delay.as_ref().map_or(0.0, |delay| delay.get_ref().get());
         let until_end = unit.seconds(last + delay) - open_start;
         let timer = Timer::new(scene.timer_hz.as_ref(), bits, until_end)?;
-        let min_gap = scene::min_gap(unit, &scene.min_gap)?;
+        let min_gap = scene::not_negative(unit, "min_gap", &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
         let triggers =
             triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;

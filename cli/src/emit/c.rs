@@ -2,7 +2,7 @@
 
 use std::iter::once;
 
-use super::{MADE_BY, comment, fnv, has_pulses, name, origin, pulses, rows, ticks};
+use super::{MADE_BY, comment, falls, fnv, has_pulses, name, origin, pulses, rows, ticks};
 use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
@@ -119,8 +119,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
 
 /// Which edge of the sync counts, if there is a delay from it.
 fn edge(upper: &str, plan: &Planned) -> String {
-    let falls = plan.delay.and_then(|delay| delay.falls);
-    falls.map_or(String::new(), |falls| {
+    falls(plan).map_or(String::new(), |falls| {
         let falls = u8::from(falls);
         format!(
             "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n"

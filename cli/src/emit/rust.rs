@@ -2,7 +2,7 @@
 
 use std::iter::once;
 
-use super::{MADE_BY, comment, has_pulses, name, origin, pulses, rows, ticks};
+use super::{MADE_BY, comment, falls, has_pulses, name, origin, pulses, rows, ticks};
 use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::shape::Shape;
@@ -68,7 +68,7 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
 fn common(plan: &Planned) -> String {
     let hz = grouped(plan.timer.hz);
     let mut text = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
-    if let Some(falls) = plan.delay.and_then(|delay| delay.falls) {
+    if let Some(falls) = falls(plan) {
         text += &format!(
             "\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\npub const SYNC_FALLS: bool = {falls};\n"
         );

@@ -20,9 +20,6 @@ const MOST_LABELS: usize = 12;
 
 /// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays open,
 /// the same with the shutter in the light's path, and pulses of equal doses there.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan));
     let title = format!(

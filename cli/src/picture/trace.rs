@@ -21,9 +21,6 @@ const MOST: usize = 3000;
 const POINTS: usize = 1500;
 
 /// The fit of the trace `name`, as an SVG.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
     let title =
         format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
