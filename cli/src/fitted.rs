@@ -6,6 +6,7 @@ use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
 use crate::planned::Planned;
+use crate::scene::KEYS;
 
 /// Where a scene's time 0 is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,8 +79,7 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
     }
     text += &comments(fit, unit);
     let places = decimals(unit.of(curve.length()), DIGITS);
-    let keys = ["open_start", "open_end", "close_start", "close_end"];
-    for (key, time) in keys.into_iter().zip(curve.times()) {
+    for (key, time) in KEYS.into_iter().zip(curve.times()) {
         text += &format!("{key} = {}\n", trimmed(unit.of(time), places));
     }
     if fit.chosen > Kind::Trapezoid {

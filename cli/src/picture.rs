@@ -138,7 +138,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
     draw_curve(&mut graph, plan, unit, |t| curve.openness(t))?;
     draw_sync(&mut graph, plan, unit)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
-    draw_marks(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
+    draw_triggers(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
     for ramp in ramps.iter().flatten() {
         let points = ramp.map(|(t, y)| (unit.of(t), f64::from(y)));
         for [end, inner] in [[points[0], points[1]], [points[3], points[2]]] {
@@ -183,7 +183,7 @@ fn draw_cdf(area: &Area, plan: &Plan) -> Drawn {
     draw_curve(&mut graph, plan, unit, |t| curve.cdf(t))?;
     let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time), f64::from(mark.u)));
     // How a time is found: from the fraction to the curve, and down.
-    draw_marks(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
+    draw_triggers(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
 }
 
 /// When the lamp is on, in seconds.
@@ -194,7 +194,7 @@ fn pulses(plan: &Plan) -> impl Iterator<Item = (f32, f32)> {
 }
 
 /// A line to each mark and a dot on it; ticks at the bottom where there are too many.
-fn draw_marks(
+fn draw_triggers(
     graph: &mut Graph,
     marks: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
     line: impl Fn((f64, f64)) -> Vec<(f64, f64)>,
@@ -204,10 +204,7 @@ fn draw_marks(
         graph.draw_series(marks.map(tick))?;
         return Ok(());
     }
-    graph
-        .draw_series(marks.clone().map(|mark| PathElement::new(line(mark), pen(VERMILION, 1.2))))?;
-    graph.draw_series(marks.map(dot))?;
-    Ok(())
+    drawing::draw_marks(graph, marks, line)
 }
 
 /// A control point.

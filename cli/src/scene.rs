@@ -212,15 +212,14 @@ impl Scene {
     /// # Errors
     /// Numbers that are not finite or that `f32` loses, and other than eight of `shutteropening`.
     pub fn shape(&self) -> Result<Shape, Fault> {
-        let keys = ["open_start", "open_end", "close_start", "close_end"];
         let mut seconds = [0.0; 4];
-        for ((key, value), seconds) in keys.into_iter().zip(self.times()).zip(&mut seconds) {
+        for ((key, value), seconds) in KEYS.into_iter().zip(self.times()).zip(&mut seconds) {
             *seconds = self::seconds(self.unit(), key, value)?;
         }
         let times = seconds.map(|time| time as f32);
         let length = seconds[3] - seconds[0];
         for (i, value) in self.times().into_iter().enumerate() {
-            let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
+            let (key, off) = (KEYS[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
                 return Err(Fault::at(value, What::Beyond { key }));
             }

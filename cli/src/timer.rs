@@ -34,13 +34,12 @@ impl Timer {
         if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
             return Err(Fault::at(hz, What::Rate));
         }
-        let is_given = hz.is_some();
-        let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits, is_given };
-        match bits.map(|bits| (bits, bits.get_ref().get())) {
-            None => Ok(timer(32)),
-            Some((_, bits)) if bits == 16.0 || bits == 32.0 => Ok(timer(bits as u32)),
-            Some((place, _)) => Err(Fault::at(place, What::Bits)),
+        let width = bits.map_or(32.0, |bits| bits.get_ref().get());
+        if let Some(place) = bits.filter(|_| ![16.0, 32.0].contains(&width)) {
+            return Err(Fault::at(place, What::Bits));
         }
+        let (hz, is_given) = (exact_hz.round() as u32, hz.is_some());
+        Ok(Self { hz, exact_hz, bits: width as u32, is_given })
     }
 
     /// The most ticks of a delay and a frame: beyond them, wrapping ticks no longer tell past from future.

@@ -150,6 +150,20 @@ pub fn dot<C>(at: C) -> Circle<C, i32> {
     Circle::new(at, 4 * SCALE, VERMILION.filled())
 }
 
+/// A line to each mark, and a dot on it where these do not run into each other.
+pub fn draw_marks(
+    graph: &mut Graph,
+    marks: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
+    line: impl Fn((f64, f64)) -> Vec<(f64, f64)>,
+) -> Drawn {
+    let lines = marks.clone().map(|mark| PathElement::new(line(mark), pen(VERMILION, 1.2)));
+    graph.draw_series(lines)?;
+    if marks.len() <= MOST_MARKS {
+        graph.draw_series(marks.map(dot))?;
+    }
+    Ok(())
+}
+
 pub fn centred(size: i32) -> TextStyle<'static> {
     style::text(size * SCALE, HPos::Center, VPos::Center)
 }

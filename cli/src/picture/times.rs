@@ -6,8 +6,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{Axis, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
-use super::style::{self, INK, VERMILION};
+use super::drawing::{Axis, SCALE, axes, centred, draw_marks, pen, picture};
+use super::style::{self, INK};
 use crate::times::Times;
 
 const SIZE: (i32, i32) = (900, 240);
@@ -38,13 +38,8 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
         };
         let up = Axis { range: 0.0..1.2, name: None, label: &|_| String::new() };
         let mut graph = axes(&rest, across, up, 20)?;
-        let marks = times.triggers.iter().map(|trigger| unit.of(trigger.time));
-        graph.draw_series(
-            marks.clone().map(|t| PathElement::new([(t, 0.0), (t, 1.0)], pen(VERMILION, 1.2))),
-        )?;
-        if times.triggers.len() <= MOST_MARKS {
-            graph.draw_series(marks.map(|t| dot((t, 1.0))))?;
-        }
+        let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time), 1.0));
+        draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;
         for (t, words) in edge.map(|t| (t, "sync")).into_iter().chain([(start, "opens")]) {
             graph.draw_series([PathElement::new([(t, 0.0), (t, 1.0)], pen(INK, 1.2))])?;
             let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);

@@ -9,8 +9,8 @@ use shutter_fit::trace::Trace;
 use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Axis, Drawn, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
-use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
+use super::drawing::{Axis, Drawn, SCALE, axes, centred, dot, draw_marks, pen, picture};
+use super::style::{self, Area, BLUE, GREY, Graph};
 
 const SIZE: (i32, i32) = (900, 640);
 const HEADING: i32 = 88;
@@ -95,13 +95,7 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
         )?;
     }
     let marks = fit.triggers.iter().map(|trigger| seen(trigger.value));
-    graph.draw_series(
-        marks.clone().map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(VERMILION, 1.2))),
-    )?;
-    if fit.triggers.len() <= MOST_MARKS {
-        graph.draw_series(marks.map(dot))?;
-    }
-    Ok(())
+    draw_marks(&mut graph, marks, |(t, v)| vec![(t, dark), (t, v)])
 }
 
 /// The trace at a time.
