@@ -4,7 +4,7 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 
 use crate::fault::{Fault, What};
-use crate::scene::{Number, not_negative, seconds};
+use crate::scene::{Optional, not_negative, seconds};
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.
@@ -31,10 +31,10 @@ pub struct Lag {
 
 /// What a scene has of a sync and a lamp.
 pub(crate) struct Sync<'a> {
-    pub delay: Option<&'a Spanned<Number>>,
-    pub spread: Option<&'a Spanned<Number>>,
+    pub delay: Optional<'a>,
+    pub spread: Optional<'a>,
     pub falls: Option<&'a Spanned<bool>>,
-    pub lag: Option<&'a Spanned<Number>>,
+    pub lag: Optional<'a>,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.

@@ -10,7 +10,7 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::{count, short};
 
 use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
@@ -118,7 +118,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
         heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
     let room = 0.05 * (high - low);
     let range = if low < 0.0 { low - room } else { 0.0 }..high + room;
-    let mut graph = graph(area, plan, unit, "openness", None, range)?;
+    let mut graph = graph(area, plan, "openness", None, range)?;
     let n = plan.triggers.len();
     let edge = |i: usize| match plan.lamp {
         Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
@@ -135,8 +135,8 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
             Polygon::new(vec![(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], lit())
         }
     }))?;
-    draw_curve(&mut graph, plan, unit, |t| curve.openness(t))?;
-    draw_sync(&mut graph, plan, unit)?;
+    draw_curve(&mut graph, plan, |t| curve.openness(t))?;
+    draw_sync(&mut graph, plan)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
     draw_triggers(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
     for ramp in ramps.iter().flatten() {
@@ -150,12 +150,13 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
 }
 
 /// The edge of the camera's sync, and the delay from there to the start of opening.
-fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
-    let (Some(edge), Some(delay)) = (sync(plan, unit), plan.delay) else { return Ok(()) };
+fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
+    let unit = plan.unit;
+    let (Some(edge), Some(delay)) = (sync(plan), plan.delay) else { return Ok(()) };
     let start = unit.of(plan.curve.open_start());
     let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
-    let is_near = is_near(plan, unit, edge);
-    let from = if is_near { edge } else { time_range(plan, unit).start };
+    let is_near = is_near(plan, edge);
+    let from = if is_near { edge } else { time_range(plan).start };
     if is_near {
         graph.draw_series([PathElement::new([(edge, 0.0), (edge, 1.0)], pen(INK, 2.0))])?;
     }
@@ -178,9 +179,9 @@ fn draw_cdf(area: &Area, plan: &Plan) -> Drawn {
     let (curve, unit) = (&plan.curve, plan.unit);
     let time = format!("time ({})", unit.name());
     let y = "fraction of the exposure";
-    let mut graph = graph(area, plan, unit, y, Some(&time), 0.0..1.05)?;
-    let left = time_range(plan, unit).start;
-    draw_curve(&mut graph, plan, unit, |t| curve.cdf(t))?;
+    let mut graph = graph(area, plan, y, Some(&time), 0.0..1.05)?;
+    let left = time_range(plan).start;
+    draw_curve(&mut graph, plan, |t| curve.cdf(t))?;
     let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time), f64::from(mark.u)));
     // How a time is found: from the fraction to the curve, and down.
     draw_triggers(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])

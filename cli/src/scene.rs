@@ -51,6 +51,9 @@ impl Number {
     }
 }
 
+/// The number of a key that may be left out.
+pub(crate) type Optional<'a> = Option<&'a Spanned<Number>>;
+
 /// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
 pub const KEYS: [&str; 19] = [
     "open_start",
@@ -346,14 +349,11 @@ pub(crate) fn seconds(unit: Unit, key: &'static str, time: &Spanned<Number>) -> 
 pub(crate) fn positive(
     unit: Unit,
     key: &'static str,
-    time: Option<&Spanned<Number>>,
+    time: Optional,
 ) -> Result<Option<f64>, Fault> {
     let Some(place) = time else { return Ok(None) };
     let seconds = seconds(unit, key, place)?;
-    if seconds > 0.0 {
-        return Ok(Some(seconds));
-    }
-    Err(Fault::at(place, What::Positive { key }))
+    if seconds > 0.0 { Ok(Some(seconds)) } else { Err(Fault::at(place, What::Positive { key })) }
 }
 
 /// A time in seconds that has to be 0 or more.

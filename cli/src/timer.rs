@@ -1,10 +1,9 @@
 //! A scene's timer.
 
 use shutter_fit::unit::short;
-use toml::Spanned;
 
 use crate::fault::{Fault, What};
-use crate::scene::Number;
+use crate::scene::Optional;
 
 /// A timer that counts up and wraps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,11 +23,7 @@ impl Timer {
     ///
     /// # Errors
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
-    pub(crate) fn new(
-        hz: Option<&Spanned<Number>>,
-        bits: Option<&Spanned<Number>>,
-        seconds: f64,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn new(hz: Optional, bits: Optional, seconds: f64) -> Result<Self, Fault> {
         let exact_hz = hz.map_or_else(|| fine(seconds), |hz| hz.get_ref().get());
         // From 0.5 on it is 1 when it is rounded.
         if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
@@ -42,22 +37,15 @@ impl Timer {
         Ok(Self { hz, exact_hz, bits: width as u32, is_given })
     }
 
-    /// The most ticks of a delay and a frame: beyond them, wrapping ticks no longer tell past from future.
-    pub(crate) fn most(&self) -> f64 {
-        (1u64 << (self.bits - 1)) as f64
-    }
-
     /// Has the count room for a delay and a frame of so many ticks? Of 32 bits that is checked as they are planned.
     ///
     /// # Errors
     /// A prescaler with which it has.
-    pub(crate) fn holds(&self, ticks: f64, bits: Option<&Spanned<Number>>) -> Result<(), Fault> {
-        let (most, Some(place)) = (self.most(), bits.filter(|_| self.is_given)) else {
-            return Ok(());
-        };
-        if ticks <= most {
-            return Ok(());
-        }
+    pub(crate) fn holds(&self, ticks: f64, bits: Optional) -> Result<(), Fault> {
+        // Beyond half of the count, wrapping ticks no longer tell past from future.
+        let most = (1u64 << (self.bits - 1)) as f64;
+        let is_beyond = self.is_given && ticks > most;
+        let Some(place) = bits.filter(|_| is_beyond) else { return Ok(()) };
         let least = (ticks / most).ceil();
         // One that leaves a whole rate, if there is one nearby.
         let whole = |by: &f64| (self.exact_hz / by).fract() == 0.0;
