@@ -5,6 +5,7 @@ use shutter_fit::trace::Refusal;
 use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
+use crate::fault::{Fault, What};
 use crate::planned::Planned;
 use crate::scene::KEYS;
 
@@ -66,8 +67,14 @@ pub fn curve_scene(
 fn planned(text: String, zero: Zero) -> Result<Scene, Refusal> {
     match Planned::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(Refusal::NoScene { reason: fault.reason() }),
+        Err(fault) => Err(no_scene(&fault)),
     }
+}
+
+/// What keeps a fit from being a scene.
+pub fn no_scene(fault: &Fault) -> Refusal {
+    let crowded = matches!(*fault.what, What::Close { .. } | What::TimesClose(_));
+    Refusal::NoScene { reason: fault.reason(), crowded }
 }
 
 fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shutter::emit::{self, Form};
 use shutter::fault::Fault;
-use shutter::fitted::{self, Zero};
+use shutter::fitted::{self, Zero, no_scene};
 use shutter::planned::Planned;
 use shutter::scene;
 use shutter::times::Times;
@@ -227,14 +227,13 @@ fn fitted(
     fit.reading = Some(recording.reading);
     // The page shows a curve, be it one that does not explain the trace: a warning says so.
     let text = fitted::curve_scene(&fit, name, Zero::Open, None)?.text;
-    let no_scene = |fault: Fault| Refusal::NoScene { reason: fault.reason() };
     let warnings = recording.warnings.iter().chain(&fit.warnings).map(words::warning).collect();
     let signal = &fit.best().signal;
     let own = match fit.from {
         From::Model => None,
         From::Trace => {
             let text = fitted::scene(&fit, name, Zero::Open, None)?.text;
-            let own = Times::parse(&text).map_err(no_scene)?;
+            let own = Times::parse(&text).map_err(|fault| no_scene(&fault))?;
             let times = own.triggers.iter().map(|trigger| trigger.time).collect();
             Some(Own { times, timer_hz: own.timer.hz, until_curve: signal.curve.start - fit.opens })
         }
@@ -248,7 +247,7 @@ fn fitted(
     let report = shutter_fit::text(name, &fit);
     let report: Vec<_> = report.lines().filter(|line| !line.contains("--")).collect();
     Ok(Fitted {
-        scene: scene::parse(&text).map_err(no_scene)?,
+        scene: scene::parse(&text).map_err(|fault| no_scene(&fault))?,
         report: report.join("\n"),
         kind: fit.chosen.title(),
         json: shutter_fit::json(name, &fit, &[]),

@@ -52,6 +52,8 @@ test('100 random scenes are planned to the bit', { timeout: 300_000 }, async () 
       continue;
     }
     assert.equal(await copied('json'), program, toml);
+    // And what is on the screen, which is computed of the numbers and not of this text.
+    assert.deepEqual(await page.evaluate(() => designer.model.view.plan.Ok.ticks), JSON.parse(program).triggers.map((it) => it.ticks), toml);
   }
   console.log(`${100 - refused} of 100 scenes planned, ${refused} refused by both`);
   assert.ok(refused < 40, String(refused));

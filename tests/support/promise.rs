@@ -182,8 +182,13 @@ impl Figures {
             self.scalar = self.scalar.max(error);
             self.expect("exposure and such", error <= SCALAR, || format!("{got:e}"), exact);
         }
-        // Where the curve starts and ends it may jump, and any value would do there: but it is its first and its last.
         let curve = exact.curve();
+        let times = [ours.open_start(), ours.open_end(), ours.close_start(), ours.close_end()];
+        let [first, .., second] = curve.opening;
+        let [third, .., last] = curve.closing;
+        let are_its_times = times == [first, second, third, last].map(|(t, _)| t);
+        self.expect("its four times", are_its_times, || format!("{times:?}"), exact);
+        // Where the curve starts and ends it may jump, and any value would do there: but it is its first and its last.
         let outer = [(curve.opening, curve.opening[0]), (curve.closing, curve.closing[3])];
         for (ramp, (t, f)) in outer {
             let holds = ramp[0].0 == ramp[3].0 || ours.openness(t) == f;

@@ -114,22 +114,18 @@ impl Reading {
             Told::Against(unit) => format!("as asked, where its name says {}", unit.name()),
             Told::Assumed => "assumed".into(),
         };
+        let limit = |word: &str, time: Option<f64>| {
+            time.map_or(String::new(), |t| format!(", {word} {}", Unit::fit(t.abs()).show(t)))
+        };
         let times = match (&self.time, self.clock) {
             (Some(time), Clock::Unit(unit)) => {
                 format!("{} in {}, {by}", shown(time), unit.name())
             }
             (_, Clock::Unit(unit)) => format!("in {}, {by}", unit.name()),
             (_, Clock::Rate(rate)) => {
-                let first = self.first.filter(|first| *first != 0.0);
-                let from = first.map_or(String::new(), |first| {
-                    format!(", the first at {}", Unit::fit(first.abs()).show(first))
-                });
+                let from = limit("the first at", self.first.filter(|first| *first != 0.0));
                 format!("{} samples a second, {by}{from}", short(rate, 7))
             }
-        };
-        let shown = |seconds: f64| Unit::fit(seconds.abs()).show(seconds);
-        let limit = |word: &str, time: Option<f64>| {
-            time.map_or(String::new(), |time| format!(", {word} {}", shown(time)))
         };
         let [from, to] = self.window;
         let segments = match self.segments {

@@ -40,7 +40,7 @@ const NAMES: [(Kind, &str); 9] = [
         "sampleinterval samplinginterval sampleperiod samplingperiod sampletime samplingtime samplespacing timestep \
                   abtastintervall timeinterval timeincrement increment wfincrement tinc xinc xincr xincrement hresolution deltax deltat dt",
     ),
-    (Kind::Clock, "clock interval delta"),
+    (Kind::Clock, "clock interval"),
     (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime wfstartoffset"),
     (Kind::Begin, "start"),
     (
@@ -76,8 +76,7 @@ impl Measure {
             _ => (1.0, word.as_str()),
         };
         let is_rate = ["hz", "sa/s", "s/s", "sps", "samples/s", "samples/second"].contains(&rest);
-        let time = || unit_of(&word).map(Self::Time);
-        if is_rate { Some(Self::Hertz(prefix)) } else { time() }
+        if is_rate { Some(Self::Hertz(prefix)) } else { unit_of(&word).map(Self::Time) }
     }
 }
 
@@ -182,11 +181,16 @@ impl Settings {
                 };
             }
             let words = line.to_lowercase();
-            let is_near =
-                ["sampl", "rate", "interval", "increment"].iter().any(|it| words.contains(it));
+            let is_near = ["sampl", "rate", "interval", "increment", "delta"]
+                .iter()
+                .any(|it| words.contains(it));
             if is_near && settings.steps.len() == known && line.contains(is_digit) {
                 settings.unread.get_or_insert(short_of(line.trim()));
             }
+        }
+        // Without a unit a step of a second or more may be of anything.
+        if settings.unit.is_none() && matches!(settings.steps[..], [(_, 1.0.., false)]) {
+            settings.unread = settings.steps.pop().map(|(words, ..)| words);
         }
         settings
     }
@@ -212,13 +216,13 @@ impl Settings {
         }
         let unit = before.or(behind);
         let x = match (kind, unit) {
+            // Less than one a second may be a step by a wrong name.
+            (Kind::Rate, None) if x < 1.0 => return false,
             (Kind::Rate, None) => 1.0 / x,
             (Kind::Rate, Some(Measure::Hertz(each))) => 1.0 / (each * x),
             (Kind::Rate | Kind::Trigger, Some(_))
             | (Kind::Clock, None)
-            | (_, Some(Measure::Hertz(_))) => {
-                return false;
-            }
+            | (_, Some(Measure::Hertz(_))) => return false,
             (_, Some(Measure::Time(unit))) => unit.seconds(x),
             (_, None) => x,
         };
@@ -285,7 +289,7 @@ mod tests {
         let ten_microseconds = "Sample rate: 100000 Hz|Samplerate: 100 kHz|Sampling rate 100 kHz|Sampling rate (kHz): 100\
             |Sample Rate [kS/s],100|Sampling Rate:100.0KSa/s|sampling_rate_hz=100000|Sample Rate: 100000 Hz. Values are linear.\
             |100 kHz|100.000 kHz|Sample rate: 100000.000|XInc,10\nXUnits,us|HResolution,1E-5\nHUnit,s|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
-            |XInc:,1.0E-05|CLOCK=10.0uS|Interval=,1E-05 s|Delta(second),1.0E-05|0.01 msec/sample|Unit,wf_increment\nV,0.00001|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
+            |XInc:,1.0E-05|CLOCK=10.0uS|Interval=,1E-05 s|0.01 msec/sample|Unit,wf_increment\nV,0.00001|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
         for text in ten_microseconds.split('|') {
             assert!(
                 (step(text).unwrap_or_default() - 1e-5).abs() < 1e-15,
@@ -293,7 +297,7 @@ mod tests {
                 step(text)
             );
         }
-        let nothing = "Interval,2|Delta,1.0E-05|10 msec|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
+        let nothing = "Interval,2|10 msec|Sample rate: 0.00001|Sample interval: 10|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
             |Sample rate: 100.000 Hz|Sample rate: 1.000.000|Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
         nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));

@@ -116,13 +116,13 @@ pub enum Refusal {
     Undetermined,
     #[error(
         "no scene can be made of this: {reason}; {}",
-        if reason.starts_with("triggers ") {
+        if *.crowded {
             "--triggers says how many"
         } else {
             "look at the trace: is there one rise, one plateau at most, one fall?"
         }
     )]
-    NoScene { reason: String },
+    NoScene { reason: String, crowded: bool },
 }
 
 /// What helps where a file does not tell its times.

@@ -2,7 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{Random, circle};
+use shutter_fit::trace::Trace;
+use strum::EnumIter;
+
+use crate::generator::{Random, circle};
 
 /// So many places at which the truth is worked out.
 const FINE: usize = 60_000;
@@ -46,7 +49,7 @@ impl Openness {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter)]
 pub enum Family {
     Bounce,
     DeepBounce,
@@ -69,36 +72,12 @@ pub enum Family {
     Shallow,
 }
 
-pub const FAMILIES: [Family; 19] = [
-    Family::Bounce,
-    Family::DeepBounce,
-    Family::Dip,
-    Family::Overshoot,
-    Family::Reopens,
-    Family::Slit,
-    Family::LiquidCrystal,
-    Family::CutTail,
-    Family::Coupled,
-    Family::SoundCard,
-    Family::Clipped,
-    Family::ClippedNoise,
-    Family::Flicker,
-    Family::Pulsed,
-    Family::Differing,
-    Family::Coarse,
-    Family::Creep,
-    Family::Sinks,
-    Family::Shallow,
-];
-
 /// A trace of a shutter, and the truth.
 pub struct Measured {
     pub truth: Openness,
-    pub times: Vec<f64>,
-    pub values: Vec<f64>,
-    /// The times are these many times the truth's, and so much later.
+    pub trace: Trace,
+    /// The times are these many times the truth's.
     pub scale: f64,
-    pub shift: f64,
     /// Another exposure that is as true: of shots that differ.
     pub others: Vec<f64>,
 }
@@ -224,11 +203,6 @@ pub fn measured(family: Family, random: &mut Random) -> Measured {
     let truth = mechanics(family, random);
     // Milliseconds to some tens, as the lamp's frequencies need.
     let scale = random.scale(0.01, 0.06);
-    recorded(family, truth, scale, random)
-}
-
-/// What the lamp and the recorder make of a shutter.
-pub fn recorded(family: Family, truth: Openness, scale: f64, random: &mut Random) -> Measured {
     // A shallow dip may be hidden.
     let (most, least, noisy) =
         if family == Family::Shallow { (2000.0, 400.0, 0.02) } else { (5000.0, 800.0, 0.01) };
@@ -260,7 +234,6 @@ pub fn recorded(family: Family, truth: Openness, scale: f64, random: &mut Random
     };
     let mut values: Vec<f64> = means.map(&mut noisy).collect();
     let mut times: Vec<f64> = (0..n).map(|i| scale * (i as f64 + 0.5) / n as f64).collect();
-    let shift = 0.0;
     let mut others = Vec::new();
     match family {
         Family::CutTail => {
@@ -290,7 +263,7 @@ pub fn recorded(family: Family, truth: Openness, scale: f64, random: &mut Random
         }
         _ => (),
     }
-    Measured { truth, times, values, scale, shift, others }
+    Measured { truth, trace: Trace { times, values }, scale, others }
 }
 
 /// A lamp's light over the trace.

@@ -3,22 +3,17 @@
 //! Each file is a trace in a form that an instrument writes, with some bytes, fields or lines changed. The same files come every
 //! time; `SEED=7` before it makes others, and `FILES=10000` more of them.
 
-// The tables need the rest of it.
-#[allow(dead_code)]
-#[path = "../../fit/tests/generator/mod.rs"]
-mod generator;
-
 use std::ffi::OsString;
+use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::path::Path;
 use std::time::Instant;
-use std::{env, fs, thread};
 
-use generator::Random;
+use crate::generator::{Random, asked, each};
+use crate::support::Folder;
 
 /// So many files, if no one asks for another number.
-const FILES: u64 = 2_000;
+const FILES: u32 = 2_000;
 /// No file of this size may take longer, on a busy machine and with all debug checks; in seconds.
 const PATIENCE: f64 = 10.0;
 
@@ -71,27 +66,10 @@ fn whole(random: &mut Random) -> Vec<u8> {
 }
 
 /// What is put in the place of something else.
+#[rustfmt::skip]
 const TOKENS: [&str; 20] = [
-    "0",
-    "-1",
-    "1e308",
-    "-1e308",
-    "1e-308",
-    "NaN",
-    "inf",
-    "-inf",
-    "10",
-    "",
-    "1,234",
-    "1e30",
-    "0.0000001",
-    ",",
-    ";",
-    "\t",
-    "\"",
-    "\n",
-    "s",
-    "1.0.0",
+    "0", "-1", "1e308", "-1e308", "1e-308", "NaN", "inf", "-inf", "10", "", "1,234", "1e30", "0.0000001", ",", ";", "\t", "\"", "\n",
+    "s", "1.0.0",
 ];
 
 /// Changes the file in one way.
@@ -129,14 +107,9 @@ fn file(seed: u64) -> (Vec<u8>, Vec<&'static str>) {
     for _ in 0..1 + below(&mut random, 4) {
         mutate(&mut bytes, &mut random);
     }
+    #[rustfmt::skip]
     let asked: [&[&str]; 8] = [
-        &[],
-        &[],
-        &[],
-        &["--rate", "100000"],
-        &["--unit", "us"],
-        &["--columns", "2"],
-        &["--light", "down"],
+        &[], &[], &[], &["--rate", "100000"], &["--unit", "us"], &["--columns", "2"], &["--light", "down"],
         &["--model", "free", "--zero", "open", "--triggers", "3"],
     ];
     (bytes, asked[below(&mut random, asked.len())].to_vec())
@@ -171,41 +144,20 @@ fn judged(seed: u64, path: &Path) -> Result<u8, String> {
     }
 }
 
-fn asked(name: &str, otherwise: u64) -> u64 {
-    env::var(name).map_or(otherwise, |n| n.parse().expect("a whole number"))
-}
-
 #[test]
 fn broken_files_end_with_0_or_2() {
     let (seed, files) = (asked("SEED", 1) << 32, asked("FILES", FILES));
-    let dir: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fuzz");
-    fs::create_dir_all(&dir).expect("a folder");
-    let (next, fitted) = (AtomicU64::new(0), AtomicU64::new(0));
-    let work = |worker: usize| {
-        let path = dir.join(format!("{worker}.csv"));
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= files {
-                return;
-            }
-            match judged(seed + k, &path) {
-                Ok(code) => drop(fitted.fetch_add(u64::from(code == 0), Ordering::Relaxed)),
-                Err(wrong) => {
-                    let kept = dir.join(format!("found-{k}.csv"));
-                    fs::copy(&path, &kept).expect("the file is kept");
-                    panic!("file {k}, {:?}: {wrong}; see {}", file(seed + k).1, kept.display());
-                }
-            }
-        }
-    };
-    let work = &work;
-    thread::scope(|scope| {
-        for worker in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(move || work(worker));
-        }
+    let folder = Folder::new("fuzz");
+    let codes = each(files, |k| {
+        let path = folder.path(&format!("{k}.csv"));
+        let code = judged(seed + u64::from(k), &path).unwrap_or_else(|wrong| {
+            panic!("{:?}: {wrong}; see {}", file(seed + u64::from(k)).1, path.display())
+        });
+        fs::remove_file(path).expect("it was written");
+        code
     });
-    let fitted = fitted.into_inner();
+    let fitted = codes.iter().filter(|code| **code == 0).count();
     println!("{fitted} of {files} fitted, the others refused");
     // Else nothing was tried but the reading.
-    assert!(fitted > files / 5, "{fitted}");
+    assert!(fitted > files as usize / 5, "{fitted}");
 }

@@ -2,25 +2,20 @@
 //! ordinary test judges some traces of each; the tables of docs/internals/fit.md come from
 //!
 //! ```text
-//! cargo test --package shutter-fit --test fit_physics -- --ignored --nocapture
+//! cargo test --package shutter-fit --test traces physics:: -- --ignored --nocapture
 //! ```
 //!
 //! `SEED=9000011` before it makes other traces, and `EACH=100` more of them.
 
-// The other table needs the rest of it.
-#[allow(dead_code)]
-mod generator;
-
 use std::collections::BTreeMap;
-use std::env;
-use std::fmt::Debug;
-use std::str::FromStr;
 
-use generator::physics::{FAMILIES, Family, Measured, measured};
-use generator::unseen::{self, INSTRUMENTS, Instrument, MECHANICS, Mechanics};
-use generator::{Disturbance, Random, SHUTTERS, case, each};
 use shutter_fit::trace::{Trace, Warning};
-use shutter_fit::{From, Options, fit};
+use shutter_fit::{From, Options, Sync, fit};
+use strum::IntoEnumIterator;
+
+use crate::families::{Family, Measured, measured};
+use crate::generator::{Disturbance, Random, SHUTTERS, asked, case, each, quantile};
+use crate::unseen::{self, Instrument, Mechanics};
 
 /// Results beyond these, as shares of the exposure, are wrong: of the triggers, of the exposure.
 const WRONG: (f64, f64) = (0.0015, 0.005);
@@ -55,8 +50,7 @@ fn is_about_the_result(warning: &Warning) -> bool {
 }
 
 fn row(case: &Measured) -> Row {
-    let trace = Trace { times: case.times.clone(), values: case.values.clone() };
-    let Ok(fit) = fit(&trace, &Options::default(), &mut |_| ()) else {
+    let Ok(fit) = fit(&case.trace, &Options::default(), &mut |_| ()) else {
         return Row {
             refused: true,
             is_allowed: true,
@@ -73,21 +67,15 @@ fn row(case: &Measured) -> Row {
     let n = fit.triggers.len() as f64;
     let (mut squares, mut triggers_covered) = (0.0, 0.0);
     for (i, trigger) in fit.triggers.iter().enumerate() {
-        let truth = case.truth.trigger((i as f64 + 0.5) / n) * case.scale + case.shift;
+        let truth = case.truth.trigger((i as f64 + 0.5) / n) * case.scale;
         squares += ((trigger.value - truth) / exposure).powi(2) / n;
         let holds = (trigger.value - truth).abs() <= 1.96 * trigger.error;
         triggers_covered += if holds { 1.0 / n } else { 0.0 };
     }
-    let off = fit.exposure.value - exposure;
-    // Which of several shots was fitted is not known here: their triggers are not judged.
-    let (mut off, square) = (off, if case.others.is_empty() { squares } else { 0.0 });
-    // Either of shots that differ is as true.
-    for other in &case.others {
-        if (fit.exposure.value - other).abs() < off.abs() {
-            off = fit.exposure.value - other;
-        }
-    }
-    let (triggers, off) = (square.sqrt(), off.abs());
+    // Which of several shots was fitted is not known here: their triggers are not judged, and either exposure is as true.
+    let triggers = if case.others.is_empty() { squares.sqrt() } else { 0.0 };
+    let truths = case.others.iter().chain([&exposure]);
+    let off = truths.map(|truth| (fit.exposure.value - truth).abs()).fold(f64::INFINITY, f64::min);
     Row {
         refused: false,
         is_allowed: triggers <= WRONG.0 && off <= WRONG.1 * exposure,
@@ -99,16 +87,6 @@ fn row(case: &Measured) -> Row {
         from_trace: fit.from == From::Trace,
         warnings: fit.warnings.iter().map(Warning::code).collect(),
     }
-}
-
-fn asked<T: FromStr<Err: Debug>>(name: &str, otherwise: T) -> T {
-    env::var(name).map_or(otherwise, |n| n.parse().expect("a whole number"))
-}
-
-fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(0.0)
 }
 
 fn family_rows(family: Family, count: u32, seed: u64) -> Vec<Row> {
@@ -151,7 +129,7 @@ const HEAD: &str = "| | traces | triggers, median | 90 % | exposure, median | 90
 fn table() {
     let (count, seed) = (asked("EACH", 20), asked("SEED", 1));
     println!("\n{HEAD}");
-    for family in FAMILIES {
+    for family in Family::iter() {
         let rows = family_rows(family, count, seed);
         print(&format!("{family:?}"), &rows);
         // Blades that do what no model does: the trace's own exposure is within what is stated.
@@ -174,7 +152,7 @@ fn unseen_mechanics() {
         each(count, |k| {
             let seed = seed + 900_000 + 10_000 * what as u64 + 100 * by as u64 + u64::from(k);
             let (case, noise) = unseen::measured(what, by, &mut Random::new(seed));
-            let lit = case.times.len() as f64 * case.truth.exposure();
+            let lit = case.trace.times.len() as f64 * case.truth.exposure();
             let allowed = 4.0 * noise * (1.5 / lit).sqrt();
             let allowed = if by == Instrument::Sines { 2.0 * noise } else { allowed };
             let mut row = row(&case);
@@ -185,13 +163,13 @@ fn unseen_mechanics() {
     };
     println!("\n{HEAD}");
     let mut all = Vec::new();
-    for by in INSTRUMENTS {
-        let rows: Vec<Row> = MECHANICS.iter().flat_map(|what| made(*what, by, count)).collect();
+    for by in Instrument::iter() {
+        let rows: Vec<Row> = Mechanics::iter().flat_map(|what| made(what, by, count)).collect();
         print(&format!("{by:?}"), &rows);
         all.extend(rows);
     }
     print("all", &all);
-    for what in MECHANICS {
+    for what in Mechanics::iter() {
         let clean = [Instrument::Clean, Instrument::Jitter].map(|by| made(what, by, 5 * count));
         print(&format!("{what:?}, clean"), &clean.concat());
     }
@@ -201,7 +179,7 @@ fn unseen_mechanics() {
 /// after it.
 #[test]
 fn nothing_is_wrong_without_a_word() {
-    for family in FAMILIES.into_iter().filter(|family| *family != Family::Clipped) {
+    for family in Family::iter().filter(|family| *family != Family::Clipped) {
         let rows = family_rows(family, 3, 77);
         for row in &rows {
             assert!(row.told || !row.is_wrong(), "{family:?}: {} {}", row.triggers, row.exposure);
@@ -252,10 +230,10 @@ fn the_models_own_kind_is_not_doubted() {
         for shutter in SHUTTERS {
             for seed in 0..2 {
                 let case = case(shutter, disturbance, &mut Random::new(31_000 + seed));
-                let trace = Trace { times: case.times, values: case.values };
-                let fit = fit(&trace, &Options::default(), &mut |_| ()).expect("a fit");
+                let fit = case.fitted(&Options::default());
                 assert!(fit.test.explained && fit.test.tested, "{shutter:?}: {:?}", fit.test);
                 assert_eq!(fit.from, From::Model);
+                assert!(fit.warnings.iter().all(|it| it.code() != "hum"), "{:?}", fit.warnings);
             }
         }
     }
@@ -266,22 +244,13 @@ fn the_models_own_kind_is_not_doubted() {
 #[ignore = "some minutes: the table of false alarms, for docs/internals/fit.md"]
 fn false_alarms() {
     let (count, seed) = (asked("EACH", 20), asked("SEED", 1));
-    for (k, disturbance) in [
-        Disturbance::White,
-        Disturbance::Coloured,
-        Disturbance::Hum,
-        Disturbance::Drift,
-        Disturbance::Pink,
-    ]
-    .into_iter()
-    .enumerate()
-    {
+    use Disturbance::*;
+    for (k, disturbance) in [White, Coloured, Hum, Drift, Pink].into_iter().enumerate() {
         for shutter in SHUTTERS {
             let alarms = each(count, |i| {
                 let seed = seed + 70_000 + 10_000 * k as u64 + 1000 * shutter as u64 + u64::from(i);
                 let case = case(shutter, disturbance, &mut Random::new(seed));
-                let trace = Trace { times: case.times, values: case.values };
-                let fit = fit(&trace, &Options::default(), &mut |_| ()).expect("a fit");
+                let fit = case.fitted(&Options::default());
                 let about = fit.warnings.iter().filter(|w| is_about_the_result(w));
                 let codes: Vec<&str> =
                     about.map(Warning::code).filter(|c| *c != "no_plateau").collect();
@@ -297,6 +266,24 @@ fn false_alarms() {
             );
         }
     }
+}
+
+/// How often the true start of opening lies within what a fit states of the delay to it. Of 24 traces of each shutter, 96 % or more
+/// were covered. For a liquid crystal, whose tail hides the length, the stated error is some thirty times too large; for no shutter
+/// was it too small on the whole.
+#[test]
+fn the_true_start_of_opening_is_within_its_stated_error() {
+    let options = Options { sync: Some(Sync::Edge(-1e3)), ..Options::default() };
+    let held = each(6 * SHUTTERS.len() as u32, |i| {
+        let (shutter, k) = (SHUTTERS[i as usize / 6], i % 6);
+        let mut random = Random::new(77_000 + 13 * u64::from(k) + shutter as u64);
+        let case = case(shutter, Disturbance::White, &mut random);
+        let delay = case.fitted(&options).delay.unwrap();
+        let off = delay.mean() - 1e3 - case.truth.times[0] * case.scale;
+        off.abs() <= 1.96 * delay.error() + 1e-9 * case.scale
+    });
+    let missed = held.iter().filter(|held| !**held).count();
+    assert!(20 * missed <= held.len(), "{missed} of {}", held.len());
 }
 
 /// The codes of what is told of a pulse: 2000 samples of this openness from -1 to 1, and of this noise, by the light.

@@ -1,32 +1,23 @@
 //! What `shutter fit` reads of the files of instruments: which column, in which unit or at which rate, and what it refuses, in
 //! words that help. All files are of one shutter, so what is taken for something else shows in the exposure.
 
-// The tables need the rest of it.
-#[allow(dead_code)]
-mod generator;
-
 use std::collections::BTreeSet;
 
-use generator::Random;
 use shutter_fit::trace::{self, Column, Recording, Warning, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Fit, Kind, Options, Sync, fit};
 use strum::IntoEnumIterator;
 
-/// Opens from 2 to 4 ms and closes from 7 to 9: an exposure of 5 ms. The times in seconds, the light from 0 to 1.
-fn trace() -> Vec<(f64, f64)> {
-    let mut random = Random::new(11);
-    let openness = |t: f64| (t - 0.002).min(0.009 - t).clamp(0.0, 0.002) / 0.002;
-    let times = (0..1200).map(|i| 1e-5 * f64::from(i));
-    times.map(|t| (t, 0.05 + 0.9 * openness(t) + 0.004 * random.normal())).collect()
-}
+use crate::exports::rows;
+use crate::generator::Random;
 
-fn rows(row: impl Fn(usize, f64, f64) -> String) -> String {
-    trace().into_iter().enumerate().map(|(i, (t, v))| row(i, t, v) + "\n").collect()
-}
-
+/// What stands above the rows of the exports' light, and a row for each of its samples.
 fn with(above: &str, row: impl Fn(usize, f64, f64) -> String) -> String {
-    above.to_string() + &rows(row)
+    let samples = rows("{t},{v}");
+    let samples = samples.lines().map(|line| line.split(',').map(|it| it.parse().unwrap()));
+    let samples = samples.map(|mut sample| [0; 2].map(|_| sample.next().unwrap()));
+    let rows = samples.enumerate().map(|(i, [t, v])| row(i, t, v) + "\n");
+    above.to_string() + &rows.collect::<String>()
 }
 
 fn read(bytes: &[u8], options: &trace::Options) -> Result<(Recording, f64), String> {
@@ -39,7 +30,7 @@ fn read(bytes: &[u8], options: &trace::Options) -> Result<(Recording, f64), Stri
 /// A program may ask for them, so they stay.
 #[test]
 fn the_codes_of_warnings_are_the_documented_ones() {
-    let pages = include_str!("../../docs/measuring.md");
+    let pages = include_str!("../../../docs/measuring.md");
     let (_, list) = pages.split_once("\n## Warnings\n").unwrap();
     let before_colons = list.lines().filter_map(|line| line.strip_prefix("- ")?.split_once(':'));
     let codes =
@@ -48,17 +39,13 @@ fn the_codes_of_warnings_are_the_documented_ones() {
     assert_eq!(codes.collect::<BTreeSet<_>>(), told.collect());
 }
 
-/// A drive's gate that opens before the light and ends after it, 5 V high.
-fn gate(t: f64) -> f64 {
-    if (0.0015..0.0085).contains(&t) { 5.0 } else { 0.0 }
-}
-
 #[test]
 fn of_two_signals_the_light_is_taken_and_the_other_named() {
-    let keysight =
-        with("x-axis,1,2\nsecond,Volt,Volt\n", |_, t, v| format!("{t:.6},{:.2},{v:.5}", gate(t)));
-    let two = with("Time (s);sync;photodiode\n", |_, t, v| format!("{t:.6};{:.2};{v:.5}", gate(t)));
-    for text in [keysight, two] {
+    for (names, row) in [
+        ("x-axis,1,2\nsecond,Volt,Volt\n", "{t},{g},{v}"),
+        ("Time (s);sync;photodiode\n", "{t};{g};{v}"),
+    ] {
+        let text = names.to_string() + &rows(row);
         let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
         assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
         let [Warning::SecondSignal { taken, other, option }] = &recording.warnings[..] else {
@@ -115,13 +102,10 @@ fn what_is_refused_is_shown() {
             "or a thousand",
         ),
         (with("t;v\n", |i, _, v| format!("1.000,{:02};{v:.5}", i % 100)), "thousand"),
-        (rows(|_, t, v| format!("2024-05-01T10:00:{t:09.6},{v:.4}")), "2024-05-01T10:00:00.0"),
-        (rows(|_, t, v| format!("{:.3} ms; {v:.4} V", 1e3 * t)), "its middle line is '6.000 ms;"),
         (
-            with("Sample rate: 44100 Hz\nSampling rate 48 kHz\n", |_, _, v| format!("{v:.4}")),
-            "different rates",
+            with("", |_, t, v| format!("{:.3} ms; {v:.4} V", 1e3 * t)),
+            "its middle line is '6.000 ms;",
         ),
-        (rows(|_, _, v| format!("{v:.4}")), "--rate 100000"),
     ] {
         let said = refused(text.as_bytes());
         assert!(said.contains(words), "{words}: {said}");
@@ -139,14 +123,46 @@ fn what_is_refused_is_shown() {
     }
 }
 
+/// Encodings, rows that are broken, come late or come twice: each is read, and told with its line.
 #[test]
-fn utf_16_needs_no_mark_and_lines_no_feed() {
-    let text = with("time_s,v\n", |_, t, v| format!("{t:.6},{v:.5}"));
-    let [le, be] = [u16::to_le_bytes, u16::to_be_bytes]
-        .map(|pair| text.encode_utf16().flat_map(pair).collect());
-    for bytes in [le, be, text.replace('\n', "\r").into_bytes()] {
-        let (_, exposure) = read(&bytes, &trace::Options::default()).unwrap();
-        assert!((exposure / 0.005 - 1.0).abs() < 2e-3);
+fn other_files_of_the_same_trace_are_read() {
+    let text = with("t (µs),V\n", |_, t, v| format!("{:.2},{v:.5}", 1e6 * t));
+    let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
+    // A mark may say the encoding.
+    let wide = |text: &str, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        text.encode_utf16().flat_map(bytes).collect()
+    };
+    let marked = format!("\u{feff}{text}");
+    let broken = with("time_s,v\n", |i, t, v| match i {
+        300 => format!("{t:.6},NaN"),
+        301 => format!("{t:.6},"),
+        302 => "oops,0.5".into(),
+        303 => format!("{t:.6},1e300"),
+        304 => "\n".into(),
+        305 => format!("{t:.6},inf"),
+        _ => format!("{t:.6},{v:.5}"),
+    });
+    let reason = "the value is NaN".into();
+    let broken_rows = Warning::BrokenRows { count: 4, line: 302, reason };
+    let sorted = with("time_s,v\n", |_, t, v| format!("{t:.6},{v:.5}"));
+    let mut lines: Vec<&str> = sorted.lines().collect();
+    lines.swap(101, 901);
+    lines.insert(501, lines[500]);
+    let unsorted = [Warning::Unsorted { line: 103 }, Warning::Duplicates { count: 1, line: 502 }];
+    for (bytes, told) in [
+        (latin, vec![]),
+        (wide(&text.replace('µ', "u"), u16::to_le_bytes), vec![]),
+        (wide(&text.replace('µ', "u"), u16::to_be_bytes), vec![]),
+        (wide(&marked, u16::to_le_bytes), vec![]),
+        (wide(&marked, u16::to_be_bytes), vec![]),
+        (marked.into(), vec![]),
+        (text.replace('\n', "\r").into(), vec![]),
+        (broken.into(), vec![broken_rows, Warning::Overload { count: 1, line: 308 }]),
+        (lines.join("\n").into(), unsorted.into()),
+    ] {
+        let (recording, exposure) = read(&bytes, &trace::Options::default()).unwrap();
+        assert_eq!(recording.warnings, told);
+        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
     }
 }
 
@@ -162,7 +178,7 @@ fn wav(floating: bool) -> Vec<u8> {
     };
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut file = hound::WavWriter::new(&mut bytes, spec).unwrap();
-    for (_, v) in trace() {
+    for v in rows("{v}").lines().map(|line| line.parse::<f64>().unwrap()) {
         for v in [0.01, v] {
             if floating {
                 file.write_sample(v as f32).unwrap();
@@ -311,8 +327,8 @@ fn a_timers_count_and_a_channels_number_are_not_misread() {
         [(1u64 << 16, 50, 600), (1 << 32, 10, 600), (second, 10, 600), (second, 1250, 800)];
     for (whole, tick, before) in timers {
         let first = whole - before * tick;
-        let rows = rows(|i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
-        let text = format!("us,adc\n{rows}");
+        let text =
+            with("us,adc\n", |i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
         let rated = trace::Options { rate: Some(1e6 / tick as f64), ..Default::default() };
         assert_eq!(open(text.as_bytes(), &rated).unwrap().reading.signal.0, 2);
         let (fit, _, codes) = doubted(&text, None);
@@ -326,8 +342,7 @@ fn a_timers_count_and_a_channels_number_are_not_misread() {
     let timer = with("time,adc\n", |i, _, v| format!("{},{v:.4}", 212 * i));
     let said = read(timer.as_bytes(), &trace::Options::default()).unwrap_err();
     assert!(said.contains("\"time\" counts without a unit"), "{said}");
-    let keysight =
-        with("x-axis,1,2\nsecond,Volt,Volt\n", |_, t, v| format!("{t:.6},{v:.5},{:.2}", gate(t)));
+    let keysight = "x-axis,1,2\nsecond,Volt,Volt\n".to_string() + &rows("{t},{v},{g}");
     for (name, is_read) in [("2", false), ("2 Volt", true), ("3", true)] {
         let options = trace::Options { sync: Some(Column::parse(name)), ..Default::default() };
         assert_eq!(open(keysight.as_bytes(), &options).is_ok(), is_read, "{name}");

@@ -2,10 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::physics::{Measured, Openness};
-use super::{Random, circle};
+use shutter_fit::trace::Trace;
+use strum::EnumIter;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use crate::families::{Measured, Openness};
+use crate::generator::{Random, circle};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter)]
 pub enum Mechanics {
     /// Straight-edged leaves on cranks, which overlap when closed, before a round pupil.
     Cranks,
@@ -33,12 +36,7 @@ pub enum Mechanics {
     Slips,
 }
 
-pub const MECHANICS: [Mechanics; 12] = {
-    use Mechanics::*;
-    [Cranks, Rollers, Rebound, Coil, Falls, Cine, Snaps, Memory, Crystal, Pockels, Phosphor, Slips]
-};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumIter)]
 pub enum Instrument {
     Clean,
     /// Twelve bits, and times that jitter.
@@ -56,11 +54,6 @@ pub enum Instrument {
     /// Noise that grows with the light.
     Shot,
 }
-
-pub const INSTRUMENTS: [Instrument; 10] = {
-    use Instrument::*;
-    [Clean, Jitter, EightBits, Few, Mains, Sines, Capacitor, LostRows, Bending, Shot]
-};
 
 const STEPS: usize = 80_000;
 /// An integration's step; all its steps last for 20.
@@ -340,5 +333,5 @@ pub fn measured(what: Mechanics, by: Instrument, random: &mut Random) -> (Measur
         times.drain(lost.clone());
         values.drain(lost);
     }
-    (Measured { truth, times, values, scale, shift: 0.0, others: Vec::new() }, noise)
+    (Measured { truth, trace: Trace { times, values }, scale, others: Vec::new() }, noise)
 }

@@ -2,26 +2,22 @@
 //! docs/internals/fit.md, and its picture, come from
 //!
 //! ```text
-//! cargo test --package shutter --test fit_table -- --ignored --nocapture
+//! cargo test --package shutter --test program table:: -- --ignored --nocapture
 //! ```
 //!
 //! `SEED=9000011` before it makes other traces.
 
-#[path = "../../fit/tests/generator/mod.rs"]
-mod generator;
-
+use std::fs;
 use std::ops::RangeInclusive;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
-use std::{fs, thread};
 
-use generator::{Case, Disturbance, Random, SHUTTERS, Shutter, case, traced, truth};
+use crate::generator::{
+    self, Case, Disturbance, Random, SHUTTERS, Shutter, asked, case, quantile, traced, truth,
+};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style;
-use shutter_fit::trace::Trace;
-use shutter_fit::{Fit, Kind, Measured, Options, fit};
+use shutter_fit::{Kind, Measured, Options, fit};
 
 /// An interval of so many standard errors to either side holds 95 % of all values, if these are normal.
 const INTERVAL: f64 = 1.96;
@@ -43,22 +39,17 @@ struct Row {
     time: Duration,
 }
 
-fn trace(case: &Case) -> Trace {
-    Trace { times: case.times.clone(), values: case.values.clone() }
-}
-
 fn row(shutter: Shutter, case: &Case) -> Option<Row> {
-    let trace = trace(case);
     let clock = Instant::now();
-    let fit = fit(&trace, &Options::default(), &mut |_| ()).ok()?;
+    let fit = fit(&case.trace, &Options::default(), &mut |_| ()).ok()?;
     let time = clock.elapsed();
-    let exposure = case.truth.exposure() * case.scale;
+    let exposure = case.exposure();
     let holds =
         |m: Measured, truth: f64| (m.value - truth).abs() <= INTERVAL * m.error + 1e-5 * truth;
     let (mut squares, mut greatest, mut covered) = (0.0, 0.0, 0.0);
     let n = fit.triggers.len() as f64;
     for (i, trigger) in fit.triggers.iter().enumerate() {
-        let truth = case.truth.trigger((i as f64 + 0.5) / n) * case.scale;
+        let truth = case.trigger((i as f64 + 0.5) / n);
         let error = (trigger.value - truth).abs() / exposure;
         squares += error * error / n;
         greatest = f64::max(greatest, error);
@@ -81,37 +72,17 @@ fn row(shutter: Shutter, case: &Case) -> Option<Row> {
 }
 
 /// The rows of so many traces of each shutter, and how many traces had no result.
-fn rows(disturbance: Disturbance, each: u64) -> (Vec<Row>, usize) {
-    let (next, rows) = (AtomicU64::new(0), Mutex::new((Vec::new(), 0)));
-    let seed = std::env::var("SEED").map_or(1, |seed| seed.parse().expect("a whole number"));
-    let work = || {
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            let shutter = match SHUTTERS.get((k / each) as usize) {
-                Some(shutter) => *shutter,
-                None => return,
-            };
-            let mut random = Random::new(seed + k * 4 + disturbance as u64);
-            let row = row(shutter, &case(shutter, disturbance, &mut random));
-            let mut rows = rows.lock().expect("no other thread panics");
-            match row {
-                Some(row) => rows.0.push(row),
-                None => rows.1 += 1,
-            }
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
+fn rows(disturbance: Disturbance, each: u32) -> (Vec<Row>, usize) {
+    let seed = asked("SEED", 1);
+    let rows = generator::each(each * SHUTTERS.len() as u32, |k| {
+        let shutter = SHUTTERS[(k / each) as usize];
+        let mut random = Random::new(seed + u64::from(k) * 4 + disturbance as u64);
+        row(shutter, &case(shutter, disturbance, &mut random))
     });
-    rows.into_inner().expect("no other thread panicked")
-}
-
-fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[((values.len() - 1) as f64 * q).round() as usize]
+    let all = rows.len();
+    let rows: Vec<Row> = rows.into_iter().flatten().collect();
+    let failed = all - rows.len();
+    (rows, failed)
 }
 
 fn share(rows: &[&Row], of: impl Fn(&Row) -> f64) -> f64 {
@@ -214,7 +185,7 @@ fn table() {
     let mut white = Vec::new();
     for (disturbance, name, limits) in DISTURBANCES {
         let is_white = disturbance == Disturbance::White;
-        let each = std::env::var("EACH").map_or(60, |n| n.parse().expect("a whole number"));
+        let each = asked("EACH", 60);
         let (rows, failed) = rows(disturbance, if is_white { 143 * each / 60 } else { each });
         println!("\n{name}: {} traces, {failed} without a result\n", rows.len() + failed);
         println!(
@@ -335,7 +306,7 @@ fn a_trace_without_noise_is_met_exactly() {
     let mut random = Random::new(5);
     let truth = truth(Shutter::Trapezoid, &mut random);
     let case = traced(truth, Disturbance::White, 2000, 0.0, &mut random);
-    let fitted: Fit = fit(&trace(&case), &Options::default(), &mut |_| ()).unwrap();
-    let exposure = case.truth.exposure() * case.scale;
+    let fitted = case.fitted(&Options::default());
+    let exposure = case.exposure();
     assert!((fitted.exposure.value / exposure - 1.0).abs() < 1e-4);
 }

@@ -3,20 +3,17 @@
 //! All are of one shutter with an exposure of 5 ms, beside a gate of 7 ms where there are two channels. So what is misread shows in the
 //! exposure.
 
-// The tables need the rest of it.
-#[allow(dead_code)]
-mod generator;
-
-use generator::{Random, each};
 use shutter_fit::trace::{self, Column, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Options, fit};
+
+use crate::generator::{Random, each};
 
 /// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in exponential
 /// notation, `{mv}` in thousands, `{adc}` in whole ones, `{g}` a gate of 5 V, `{d}` one of 0 and 1, `{z}` a channel that is not
 /// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{k us}` with its thousands apart,
 /// `{ns}`; `{i}` counts; `{set}` is a setting in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
-fn rows(row: &str) -> String {
+pub fn rows(row: &str) -> String {
     let settings =
         ["Record Length,1200", "Sample Interval,1e-05", "Trigger Point,600", "Source,CH1"];
     let mut random = Random::new(11);
@@ -400,8 +397,17 @@ fn what_is_asked_beside_the_file_is_done() {
     let timed = "Time (s),gate,light\n".to_string() + &rows("{t},{g},{v}");
     let bare = "CH1,CH2\n".to_string() + &rows("{g},{v}");
     let stated = "Sample rate: 1 MHz\nn,CH1,CH2\n".to_string() + &rows("{i},{g},{v}");
+    let light = rows("{v}");
+    let volts = "Volt\n".to_string() + &rows("{,v}");
+    let mixed = rows("7,{v},{us}");
+    let named = "# a comment\n\"n\",\"sensor\",\"clock\"\n".to_string() + &mixed;
+    let micro = Some(Unit::Microsecond);
     #[rustfmt::skip]
     let cases = [
+        (&light, asked("", None, rate), 1, "100000 samples a second, as asked", 0.005, ""),
+        (&volts, asked("", None, rate), 1, "100000 samples a second, as asked", 0.005, ""),
+        (&named, asked("clock,sensor", micro, None), 2, "column 3, \"clock\" in µs, as asked", 0.005, ""),
+        (&mixed, asked("3,2", micro, None), 2, "column 3 in µs, as asked", 0.005, ""),
         (&timed, asked("3", None, None), 3, "column 1, \"Time (s)\" in s, by its name", 0.005, ""),
         (&timed, asked("gate", None, None), 2, "column 1, \"Time (s)\" in s, by its name", 0.007, ""),
         (&timed, asked("1,2,3", None, None), 3, "column 1, \"Time (s)\" in s, by its name", 0.005, "second_signal"),

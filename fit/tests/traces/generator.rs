@@ -1,14 +1,17 @@
 //! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time, sampled
 //! and integrated numerically.
 
-// One table needs them.
-#[allow(dead_code)]
-pub mod physics;
-#[allow(dead_code)]
-pub mod unseen;
+// Each test needs a part.
+#![allow(dead_code)]
+
+use std::env;
+use std::fmt::Debug;
+use std::str::FromStr;
+
+use shutter_fit::trace::Trace;
+use shutter_fit::{Fit, Options, fit};
 
 /// What a function is of each number below `n`, by two threads, since most tests of fits are one long loop.
-#[allow(dead_code)]
 pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
     let half = |from: u32, to: u32| (from..to).map(&of).collect::<Vec<T>>();
     std::thread::scope(|scope| {
@@ -16,6 +19,18 @@ pub fn each<T: Send>(n: u32, of: impl Fn(u32) -> T + Sync) -> Vec<T> {
         let second = half(n / 2, n);
         first.join().expect("its panic has been printed").into_iter().chain(second).collect()
     })
+}
+
+/// What a variable of the environment asks for.
+pub fn asked<T: FromStr<Err: Debug>>(name: &str, otherwise: T) -> T {
+    env::var(name).map_or(otherwise, |n| n.parse().expect("a whole number"))
+}
+
+/// The value below which so large a share of all lies.
+pub fn quantile(values: impl Iterator<Item = f64>, q: f64) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(0.0)
 }
 
 /// Random numbers: Marsaglia's xorshift, seeded.
@@ -63,15 +78,10 @@ pub enum Shutter {
     Cubic,
 }
 
-pub const SHUTTERS: [Shutter; 7] = [
-    Shutter::Box,
-    Shutter::Trapezoid,
-    Shutter::Leaf,
-    Shutter::Iris,
-    Shutter::LiquidCrystal,
-    Shutter::Symmetric,
-    Shutter::Cubic,
-];
+pub const SHUTTERS: [Shutter; 7] = {
+    use Shutter::*;
+    [Box, Trapezoid, Leaf, Iris, LiquidCrystal, Symmetric, Cubic]
+};
 
 /// What disturbs a trace beside white noise, or instead of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +92,6 @@ pub enum Disturbance {
     Hum,
     Drift,
     /// 1/f noise instead.
-    #[allow(dead_code)]
     Pink,
 }
 
@@ -154,7 +163,8 @@ impl Truth {
     }
 }
 
-fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
+/// A cubic Bezier with these inner control points.
+pub fn bezier([x1, y1, x2, y2]: [f64; 4]) -> Ramp {
     let cubic = |a: f64, b: f64, p: f64| {
         let r = 1.0 - p;
         3.0 * r * r * p * a + 3.0 * r * p * p * b + p * p * p
@@ -224,10 +234,26 @@ pub fn truth(shutter: Shutter, random: &mut Random) -> Truth {
 /// A trace with its truth, which is in the time of the trace.
 pub struct Case {
     pub truth: Truth,
-    pub times: Vec<f64>,
-    pub values: Vec<f64>,
+    pub trace: Trace,
     /// The times are these many times the truth's.
     pub scale: f64,
+}
+
+impl Case {
+    /// The fit of the trace.
+    pub fn fitted(&self, options: &Options) -> Fit {
+        fit(&self.trace, options, &mut |_| ()).expect("a fit")
+    }
+
+    /// When so much of the light has come, in the time of the trace.
+    pub fn trigger(&self, u: f64) -> f64 {
+        self.truth.trigger(u) * self.scale
+    }
+
+    /// In the time of the trace.
+    pub fn exposure(&self) -> f64 {
+        self.truth.exposure() * self.scale
+    }
 }
 
 pub fn case(shutter: Shutter, disturbance: Disturbance, random: &mut Random) -> Case {
@@ -280,5 +306,5 @@ pub fn traced(
         values.push(dark + light * (f + noise * last + beside));
     }
     let times = (0..n).map(|i| scale * (i as f64 + 0.5) * step).collect();
-    Case { truth, times, values, scale }
+    Case { truth, trace: Trace { times, values }, scale }
 }

@@ -1,48 +1,32 @@
-//! `shutter fit`: every format of the same trace gives the same shutter, what cannot be fitted is refused with a reason and
-//! leaves nothing behind, and what is doubtful is told.
+//! `shutter fit`: what cannot be fitted is refused with a reason and leaves nothing behind, and what is doubtful is told.
 
-// The table needs the rest of it.
-#[allow(dead_code)]
-#[path = "../../fit/tests/generator/mod.rs"]
-mod generator;
-
-use std::ffi::OsString;
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use generator::{Disturbance, Random, Shutter, Truth, each, traced, truth};
+use serde_json::Value;
 use shutter::fitted::{self, Zero};
 use shutter::plan::Plan;
-use shutter_fit::trace::{self, Column, Light, Recording, Refusal, Trace, Warning};
-use shutter_fit::unit::Unit;
+use shutter_fit::trace::{self, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
+
+use crate::generator::{
+    Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth,
+};
+use crate::refusals::MEASURED;
+use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
 
 fn fitted(trace: &Trace, options: &Options) -> Result<Fit, Refusal> {
     fit(trace, options, &mut |_| ())
 }
 
-/// Opens from 2 to 4 ms and closes from 7 to 9: an exposure of 5 ms.
-fn trapezoid(t: f64) -> f64 {
-    (t - 0.002).min(0.009 - t).clamp(0.0, 0.002) / 0.002
-}
-
-/// So many samples of `f` in 12 ms, with noise.
-fn sampled(f: impl Fn(f64) -> f64, n: usize, noise: f64) -> Trace {
-    let mut random = Random::new(11);
-    let times: Vec<f64> = (0..n).map(|i| 0.012 * i as f64 / n as f64).collect();
-    let values = times.iter().map(|t| 0.1 + 2.0 * f(*t) + 2.0 * noise * random.normal()).collect();
-    Trace { times, values }
-}
-
-fn rows(trace: &Trace, row: impl Fn(f64, f64) -> String) -> String {
-    trace.times.iter().zip(&trace.values).map(|(t, v)| row(*t, *v) + "\n").collect()
+fn plainly(trace: &Trace) -> Fit {
+    fitted(trace, &Options::default()).unwrap()
 }
 
 /// Reads a file and fits it.
 fn through(file: impl AsRef<[u8]>, options: &trace::Options) -> (Fit, Vec<Warning>) {
     let Recording { trace, warnings, .. } = trace::open(file.as_ref(), options).unwrap();
-    (fitted(&trace, &Options::default()).unwrap(), warnings)
+    (plainly(&trace), warnings)
 }
 
 fn is_the_trapezoid(fit: &Fit) {
@@ -51,163 +35,73 @@ fn is_the_trapezoid(fit: &Fit) {
     assert!((fit.triggers[7].value + fit.triggers[8].value - 0.011).abs() < 5e-6);
 }
 
-/// Columns and rates that the file does not tell; the exports of instruments are in fit/tests.
-#[test]
-fn what_is_asked_for_is_read() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let values = rows(&trace, |_, v| format!("{v:.5}"));
-    let mixed = rows(&trace, |t, v| format!("7,{v:.5},{:.2}", t * 1e6));
-    let named = String::from("# a comment\n\"n\",\"sensor\",\"clock\"\n") + &mixed;
-    let rate = trace::Options { rate: Some(1e5), ..trace::Options::default() };
-    let columns = |columns: [&str; 2]| trace::Options {
-        columns: columns.map(Column::parse).into(),
-        unit: Some(Unit::Microsecond),
-        ..trace::Options::default()
-    };
-    for (text, options) in [
-        (values.clone(), &rate),
-        (String::from("Volt\n") + &values.replace('.', ","), &rate),
-        (named, &columns(["clock", "sensor"])),
-        (mixed, &columns(["3", "2"])),
-    ] {
-        let (fit, warnings) = through(&text, options);
-        assert_eq!((warnings, &fit.warnings), (Vec::new(), &Vec::new()));
-        is_the_trapezoid(&fit);
-    }
-}
-
-#[test]
-fn other_encodings_are_read() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("t (µs),V\n") + &rows(&trace, |t, v| format!("{:.2},{v:.5}", t * 1e6));
-    let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
-    let wide = |bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        let units: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
-        units.into_iter().flat_map(bytes).collect()
-    };
-    let marked = [&[0xef, 0xbb, 0xbf], text.as_bytes()].concat();
-    for bytes in [latin, wide(u16::to_le_bytes), wide(u16::to_be_bytes), marked] {
-        let (fit, warnings) = through(&bytes, &trace::Options::default());
-        assert_eq!(warnings, []);
-        is_the_trapezoid(&fit);
-    }
-}
-
-#[test]
-fn broken_rows_are_told_with_their_line_and_left_out() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let row = |t: f64, v: f64| match (t * 1e5).round() as u32 {
-        300 => format!("{t:.6},NaN"),
-        301 => format!("{t:.6},"),
-        302 => "oops,0.5".into(),
-        303 => format!("{t:.6},1e300"),
-        304 => "\n".into(),
-        305 => format!("{t:.6},inf"),
-        _ => format!("{t:.6},{v:.5}"),
-    };
-    let text = String::from("time_s,v\n") + &rows(&trace, row);
-    let (fit, warnings) = through(&text, &trace::Options::default());
-    let reason = "the value is NaN".into();
-    let overload = Warning::Overload { count: 1, line: 308 };
-    assert_eq!(warnings, [Warning::BrokenRows { count: 4, line: 302, reason }, overload]);
-    is_the_trapezoid(&fit);
-}
-
-#[test]
-fn the_order_of_samples_does_not_matter() {
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let mut lines: Vec<String> =
-        rows(&trace, |t, v| format!("{t:.6},{v:.5}")).lines().map(String::from).collect();
-    lines.swap(100, 900);
-    lines.insert(500, lines[499].clone());
-    let text = String::from("time_s,v\n") + &lines.join("\n");
-    let (fit, warnings) = through(&text, &trace::Options::default());
-    // Line 1 is the header.
-    assert_eq!(
-        warnings,
-        [Warning::Unsorted { line: 103 }, Warning::Duplicates { count: 1, line: 502 }]
-    );
-    is_the_trapezoid(&fit);
-}
-
 fn told(fit: &Fit, is: impl Fn(&Warning) -> bool) -> bool {
     fit.warnings.iter().any(is)
 }
 
 #[test]
 fn what_is_doubtful_is_told() {
-    let options = Options::default();
     let with = |f: &dyn Fn(f64, f64) -> f64| {
         let mut trace = sampled(trapezoid, 1500, 0.005);
         let Trace { times, values } = &mut trace;
         values.iter_mut().zip(times).for_each(|(v, t)| *v = f(*t, *v));
-        fitted(&trace, &options).unwrap()
+        plainly(&trace)
+    };
+    type Test<'a> = &'a dyn Fn(&Warning) -> bool;
+    let is_told = |fit: &Fit, is: Test| assert!(told(fit, is), "{:?}", fit.warnings);
+    let still = |fit: &Fit, is: Test| {
+        is_told(fit, is);
+        is_the_trapezoid(fit);
     };
     let lowered = with(&|_, v| -v);
-    assert_eq!(lowered.warnings, [Warning::Inverted]);
-    is_the_trapezoid(&lowered);
-
+    still(&lowered, &|_| lowered.warnings == [Warning::Inverted]);
     let clipped = with(&|_, v| v.min(1.9));
-    assert!(told(&clipped, |w| matches!(w, Warning::Clipped { at: 1.9, share } if *share > 0.4)));
-
-    let hum = with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin());
-    let is_hum = |w: &Warning| match w {
-        Warning::Hum { hertz, amplitude } => {
-            (hertz - 400.0).abs() < 4.0 && (amplitude - 0.02).abs() < 0.002
-        }
-        _ => false,
-    };
-    assert!(told(&hum, is_hum), "{:?}", hum.warnings);
-    is_the_trapezoid(&hum);
-
-    let drift = with(&|t, v| v + 8.0 * t);
-    assert!(told(
-        &drift,
-        |w| matches!(w, Warning::Drift { amount } if (amount - 0.048).abs() < 0.004)
-    ));
-    is_the_trapezoid(&drift);
-
+    is_told(&clipped, &|w| matches!(w, Warning::Clipped { at: 1.9, share } if *share > 0.4));
+    let near = |x: f64, to: f64, by: f64| (x - to).abs() < by;
+    still(
+        &with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin()),
+        &|w| matches!(w, Warning::Hum { hertz, amplitude } if near(*hertz, 400.0, 4.0) && near(*amplitude, 0.02, 0.002)),
+    );
+    still(
+        &with(&|t, v| v + 8.0 * t),
+        &|w| matches!(w, Warning::Drift { amount } if near(*amount, 0.048, 0.004)),
+    );
     let spikes = with(&|t, v| {
         if [200, 201, 700, 1201].contains(&((t * 1.25e5).round() as u32)) { v + 1.7 } else { v }
     });
-    let first = spikes.warnings.first().cloned();
-    assert!(
-        matches!(first, Some(Warning::Spikes { count: 4, first }) if (first - 0.0016).abs() < 1e-9)
-    );
-    assert_eq!(spikes.warnings.len(), 1);
-    is_the_trapezoid(&spikes);
-
-    let noisy = fitted(&sampled(trapezoid, 200, 0.2), &options).unwrap();
-    assert!(told(&noisy, |w| matches!(w, Warning::NoiseHidesRamps { .. })), "{:?}", noisy.warnings);
-
-    let sharp = sampled(|t| f64::from((0.003..0.008).contains(&t)), 600, 0.005);
-    let sharp = fitted(&sharp, &options).unwrap();
+    still(&spikes, &|w| {
+        let is_first =
+            matches!(w, Warning::Spikes { count: 4, first } if near(*first, 0.0016, 1e-9));
+        is_first && spikes.warnings.len() == 1
+    });
+    is_told(&plainly(&sampled(trapezoid, 200, 0.2)), &|w| {
+        matches!(w, Warning::NoiseHidesRamps { .. })
+    });
+    let sharp = plainly(&sampled(|t| f64::from((0.003..0.008).contains(&t)), 600, 0.005));
     assert_eq!(sharp.chosen, Kind::Box);
-    assert!(told(&sharp, |w| matches!(w, Warning::SharpEdges { .. })));
+    is_told(&sharp, &|w| matches!(w, Warning::SharpEdges { .. }));
     // The whole uncertainty is the sampling's: both edges' to a root of 12.
     let step = 0.012 / 600.0;
     assert!((sharp.exposure.error / step - (2.0 / 12.0f64).sqrt()).abs() < 0.01);
+    let triangle = |t: f64| (1.0 - (t - 0.006).abs() / 0.004).max(0.0);
+    is_told(&plainly(&sampled(triangle, 1000, 0.005)), &|w| *w == Warning::NoPlateau);
+    is_told(&plainly(&sampled(bounces, 1500, 0.003)), &|w| matches!(w, Warning::Misfit { .. }));
+}
 
-    let triangle = sampled(|t| (1.0 - (t - 0.006).abs() / 0.004).max(0.0), 1000, 0.005);
-    let triangle = fitted(&triangle, &options).unwrap();
-    assert!(told(&triangle, |w| *w == Warning::NoPlateau), "{:?}", triangle.warnings);
-
-    let bounces = sampled(|t| trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2)), 1500, 0.003);
-    let bounces = fitted(&bounces, &options).unwrap();
-    assert!(told(&bounces, |w| matches!(w, Warning::Misfit { .. })));
+fn bounces(t: f64) -> f64 {
+    trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2))
 }
 
 /// The least of many samples lies far below the dark by noise alone; what a capacitor does is told, and is no hum.
 #[test]
 fn noise_is_no_undershoot_and_an_undershoot_is_no_hum() {
-    let options = Options::default();
     let is_undershoot = |w: &Warning| matches!(w, Warning::Undershoot { .. });
     for n in [200, 300] {
-        let noisy = fitted(&sampled(trapezoid, n, 0.17), &options).unwrap();
+        let noisy = plainly(&sampled(trapezoid, n, 0.17));
         assert!(!told(&noisy, is_undershoot), "{n}: {:?}", noisy.warnings);
     }
     // A pole of 1 ms, which is not undone where the way of light is given.
-    let options = Options { light: Light::Up, ..options };
+    let options = Options { light: Light::Up, ..Options::default() };
     let mut coupled = sampled(|t| trapezoid(2.0 * t - 0.006), 800, 0.0);
     let (mut last, mut held, mut random) = (coupled.values[0], 0.0, Random::new(1));
     for v in &mut coupled.values {
@@ -270,6 +164,15 @@ fn what_cannot_be_fitted_is_refused() {
     }
     let unequal = Trace { times: whole.times.clone(), values: whole.values[1..].to_vec() };
     assert_eq!(refused(&unequal), Some(Refusal::Unsound));
+    // Rows that are lost: with a ramp, and of the plateau alone.
+    let lost = |from: usize, to: usize| {
+        let mut trace = part(0, 1000);
+        trace.times.drain(from..to);
+        trace.values.drain(from..to);
+        fitted(&trace, &options)
+    };
+    assert!(matches!(lost(150, 340), Err(Refusal::LostRamp { .. })));
+    assert!(told(&lost(400, 500).unwrap(), |w| matches!(w, Warning::Gap { count: 1, .. })));
     // Light lowers nothing here: the trace would begin and end in it.
     assert!(asked(&Options { light: Light::Down, ..Options::default() }).is_some());
 }
@@ -304,7 +207,7 @@ fn frames(noise: f64) -> Trace {
 #[test]
 fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
     let trace = frames(0.005);
-    let fit = fitted(&trace, &Options::default()).unwrap();
+    let fit = plainly(&trace);
     assert_eq!((fit.frames.count, fit.frames.fitted), (5, 1));
     assert!((0.002..0.004).contains(&fit.frames.scatter), "{:?}", fit.frames);
     assert!(fit.chosen > Kind::Trapezoid);
@@ -371,7 +274,7 @@ fn shots_that_agree_do_not_make_ramps_edges() {
     let times: Vec<f64> = (0..3600).map(|i| 1e-5 * f64::from(i)).collect();
     let openness = |t: f64| (t - 0.002).min(0.0087 - t).clamp(0.0, 3e-4) / 3e-4;
     let values = times.iter().map(|t| openness(t % 0.012) + 0.002 * random.normal()).collect();
-    let fit = fitted(&Trace { times, values }, &Options::default()).unwrap();
+    let fit = plainly(&Trace { times, values });
     assert_eq!((fit.frames.count, fit.chosen, fit.warnings.len()), (3, Kind::Trapezoid, 0));
     let Curve { opening, closing, .. } = fit.best().signal.curve;
     assert!((opening / 3e-4 - 1.0).abs() < 0.03 && (closing / 3e-4 - 1.0).abs() < 0.03);
@@ -387,7 +290,7 @@ fn shots_an_hour_apart_are_as_good_as_shots_side_by_side() {
             trace.times.extend(one.times.iter().map(|t| t + apart * f64::from(k)));
             trace.values.extend(&one.values);
         }
-        fitted(&trace, &Options::default()).unwrap()
+        plainly(&trace)
     };
     let near = at(0.012);
     for apart in [0.1, 10.0, 3600.0] {
@@ -404,11 +307,8 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
     let mut random = Random::new(2);
     let case =
         traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
-    let trace = Trace { times: case.times, values: case.values };
-    let within = |tolerance| {
-        let options = Options { tolerance: Some(tolerance), ..Options::default() };
-        fitted(&trace, &options).unwrap()
-    };
+    let within =
+        |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
     assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
     assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
     let loose = within(Tolerance::Share(0.05));
@@ -428,8 +328,7 @@ fn correlated_samples_count_for_fewer() {
             let mut random = Random::new(seed);
             let truth = truth(Shutter::Trapezoid, &mut random);
             let case = traced(truth, disturbance, 3000, 0.01, &mut random);
-            let trace = Trace { times: case.times, values: case.values };
-            let fit = fitted(&trace, &Options::default()).unwrap();
+            let fit = case.fitted(&Options::default());
             let shutter_fit::Reason::Criterion { effective } = fit.reason else { panic!() };
             let share = effective / fit.samples.times.len() as f64;
             assert!((least..=most).contains(&share), "{disturbance:?} {seed}: {share}");
@@ -445,10 +344,9 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
         let mut random = Random::new(seed);
         let truth = truth(Shutter::LiquidCrystal, &mut random);
         let case = traced(truth, Disturbance::White, 2000, 0.003, &mut random);
-        let trace = Trace { times: case.times, values: case.values };
-        let fit = fitted(&trace, &Options::default()).unwrap();
+        let fit = case.fitted(&Options::default());
         for (i, trigger) in fit.triggers.iter().enumerate() {
-            let truth = case.truth.trigger((i as f64 + 0.5) / 16.0) * case.scale;
+            let truth = case.trigger((i as f64 + 0.5) / 16.0);
             covered += f64::from((trigger.value - truth).abs() <= 1.96 * trigger.error);
             stated += trigger.error / fit.exposure.value;
             all += 1.0;
@@ -466,13 +364,12 @@ fn the_exposure_is_known_without_a_plateau_too() {
         let mut random = Random::new(700 + u64::from(seed));
         let [start, peak, end] = [0.2, random.within(0.3, 0.6), random.within(0.65, 0.8)];
         let straight: fn(f64) -> f64 = |z| z;
-        let ramp = if seed % 2 == 0 { straight } else { leaf };
+        let ramp = if seed % 2 == 0 { straight } else { soft };
         let truth = Truth::new(Box::new(ramp), Box::new(ramp), [start, peak, peak, end]);
         let (n, noise) = (random.scale(400.0, 1000.0) as usize, random.scale(0.003, 0.02));
         let case = traced(truth, Disturbance::White, n, noise, &mut random);
-        let trace = Trace { times: case.times, values: case.values };
-        let fit = fitted(&trace, &Options::default()).unwrap();
-        let (exposure, truth) = (fit.exposure, case.truth.exposure() * case.scale);
+        let fit = case.fitted(&Options::default());
+        let (exposure, truth) = (fit.exposure, case.exposure());
         assert!(exposure.error < 0.03 * truth, "{seed}: {exposure:?}");
         assert!(fit.efficiency.error < 0.1, "{seed}: {:?}", fit.efficiency);
         (exposure.value - truth).abs() <= 1.96 * exposure.error
@@ -496,14 +393,14 @@ fn photodiode(openness: impl Fn(f64) -> f64) -> String {
 }
 
 /// A leaf shutter's ramp, smooth at both ends.
-fn leaf(z: f64) -> f64 {
+fn soft(z: f64) -> f64 {
     let z = z.clamp(0.0, 1.0);
     z * z * (3.0 - 2.0 * z)
 }
 
 #[test]
 fn a_photodiode_shifts_the_triggers_by_its_time_constant() {
-    let truth = Truth::new(Box::new(leaf), Box::new(leaf), [0.004, 0.008, 0.013, 0.019]);
+    let truth = Truth::new(Box::new(soft), Box::new(soft), [0.004, 0.008, 0.013, 0.019]);
     let (fit, _) = through(photodiode(|t| truth.openness(t)), &trace::Options::default());
     let exposure = truth.exposure();
     assert!((fit.exposure.value / exposure - 1.0).abs() < 0.001, "{:?}", fit.exposure);
@@ -521,12 +418,11 @@ fn planned(fit: &Fit, zero: Zero) -> Plan {
 
 #[test]
 fn the_scene_gives_the_same_triggers() {
-    for (k, shutter) in generator::SHUTTERS.into_iter().enumerate() {
+    for (k, shutter) in SHUTTERS.into_iter().enumerate() {
         let mut random = Random::new(40 + k as u64);
         let truth = truth(shutter, &mut random);
         let case = traced(truth, Disturbance::White, 1000, 0.005, &mut random);
-        let trace = Trace { times: case.times, values: case.values };
-        let fit = fitted(&trace, &Options::default()).unwrap();
+        let fit = case.fitted(&Options::default());
         for zero in [Zero::Trace, Zero::Open] {
             let plan = planned(&fit, zero);
             let start = if zero == Zero::Open { fit.best().signal.curve.start } else { 0.0 };
@@ -543,23 +439,13 @@ fn the_scene_gives_the_same_triggers() {
 fn every_corner_of_the_control_numbers_is_a_scene() {
     each(16, |corner| {
         let controls: [f64; 4] = std::array::from_fn(|k| f64::from(corner >> k & 1));
-        let ramp = move |z: f64| {
-            let cubic =
-                |a: f64, b: f64, p: f64| 3.0 * p * (1.0 - p) * ((1.0 - p) * a + p * b) + p * p * p;
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..50 {
-                let p = 0.5 * (low + high);
-                if cubic(controls[0], controls[2], p) < z { low = p } else { high = p }
-            }
-            cubic(controls[1], controls[3], low)
-        };
-        let truth = Truth::new(Box::new(ramp), Box::new(ramp), [0.2, 0.4, 0.5, 0.8]);
+        let [opening, closing] = [bezier(controls), bezier(controls)];
+        let truth = Truth::new(opening, closing, [0.2, 0.4, 0.5, 0.8]);
         let mut random = Random::new(corner.into());
         let case = traced(truth, Disturbance::White, 600, 0.0, &mut random);
-        let trace = Trace { times: case.times, values: case.values };
         for model in [Kind::Symmetric, Kind::Free] {
             let options = Options { model: Some(model), ..Options::default() };
-            planned(&fitted(&trace, &options).unwrap(), Zero::Trace);
+            planned(&case.fitted(&options), Zero::Trace);
         }
     });
 }
@@ -568,7 +454,7 @@ fn every_corner_of_the_control_numbers_is_a_scene() {
 fn a_late_trace_moves_time_0_to_the_opening() {
     let mut trace = sampled(trapezoid, 1000, 0.005);
     trace.times.iter_mut().for_each(|t| *t += 1e4);
-    let fit = fitted(&trace, &Options::default()).unwrap();
+    let fit = plainly(&trace);
     let scene = fitted::scene(&fit, "late", Zero::Trace, None).unwrap();
     assert_eq!(scene.zero, Zero::Open);
     assert!(scene.text.contains("open_start = 0\n"), "{}", scene.text);
@@ -583,22 +469,28 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
             fitted(&trace, &Options::default()).err().expect("a refusal").to_string()
         }
     };
-    assert!(refused(b"").contains("empty"));
-    assert!(refused(b" \n\n").contains("empty"));
-    assert!(refused(&[0, 159, 146, 150, 0]).contains("binary"));
-    assert!(refused(b"hello\nworld\n").contains("no row of numbers"));
-    assert!(refused(b"{\"a\": 1}").contains("no row of numbers"));
-    assert!(refused(&vec![b'7'; 50 << 20]).contains("52428800 bytes"));
-    assert!(refused("1,2,".repeat(12 << 20).as_bytes()).contains("bytes long"));
-    assert!(refused("t,v\n".repeat(1 << 20).as_bytes()).contains("no row of numbers"));
-    for row in ["0,NaN\n", "NaN,NaN\n", "1e308,-1e308\n", "1,2,3\n"] {
-        assert!(refused(row.repeat(100).as_bytes()).contains("no column holds times"), "{row}");
-    }
     let timed =
         |v: &str| (0..100).map(|i| format!("{},{v}\n", 0.3 * f64::from(i))).collect::<String>();
-    assert!(refused(timed("NaN").as_bytes()).contains("100 of 100 rows"));
-    assert!(refused(timed("1e308").as_bytes()).contains("beyond"));
-    assert!(refused("0.5\n".repeat(100).as_bytes()).contains("--rate"));
+    for (bytes, reason) in [
+        (vec![], "empty"),
+        (b" \n\n".into(), "empty"),
+        (vec![0, 159, 146, 150, 0], "binary"),
+        (b"hello\nworld\n".into(), "no row of numbers"),
+        (b"{\"a\": 1}".into(), "no row of numbers"),
+        (vec![b'7'; 50 << 20], "52428800 bytes"),
+        ("1,2,".repeat(12 << 20).into(), "bytes long"),
+        ("t,v\n".repeat(1 << 20).into(), "no row of numbers"),
+        ("0,NaN\n".repeat(100).into(), "no column holds times"),
+        ("NaN,NaN\n".repeat(100).into(), "no column holds times"),
+        ("1e308,-1e308\n".repeat(100).into(), "no column holds times"),
+        ("1,2,3\n".repeat(100).into(), "no column holds times"),
+        (timed("NaN").into(), "100 of 100 rows"),
+        (timed("1e308").into(), "beyond"),
+        ("0.5\n".repeat(100).into(), "--rate"),
+    ] {
+        let said = refused(&bytes);
+        assert!(said.contains(reason), "{reason}: {said}");
+    }
     let huge: String = (0..100).map(|i| format!("{i}e28,{}e29\n", i % 7)).collect();
     refused(huge.as_bytes());
     let tiny: String =
@@ -641,256 +533,165 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
     }
 }
 
-struct Run {
-    code: u8,
-    out: String,
-    err: String,
-}
-
-fn run(args: &[&str]) -> Run {
-    let (mut out, mut err) = (Vec::new(), Vec::new());
-    let args = ["shutter", "fit"].iter().chain(args).map(OsString::from);
-    let code = shutter::command::run(args, &mut out, &mut err);
-    Run { code, out: String::from_utf8(out).unwrap(), err: String::from_utf8(err).unwrap() }
-}
-
-fn empty_dir(name: &str) -> PathBuf {
-    let dir = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fit").join(name);
-    let _ = fs::remove_dir_all(&dir);
-    fs::create_dir_all(&dir).unwrap();
-    dir
-}
-
-fn written(dir: &Path, name: &str, text: &str) -> String {
-    let path = dir.join(name);
-    fs::write(&path, text).unwrap();
-    path.to_str().unwrap().into()
-}
-
 #[test]
 fn the_program_writes_a_scene_and_a_picture_that_plan_takes() {
-    let dir = empty_dir("written");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-    let csv = written(&dir, "leaf & co.csv", &text);
-    let [toml, svg] =
-        ["leaf.toml", "leaf.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
-    let run = run(&[&csv, "--out", &toml, "--picture", &svg, "--triggers", "5", "--zero", "open"]);
-    let told =
-        format!("wrote {toml}\nwrote {svg}\nnext: write set_up, timer_hz into the scene, then ");
-    assert!(run.code == 0 && run.err.starts_with(&told), "{}", run.err);
+    let folder = Folder::new("written");
+    folder.write("leaf&co.csv", leaf(1.0));
+    let line = "fit leaf&co.csv --out a.toml --picture a.svg --triggers 5 --zero open";
+    let run = folder.run(line).prints(&["* straight ramps", "exposure     5.00"]);
+    let told = "wrote a.toml\nwrote a.svg\nnext: write set_up, timer_hz into the scene, then ";
+    assert!(run.err.starts_with(told), "{}", run.err);
     assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
-    assert!(run.out.contains("* straight ramps") && run.out.contains("exposure     5.00"));
-    let scene = fs::read_to_string(&toml).unwrap();
-    assert!(scene.contains("\n# Fitted to leaf & co.csv: straight ramps"), "{scene}");
+    let scene = folder.text("a.toml");
+    assert!(scene.contains("\n# Fitted to leaf&co.csv: straight ramps"), "{scene}");
     let plan = Plan::parse(&scene).unwrap();
     assert_eq!(plan.triggers.len(), 5);
     assert!((plan.curve.exposure() - 0.005).abs() < 5e-6 && plan.curve.open_start() == 0.0);
-    let picture = fs::read_to_string(&svg).unwrap();
-    assert!(picture.contains("\n<svg ") && picture.contains("leaf &amp; co.csv"));
+    let picture = folder.text("a.svg");
+    assert!(picture.contains("\n<svg ") && picture.contains("leaf&amp;co.csv"));
     assert_eq!(picture.matches("<circle").count(), 5 + 1);
 }
 
 #[test]
 fn what_the_program_refuses_leaves_nothing_behind() {
-    let dir = empty_dir("refused");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-    let good = written(&dir, "good.csv", &text);
-    let cut = written(&dir, "cut.csv", &text[..text.len() / 2]);
-    let values = written(&dir, "values.csv", &rows(&trace, |_, v| format!("{v}")));
-    let scene = written(&dir, "scene.toml", include_str!("../scenes/soft.toml"));
-    let json = written(&dir, "trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
-    let missing = dir.join("missing.csv").to_str().unwrap().to_string();
-    let [toml, svg] =
-        ["no.toml", "no.svg"].map(|name| dir.join(name).to_str().unwrap().to_string());
+    let folder = Folder::new("fit_refused");
+    let text = leaf(1.0);
+    folder.write("good.csv", &text);
+    folder.write("cut.csv", &text[..text.len() / 2]);
+    folder.write("values.csv", rows(&sampled(trapezoid, 1200, 0.005), |_, v| format!("{v}")));
+    folder.write("scene.toml", MEASURED);
+    folder.write("trace.json", r#"{"t": [0, 1, 2], "v": [0, 1, 0]}"#);
+    fs::create_dir(folder.path("folder.csv")).unwrap();
     for (args, reason) in [
-        (vec![cut.as_str()], "ends in the pulse"),
-        (vec![&cut], "; read: column 2 of 2, \"v\"; times: column 1"),
-        (vec![&values], "--rate"),
-        (vec![&missing], "missing.csv: "),
-        (vec![dir.to_str().unwrap()], ": "),
-        (vec![&scene], "this is a scene, and no trace; `shutter plan "),
-        (vec![&json], "this is JSON; a trace is a table"),
-        (vec![&good, "--columns", "time_s,w"], "no column 'w'; there are 2: time_s, v"),
-        (vec![&good, "--frame", "3"], "no frame 3; the trace has 1 whole frame"),
-        (vec![&good, "--full", "-3"], "--full -3"),
-        (vec![&good, "--triggers", "0"], "--triggers"),
-        (vec![&good, "--rate", "0"], "above 0"),
-        (vec![&good, "--tolerance", "5"], "0.1% (of the exposure)"),
-        (vec![&good, "--tolerance", "-1%"], "--tolerance"),
-        (vec![&good, "--model", "spline"], "spline"),
+        ("cut.csv", "ends in the pulse"),
+        ("cut.csv", "; read: column 2 of 2, \"v\"; times: column 1"),
+        ("values.csv", "--rate"),
+        ("missing.csv", "missing.csv: "),
+        ("folder.csv", ": "),
+        ("scene.toml", "this is a scene, and no trace; `shutter plan "),
+        ("trace.json", "this is JSON; a trace is a table"),
+        ("good.csv --columns time_ms,w", "no column 'w'; there are 2: time_ms, v"),
+        ("good.csv --frame 3", "no frame 3; the trace has 1 whole frame"),
+        ("good.csv --full -3", "--full -3"),
+        ("good.csv --triggers 0", "--triggers"),
+        ("good.csv --rate 0", "above 0"),
+        ("good.csv --tolerance 5", "0.1% (of the exposure)"),
+        ("good.csv --tolerance -1%", "--tolerance"),
+        ("good.csv --model spline", "spline"),
+        ("good.csv --sync 5", "--sync: there is no column '5'; there are 2: time_ms, v;"),
+        ("good.csv --sync infs", "a time has a unit, as in 1.5ms"),
+        ("good.csv --sync 1s", "--sync: the shutter opens "),
+        ("good.csv --nominal=fast", "write a speed as in 1/250, 4ms, 2s"),
+        ("good.csv --nominal=1/0", "write a speed as in 1/250, 4ms, 2s"),
+        ("good.csv --nominal=-4ms", "write a speed as in 1/250, 4ms, 2s"),
+        ("good.csv --nominal=4", "write a speed as in 1/250, 4ms, 2s"),
     ] {
-        let run = run(&[args.as_slice(), &["--out", &toml, "--picture", &svg]].concat());
-        assert_eq!(run.code, 2, "{args:?}");
-        assert!(run.err.contains(reason), "{args:?}: {}", run.err);
-        assert_eq!(run.out, "");
-        assert!(!Path::new(&toml).exists() && !Path::new(&svg).exists(), "{args:?}");
+        folder.refuses(&[(&format!("fit {args} --out no.toml --picture no.svg"), reason)]);
     }
 }
 
 /// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an RC of 30 µs,
-/// 10 bits) becomes a scene, and that the module by which the firmware's example fires. The README shows what is printed.
+/// 10 bits) becomes a scene, and that the module by which the firmware's example fires.
 #[test]
 fn from_a_trace_to_the_firmwares_module() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
-    let (fit, warnings) = through(read("traces/leaf.csv"), &trace::Options::default());
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let read = |path: &str| fs::read_to_string(format!("{SCENES}/../{path}")).unwrap();
+    let trace =
+        trace::open(read("traces/leaf.csv").as_bytes(), &trace::Options::default()).unwrap();
+    assert!(trace.warnings.is_empty(), "{:?}", trace.warnings);
     // Its oscilloscope was triggered by the sync.
-    let scene = fitted::scene(&fit, "leaf.csv", Zero::Trace, None).unwrap().text;
-    let fitted = Plan::parse(&scene).unwrap();
+    let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
+    let [fit, synced] =
+        [Options::default(), options].map(|options| fitted(&trace.trace, &options).unwrap());
+    let scene = |fit| fitted::scene(fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     // The same with the timer of the board and what the lamp needs, which a user fills in.
-    let text = read("scenes/measured.toml");
-    assert!(text.lines().take(2).eq(scene.lines().take(2)), "{text}");
-    let kept = Plan::parse(&text).unwrap();
-    for (fitted, kept) in fitted.triggers.iter().zip(&kept.triggers) {
+    assert!(MEASURED.lines().take(2).eq(scene(&fit).lines().take(2)), "{}", scene(&fit));
+    let kept = Plan::parse(MEASURED).unwrap();
+    for (fitted, kept) in planned(&fit, Zero::Trace).triggers.iter().zip(&kept.triggers) {
         assert!((fitted.time - kept.time).abs() < 1e-4 * fit.exposure.value as f32);
     }
-    // Its oscilloscope was triggered by the camera's sync.
-    let leaf = read("traces/leaf.csv");
-    let trace = trace::open(leaf.as_bytes(), &trace::Options::default()).unwrap().trace;
-    let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
-    let synced = shutter_fit::fit(&trace, &options, &mut |_| ()).unwrap();
-    let synced =
-        Plan::parse(&fitted::scene(&synced, "leaf.csv", Zero::Trace, None).unwrap().text).unwrap();
     let seconds = |plan: &Plan| plan.delay.unwrap().seconds;
-    assert!((seconds(&synced) - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
-    let module =
-        shutter::emit::emit(shutter::emit::Form::Rust, "measured", &kept.clone().into(), true)
-            .unwrap();
+    let delay = seconds(&Plan::parse(&scene(&synced)).unwrap());
+    assert!((delay - seconds(&kept)).abs() < 1e-4 * fit.exposure.value);
+    let form = shutter::emit::Form::Rust;
+    let module = shutter::emit::emit(form, "measured", &kept.into(), true).unwrap();
     assert_eq!(module, read("../examples/trigger/measured.rs"));
-
-    let report = shutter_fit::text("leaf.csv", &fit);
-    let readme = read("../README.md");
-    let (_, shown) = readme.split_once("```text\n").expect("the README shows the report");
-    for line in shown.lines().take_while(|line| *line != "```") {
-        assert!(report.lines().any(|printed| printed == line), "{line}\n{report}");
-    }
 }
 
 /// The edge of the sync is where the trace's time is told to be, whatever the scene's time 0.
 #[test]
 fn the_delay_from_the_sync_is_measured() {
-    let dir = empty_dir("sync");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-    let csv = written(&dir, "leaf.csv", &text);
-    let toml = dir.join("leaf.toml").to_str().unwrap().to_string();
-    let (read, _) = through(&text, &trace::Options::default());
+    let folder = Folder::new("delay");
+    folder.write("a.csv", leaf(1.0));
+    let (read, _) = through(leaf(1.0), &trace::Options::default());
     let start = read.best().signal.curve.start;
     assert!(start > 0.0005 && read.delay.is_none());
     for (sync, at, zero) in
         [("0", 0.0, "trace"), ("0.4ms", 4e-4, "open"), ("-1e-3s", -1e-3, "open")]
     {
-        let run = run(&[&csv, "--out", &toml, "--sync", sync, "--zero", zero]);
-        assert!(run.code == 0 && !run.err.contains("warning"), "{}", run.err);
-        assert!(
-            run.out
-                .lines()
-                .any(|line| line.starts_with("delay        ")
-                    && line.contains(" ms to the opening, ± ")),
-            "{}",
-            run.out
-        );
+        let run = folder.run(&format!("fit a.csv --out a.toml --sync {sync} --zero {zero}")).well();
+        assert!(!run.err.contains("warning"), "{}", run.err);
+        let line = run.out.lines().find(|line| line.starts_with("delay        "));
+        assert!(line.is_some_and(|line| line.contains(" ms to the opening, ± ")), "{}", run.out);
         assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
-        let plan = Plan::parse(&fs::read_to_string(&toml).unwrap()).unwrap();
+        let plan = Plan::parse(&folder.text("a.toml")).unwrap();
         assert!((plan.delay.unwrap().seconds - (start - at)).abs() < 1e-9, "{sync}");
     }
     // What is not known is not made up.
-    assert!(run(&[&csv]).out.contains("\n# delay = ? # "));
-    for (args, reason) in [
-        (["--sync", "5"], "--sync: there is no column '5'; there are 2: time_s, v;"),
-        (["--sync", "infs"], "a time has a unit, as in 1.5ms"),
-        (["--sync", "1s"], "--sync: the shutter opens "),
-    ] {
-        let run = run(&[&[csv.as_str()], args.as_slice()].concat());
-        assert!(run.code == 2 && run.out.is_empty() && run.err.contains(reason), "{}", run.err);
-    }
-}
-
-/// The pulse that an edge belongs to is the one that follows it.
-#[test]
-fn a_delay_to_a_later_pulse_is_refused() {
-    let dir = empty_dir("later");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let length = trace.times[trace.times.len() - 1] - trace.times[0];
-    let mut text = String::from("time_s,v\n");
-    for i in 0..2 {
-        text += &rows(&trace, |t, v| format!("{:.6},{v:.5}", t + f64::from(i) * 1.01 * length));
-    }
-    let csv = written(&dir, "two.csv", &text);
-    let two = run(&[&csv, "--frame", "2", "--sync", "0"]);
-    assert!(
-        two.code == 2
-            && two
-                .err
-                .contains("--sync: the edge of the sync is followed by pulse 1 first: --frame 1"),
-        "{}",
-        two.err
-    );
-    assert_eq!(run(&[&csv, "--frame", "1", "--sync", "0"]).code, 0);
-    let after = format!("{:.6}s", length);
-    assert_eq!(run(&[&csv, "--frame", "2", "--sync", &after]).code, 0);
+    folder.run("fit a.csv").prints(&["\n# delay = ? # "]);
+    // The pulse that an edge belongs to is the one that follows it.
+    let one = sampled(trapezoid, 1200, 0.005);
+    let mut two = one.clone();
+    two.times.extend(one.times.iter().map(|t| t + 0.01212));
+    two.values.extend(&one.values);
+    folder.write("two.csv", csv(&two));
+    let reason = "--sync: the edge of the sync is followed by pulse 1 first: --frame 1";
+    folder.refuses(&[("fit two.csv --frame 2 --sync 0", reason)]);
+    folder.run("fit two.csv --frame 1 --sync 0").well();
+    folder.run("fit two.csv --frame 2 --sync 0.012s").well();
 }
 
 /// The speeds of a shutter: what each is called, what it is, by how much it is off, and the scenes of all.
 #[test]
 fn several_traces_are_a_table() {
-    let dir = empty_dir("speeds");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = |slower: f64| {
-        String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{:.7},{v:.5}", slower * t))
-    };
-    let [slow, fast] = [("slow", 2.0), ("fast", 1.0)]
-        .map(|(name, slower)| written(&dir, &format!("{name}.csv"), &text(slower)));
+    let folder = Folder::new("traces");
+    folder.write("slow.csv", leaf(2.0));
+    folder.write("fast.csv", leaf(1.0));
     // Nobody has to make the folder.
-    let dir = dir.join("of").join("speeds");
-    let folder = dir.to_str().unwrap();
-    let both = run(&[&slow, &fast, "--nominal", "10ms,1/250", "--out", folder, "--sync", "0"]);
-    assert!(both.code == 0 && both.err.starts_with("wrote "), "{}", both.err);
-    let row =
-        |name: &str| both.out.lines().find(|line| line.starts_with(name)).unwrap().to_string();
-    assert!(
-        row("slow.csv").contains(" 10 ms ") && row("slow.csv").contains(" +0.00  "),
-        "{}",
-        both.out
-    );
-    // 5 ms where 4 ms are said: log2(5/4).
-    assert!(
-        row("fast.csv").contains(" 4 ms ") && row("fast.csv").contains("+0.32"),
-        "{}",
-        both.out
-    );
-    assert!(row("fast.csv").contains(" ± ") && row("fast.csv").contains("straight ramps"));
-    let plans = ["slow.toml", "fast.toml"]
-        .map(|name| Plan::parse(&fs::read_to_string(dir.join(name)).unwrap()).unwrap());
+    let both = folder.run("fit slow.csv fast.csv --nominal 10ms,1/250 --out ./of/speeds --sync 0");
+    let both = both.tells(&["wrote "]);
+    for (name, words) in [
+        ("slow.csv", &[" 10 ms ", " +0.00  "][..]),
+        // 5 ms where 4 ms are said: log2(5/4).
+        ("fast.csv", &[" 4 ms ", "+0.32", " ± ", "straight ramps"]),
+    ] {
+        let row = both.out.lines().find(|line| line.starts_with(name)).unwrap();
+        assert!(words.iter().all(|words| row.contains(words)), "{row}");
+    }
+    let plans = ["slow", "fast"]
+        .map(|name| Plan::parse(&folder.text(&format!("of/speeds/{name}.toml"))).unwrap());
     assert_eq!(plans[0].nominal.zip(plans[1].nominal), Some((0.010, 0.004)));
     assert!(plans.iter().all(|plan| plan.delay.is_some()));
-    for (args, reason) in [
+    folder.refuses(&[
         (
-            vec![&*slow, &fast, "--nominal", "10ms"],
+            "fit slow.csv fast.csv --nominal 10ms",
             "--nominal: give a speed for each trace; the exposures differ by 100 %",
         ),
-        (vec![&slow, &fast, "--nominal", "1ms,2ms,3ms"], "--nominal: 3 for 2 traces"),
-        (vec![&slow, &fast, "--out", "no.toml"], "--out: name a folder for a scene of each trace"),
-        (vec![&slow, &fast, "--nominal", "1/0,4ms"], "write a speed as in 1/250, 4ms"),
+        ("fit slow.csv fast.csv --nominal 1ms,2ms,3ms", "--nominal: 3 for 2 traces"),
+        ("fit slow.csv fast.csv --out no.toml", "--out: name a folder for a scene of each trace"),
+        ("fit slow.csv fast.csv --nominal 1/0,4ms", "write a speed as in 1/250, 4ms"),
         (
-            vec![&slow, &fast, "--picture", "no.svg"],
+            "fit slow.csv fast.csv --picture no.svg",
             "--picture: it is of one setting; the exposures",
         ),
-        (vec![&slow, &slow, "--out", folder], "slow.csv: it is given twice"),
-        (vec![&slow, "missing.csv"], "missing.csv: "),
-    ] {
-        let run = run(&args);
-        assert!(run.code == 2 && run.out.is_empty() && run.err.contains(reason), "{}", run.err);
-    }
+        ("fit slow.csv slow.csv --out ./of/speeds", "slow.csv: it is given twice"),
+        ("fit slow.csv missing.csv", "missing.csv: "),
+    ]);
 }
 
 /// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's share.
 #[test]
 fn the_firmwares_pulses_split_the_light_of_the_trace() {
-    let leaf = include_bytes!("../traces/leaf.csv");
+    let leaf = include_bytes!("../../traces/leaf.csv");
     let trace = trace::open(leaf, &trace::Options::default()).unwrap().trace;
     let samples = || trace.times.iter().zip(&trace.values);
     let dark = |t: f64| !(0.004..0.0145).contains(&t);
@@ -903,7 +704,7 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
     let light = |until: f64| -> f64 {
         samples().map(|(t, v)| ((until - t) / step + 0.5).clamp(0.0, 1.0) * (v - level)).sum()
     };
-    let plan = Plan::parse(include_str!("../scenes/measured.toml")).unwrap();
+    let plan = Plan::parse(MEASURED).unwrap();
     for trigger in &plan.triggers {
         let time = f64::from(trigger.ticks) / f64::from(plan.timer.hz);
         let share = light(f64::from(plan.curve.open_start()) + time) / light(1.0);
@@ -914,54 +715,33 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
 /// One object whose names and codes stay as they are, with what the report says.
 #[test]
 fn a_program_reads_json() {
-    let dir = empty_dir("json");
-    let bounces = |t: f64| trapezoid(t) * (1.0 - 0.3 * (9000.0 * t).sin().powi(2));
+    let folder = Folder::new("json");
     for (name, trace, from) in [
-        ("model", sampled(trapezoid, 1200, 0.005), "model"),
-        ("trace", sampled(bounces, 1500, 0.003), "trace"),
+        ("model.csv", sampled(trapezoid, 1200, 0.005), "model"),
+        ("trace.csv", sampled(bounces, 1500, 0.003), "trace"),
     ] {
-        let text = String::from("time,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-        let csv = written(&dir, &format!("{name}.csv"), &text);
-        let run = run(&[&csv, "--report", "json", "--triggers", "5"]);
-        assert_eq!(run.code, 0, "{}", run.err);
-        let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+        folder.write(name, format!("time,v\n{}", rows(&trace, |t, v| format!("{t:.6},{v:.5}"))));
+        let json = folder.json(&format!("{name} --triggers 5"));
         assert_eq!(json["triggers_from"], from);
         assert_eq!(json["fit"]["explained"], from == "model");
         assert_eq!(json["columns"]["signal"], 2);
         assert_eq!(json["triggers"].as_array().unwrap().len(), 5);
-        assert!(json["triggers"][4]["time_s"].as_f64().unwrap() < 0.009);
-        for key in ["exposure_error_s", "efficiency", "opens_s"] {
-            assert!(json[key].as_f64().is_some(), "{key}: {json}");
-        }
+        assert!(number(&json["triggers"][4], "time_s") < 0.009);
+        ["exposure_error_s", "efficiency", "opens_s"].iter().for_each(|key| _ = number(&json, key));
         assert_eq!(json["efficiency_error"].is_null(), json["efficiency_most"].is_number());
         if from == "model" {
-            assert!((json["exposure_s"].as_f64().unwrap() - 0.005).abs() < 5e-6);
+            assert!((number(&json, "exposure_s") - 0.005).abs() < 5e-6);
         }
-        let codes: Vec<&str> = json["warnings"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|w| w["code"].as_str().unwrap())
-            .collect();
+        let codes = codes(&json);
         assert!(codes.contains(&"unit_assumed"), "{codes:?}");
         assert_eq!(codes.contains(&"misfit"), from == "trace", "{codes:?}");
-        assert_eq!((&json["unit"], &json["delay_s"]), (&"s".into(), &serde_json::Value::Null));
+        assert_eq!((&json["unit"], &json["delay_s"]), (&"s".into(), &Value::Null));
     }
     // Several are an array of such objects, with the same keys; so is one with the name of its speed.
-    let [model, other] = ["model.csv", "trace.csv"].map(|name| dir.join(name));
-    let [model, other] = [&model, &other].map(|path| path.to_str().unwrap());
-    let json = |args: &[&str]| -> serde_json::Value {
-        let run = run(&[args, &["--report", "json"]].concat());
-        assert_eq!(run.code, 0, "{}", run.err);
-        serde_json::from_str(&run.out).unwrap()
-    };
-    let plain = json(&[model, "--sync", "0.4ms"]);
-    let both = json(&[model, other, "--sync", "0", "--nominal", "1/250,5ms"]);
-    let keys =
-        |json: &serde_json::Value| json.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+    let plain = folder.json("model.csv --sync 0.4ms");
+    let both = folder.json("model.csv trace.csv --sync 0 --nominal 1/250,5ms");
     assert_eq!((both.as_array().unwrap().len(), keys(&both[1])), (2, keys(&plain)));
-    let number = |of: &serde_json::Value, key: &str| of[key].as_f64().unwrap();
-    assert_eq!((number(&both[0], "nominal_s"), number(&both[1], "nominal_s")), (0.004, 0.005));
+    assert_eq!([0, 1].map(|i| number(&both[i], "nominal_s")), [0.004, 0.005]);
     let off = number(&plain, "opens_s") - number(&plain, "delay_s");
     assert!((off - 4e-4).abs() < 1e-12 && number(&plain, "delay_error_s") > 0.0, "{off}");
 }
@@ -969,35 +749,21 @@ fn a_program_reads_json() {
 /// A name of the speed adds what is called so, and changes no layout.
 #[test]
 fn a_nominal_speed_is_told_as_such() {
-    let dir = empty_dir("nominal");
-    let trace = sampled(trapezoid, 1200, 0.005);
-    let text = String::from("time_s,v\n") + &rows(&trace, |t, v| format!("{t:.6},{v:.5}"));
-    let csv = written(&dir, "leaf.csv", &text);
-    let lines = |args: &[&str]| {
-        let run = run(&[&[csv.as_str()], args].concat());
-        assert_eq!((run.code, run.err.as_str()), (0, ""));
-        run.out.lines().map(String::from).collect::<Vec<_>>()
-    };
-    let (plain, named) = (lines(&[]), lines(&["--nominal", "1/250"]));
-    let added: Vec<_> = named.iter().filter(|line| !plain.contains(line)).collect();
+    let folder = Folder::new("nominal");
+    folder.write("leaf.csv", leaf(1.0));
+    let [plain, named] =
+        ["", "--nominal 1/250"].map(|it| folder.run(&format!("fit leaf.csv {it}")).quietly());
+    let added: Vec<_> = named.lines().filter(|line| plain.lines().all(|it| it != *line)).collect();
     let speed = "speed        1/200 s measured, 1/250 s nominal: +0.32 EV";
     assert_eq!(added, [speed, "nominal = 4"]);
     let nearest = "speed        1/200 s measured, nearest full stop 1/250 s: +0.32 EV";
-    assert!(plain.contains(&nearest.to_string()), "{plain:?}");
-    for wrong in ["fast", "1/0", "-4ms", "4"] {
-        let run = run(&[csv.as_str(), &format!("--nominal={wrong}")]);
-        assert!(
-            run.code == 2 && run.err.contains("write a speed as in 1/250, 4ms, 2s"),
-            "{}",
-            run.err
-        );
-    }
+    assert!(plain.lines().any(|line| line == nearest), "{plain}");
 }
 
 /// Four sensors behind a curtain shutter: each one's exposure, and when its light comes later than the first one's.
 #[test]
 fn several_sensors_tell_how_the_curtains_travel() {
-    let dir = empty_dir("sensors");
+    let folder = Folder::new("sensors");
     let mut random = Random::new(17);
     let sensors = [[3.0, 5.2], [4.5, 6.95], [6.0, 8.6], [7.5, 10.4]];
     let openness = |t: f64, [opens, closes]: [f64; 2]| {
@@ -1006,85 +772,53 @@ fn several_sensors_tell_how_the_curtains_travel() {
     let mut text = String::from("t_ms,A,B,C,D\n");
     for i in 0..3000 {
         let t = 5e-3 * f64::from(i);
-        write!(text, "{t:.3}").unwrap();
-        sensors.iter().for_each(|ends| {
-            write!(text, ",{:.5}", openness(t, *ends) + 0.003 * random.normal()).unwrap()
-        });
-        text += "\n";
+        let mut value = |ends| format!(",{:.5}", openness(t, ends) + 0.003 * random.normal());
+        text += &format!("{t:.3}{}\n", sensors.map(&mut value).concat());
     }
-    let csv = written(&dir, "travel.csv", &text);
-    let run_all = run(&[&csv, "--columns", "1,2,3,4,5"]);
-    assert_eq!((run_all.code, run_all.err.as_str()), (0, ""));
+    folder.write("a.csv", text);
+    let out = folder.run("fit a.csv --columns 1,2,3,4,5").quietly();
     for (name, [opens, closes]) in ["A", "B", "C", "D"].into_iter().zip(sensors) {
-        let line = run_all.out.lines().find(|line| line.starts_with(name)).unwrap();
+        let line = out.lines().find(|line| line.starts_with(name)).unwrap();
         let numbers: Vec<f64> =
             line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let more = ((closes - opens) / 2.2_f64).log2();
         let truths = [closes - opens, more, opens - 3.0, closes - 5.2];
         // Each ± but that of the stops has an error behind it.
-        let found = if name == "A" {
-            vec![numbers[0]]
-        } else {
-            vec![numbers[0], numbers[2], numbers[3], numbers[5]]
-        };
-        for (found, truth) in found.into_iter().zip(truths) {
-            assert!(
-                (found - truth).abs() < if truth == more { 0.006 } else { 0.002 },
-                "{line}: {truth}"
-            );
+        let places = if name == "A" { &[0][..] } else { &[0, 2, 3, 5] };
+        for (place, truth) in places.iter().zip(truths) {
+            let most = if truth == more { 0.006 } else { 0.002 };
+            assert!((numbers[*place] - truth).abs() < most, "{line}: {truth}");
         }
     }
-    let json: serde_json::Value =
-        serde_json::from_str(&run(&[&csv, "--columns", "1,A,D", "--report", "json"]).out).unwrap();
+    let json = folder.json("a.csv --columns 1,A,D");
     let half = |k: usize| json[k]["half_light_s"][0].as_f64().unwrap();
     assert!((half(1) - half(0) - 0.0045).abs() < 2e-6 && json.as_array().unwrap().len() == 2);
     let rise = json[0]["rise_fall_s"][0].as_f64().unwrap();
     assert!((rise - 0.8 * 0.3e-3).abs() < 5e-6, "{rise}");
-    let refused = run(&[&csv, "--columns", "1,2,3", "--out", "no.toml"]);
-    assert!(
-        refused.code == 2 && refused.err.contains("several sensors have no scene"),
-        "{}",
-        refused.err
-    );
+    folder.refuses(&[("fit a.csv --columns 1,2,3 --out no.toml", "several sensors have no scene")]);
 }
 
 #[test]
 fn a_window_and_the_zero_of_time_are_kept_to() {
-    let dir = empty_dir("window");
+    let folder = Folder::new("window");
     let two = |t: f64| trapezoid(t) + 0.5 * trapezoid(2.0 * t - 0.02);
     let mut random = Random::new(6);
     let text: String = (0..2000)
         .map(|i| format!("{:.5}\n", two(1e-5 * f64::from(i)) + 0.004 * random.normal()))
         .collect();
-    let csv = written(&dir, "rated.csv", &(String::from("Sample rate: 100 kHz\nA\n") + &text));
-    let exposure = |args: &[&str]| {
-        let run = run(&[&[csv.as_str(), "--report", "json"], args].concat());
-        assert_eq!(run.code, 0, "{}", run.err);
-        let json: serde_json::Value = serde_json::from_str(&run.out).unwrap();
-        (1e3 * json["exposure_s"].as_f64().unwrap(), json["pulses"].as_u64().unwrap())
-    };
-    let (first, one) = exposure(&["--to", "10ms"]);
-    let (second, other) = exposure(&["--from", "10ms", "--to=1s"]);
-    assert!(
-        (first - 5.0).abs() < 0.02 && (second - 2.5).abs() < 0.02 && (one, other) == (1, 1),
-        "{first} {second}"
-    );
-    assert!(run(&[&csv, "--to", "10ms"]).out.contains("by 'Sample rate: 100 kHz', to 10 ms"));
+    folder.write("rated.csv", format!("Sample rate: 100 kHz\nA\n{text}"));
+    for (window, exposure) in [("--to 10ms", 5.0), ("--from 10ms --to=1s", 2.5)] {
+        let json = folder.json(&format!("rated.csv {window}"));
+        assert!((1e3 * number(&json, "exposure_s") - exposure).abs() < 0.02, "{json}");
+        assert_eq!(number(&json, "pulses"), 1.0);
+    }
+    folder.run("fit rated.csv --to 10ms").prints(&["by 'Sample rate: 100 kHz', to 10 ms"]);
     // The rows are counted, and nothing says from when.
-    let refused = run(&[&csv, "--to", "10ms", "--sync", "0"]);
-    assert!(
-        refused.code == 2 && refused.err.contains("--sync: times are counted from the first row"),
-        "{}",
-        refused.err
-    );
-    let zero = written(
-        &dir,
-        "zero.csv",
-        &(String::from("Sample rate: 100 kHz\nTrigger point,150\nA\n") + &text),
-    );
-    let json = run(&[&zero, "--to", "8ms", "--sync", "0", "--report", "json"]);
-    let json: serde_json::Value = serde_json::from_str(&json.out).unwrap();
-    assert!((json["delay_s"].as_f64().unwrap() - 0.0005).abs() < 1e-5, "{json}");
+    let reason = "--sync: times are counted from the first row";
+    folder.refuses(&[("fit rated.csv --to 10ms --sync 0", reason)]);
+    folder.write("zero.csv", format!("Sample rate: 100 kHz\nTrigger point,150\nA\n{text}"));
+    let json = folder.json("zero.csv --to 8ms --sync 0");
+    assert!((number(&json, "delay_s") - 0.0005).abs() < 1e-5, "{json}");
 }
 
 /// The fit ends its window where the light ends, not the light where its window does.
@@ -1095,7 +829,7 @@ fn tails_are_looked_at_to_their_end() {
         let times: Vec<f64> =
             (0..n).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / n as f64).collect();
         let values = times.iter().map(|t| f(*t) + 0.002 * random.normal()).collect();
-        fitted(&Trace { times, values }, &Options::default()).unwrap()
+        plainly(&Trace { times, values })
     };
     let decay = |t: f64| (t / 2e-4).clamp(0.0, 1.0) * (-(t - 2e-4).max(0.0) / 7e-4).exp();
     each(8, |seed| {

@@ -1,0 +1,167 @@
+//! Trigger times without a curve: a trace that no model explains becomes a scene of its own triggers, which `shutter plan`
+//! turns into ticks.
+
+use serde_json::Value;
+use shutter::scene;
+use shutter::times::Times;
+
+use crate::refusals::{TIMES, TRAPEZOID, with};
+use crate::support::{Folder, number, rows, sampled};
+
+/// Blades that bounce: between two dips they are open.
+fn bounces(t: f64) -> f64 {
+    let dip = |at: f64| 0.35 * (-((t - at) / 0.15).powi(2)).exp();
+    openness(t) * (1.0 - dip(3.3) - 0.5 * dip(4.0))
+}
+
+/// Opens from 2 to 3 ms, and closes from 8 to 9.
+fn openness(t: f64) -> f64 {
+    (t - 2.0).min(9.0 - t).clamp(0.0, 1.0)
+}
+
+/// A folder with a trace in ms that starts at a time.
+fn folder(name: &str, zero: f64, light: fn(f64) -> f64) -> Folder {
+    let folder = Folder::new(&format!("times_{name}"));
+    let trace = sampled(|t| light(1e3 * t), 2400, 0.003);
+    let rows = rows(&trace, |t, v| format!("{:.3},{v:.5}", zero + 1e3 * t));
+    folder.write("a.csv", format!("time (ms),light\n{rows}"));
+    folder
+}
+
+/// What `fit --report json` says of the trace, and the scene that it writes.
+fn fitted(folder: &Folder, more: &str) -> (Value, String) {
+    let json = folder.json(&format!("a.csv --out a.toml {more}"));
+    (json, folder.text("a.toml"))
+}
+
+/// A trigger's tick is the nearest to its time in the trace, from the start of opening; and from the edge, by two roundings.
+#[test]
+fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
+    // Where f32 would have lost the times, these are kept.
+    for zero in [0.0, 3.6e6] {
+        let folder = folder("trace", zero, bounces);
+        let (json, text) = fitted(&folder, &format!("--triggers 37 --sync {}ms", zero + 1.0));
+        assert_eq!(json["triggers_from"], "trace");
+        assert!(!text.contains("\nclose_end") && text.contains("\ntrigger_times = ["), "{text}");
+        assert!(text.contains("no model explains the trace"), "{text}");
+
+        let plan = "plan a.toml --emit=json --set-up=emulated --timer-hz=1MHz --sync-falls=false";
+        let plan: Value = serde_json::from_str(&folder.run(plan).quietly()).unwrap();
+        let (hz, opens) = (number(&plan, "timer_hz"), number(&json, "opens_s"));
+        let delay = opens - 1e-3 * (zero + 1.0);
+        let [triggers, models] =
+            ["triggers", "model_triggers"].map(|key| json[key].as_array().unwrap());
+        assert_eq!(plan["triggers"].as_array().unwrap().len(), 37);
+        for (given, planned) in triggers.iter().zip(plan["triggers"].as_array().unwrap()) {
+            let time = number(given, "time_s");
+            // The scene's eighth digit, and half a tick.
+            let off = |key: &str, by: f64| (number(planned, key) / hz - by).abs() * hz;
+            assert!(off("ticks", time - opens) < 0.51, "{given} {planned}");
+            assert!(off("from_edge_ticks", time - opens + delay) < 1.02, "{given} {planned}");
+            assert!((number(planned, "time_s") - time).abs() < 1e-9);
+        }
+        // They are not the model's, which differ by more than a tick, and whose errors say so.
+        let mut most = 0.0;
+        for (own, model) in triggers.iter().zip(models) {
+            let apart = (number(own, "time_s") - number(model, "time_s")).abs();
+            assert!(number(model, "error_s") >= apart, "{own} {model}");
+            most = f64::max(most, apart * hz);
+        }
+        assert!(most > 10.0);
+    }
+}
+
+/// A blade that lets light through before it opens for good: ticks count from the first of it.
+#[test]
+fn light_before_the_opening_is_triggered_too() {
+    let early = |t: f64| openness(t).max(0.2 * f64::from((0.9..1.3).contains(&t)));
+    let (json, text) = fitted(&folder("early", 0.0, early), "--triggers 200");
+    let times = Times::parse(&text).unwrap();
+    // 0.08 ms of 6.08, in full light.
+    let early = times.triggers.iter().filter(|trigger| trigger.time < 1.4e-3).count();
+    assert!((2..=3).contains(&early), "{early}");
+    let opens = number(&json, "opens_s");
+    // The dark is searched in twelfths, here of 0.4 ms.
+    assert!((0.5e-3..=0.91e-3).contains(&opens), "{opens}");
+    assert!((times.open_start - opens).abs() < 1e-9);
+}
+
+#[test]
+fn who_asks_for_a_model_gets_its_curve_and_is_told() {
+    let folder = folder("model", 0.0, bounces);
+    let (json, text) = fitted(&folder, "--model trapezoid");
+    assert_eq!(json["triggers_from"], "trace");
+    let doubt = "\n# This curve does not explain the trace, and its triggers are not";
+    assert!(text.contains(doubt) && text.contains("\nclose_end = "), "{text}");
+    assert!(!text.contains("trigger_times"), "{text}");
+    folder.run("plan a.toml").well();
+}
+
+/// With time 0 at the opening, nothing else changes.
+#[test]
+fn time_0_is_where_it_is_asked_for() {
+    let folder = folder("zero", 0.0, bounces);
+    let plan = |zero: &str| {
+        let (json, text) = fitted(&folder, &format!("--zero {zero}"));
+        (number(&json, "opens_s"), Times::parse(&text).unwrap())
+    };
+    let ((opens, by_trace), (_, by_opening)) = (plan("trace"), plan("open"));
+    assert_eq!(by_opening.open_start, 0.0);
+    assert!((by_trace.open_start - opens).abs() < 1e-10);
+    let ticks = |times: &Times| times.triggers.iter().map(|t| t.ticks).collect::<Vec<_>>();
+    assert_eq!(ticks(&by_trace), ticks(&by_opening));
+}
+
+#[test]
+fn the_plan_says_that_there_is_no_curve_and_shows_the_times() {
+    let folder = Folder::new("times_plan");
+    folder.write("a.toml", with(TIMES, "delay = 1; nominal = 2"));
+    let run = folder.run("plan a.toml --out a.svg").well();
+    assert_eq!(run.err, "wrote a.svg\n");
+    for line in [
+        "shutter      no curve: trigger times as measured",
+        "opens        at 4.1 ms, from where ticks count",
+        "nominal      2 ms",
+        "gap          at least 0.1 ms; the closest two come 0.5 ms apart",
+        "    #      time (ms)       ticks   from edge       gap (ms)",
+        "    0         5.0000         900        1900              -",
+        "    2         6.1004        2000        3000         0.6004",
+    ] {
+        assert!(run.out.contains(&format!("{line}\n")), "{line}\n{}", run.out);
+    }
+    // The axis goes from the opening to the last trigger, with a mark for each.
+    let axis = run.out.lines().find(|line| line.contains('┼')).unwrap();
+    let marks = axis.chars().enumerate().filter(|(_, c)| *c == '┼').map(|(i, _)| i);
+    assert!(marks.eq([32, 50, 71]), "{axis}");
+    // Its mark, and a dot on it, and the sync.
+    let svg = folder.text("a.svg");
+    assert_eq!(svg.matches(r##"r="32" opacity="1" fill="#D55E00""##).count(), 3);
+    for words in ["no curve: 3 triggers as measured", "sync", "opens"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let reason = "the set-ups are told apart by a curve, and the scene has none";
+    folder.refuses(&[("plan a.toml --set-ups both.svg", reason)]);
+    // A lone trigger at the opening has no time to be drawn along.
+    folder.write("a.toml", "open_start = 1\ntrigger_times = [1]\ntimer_hz = 10\nmin_gap = 0\n");
+    let run = folder.run("plan a.toml --out a.svg").prints(&["    0           1000           0"]);
+    assert_eq!(run.err, "wrote a.svg\n");
+    // Beside a curve it is a row of a table.
+    folder.write("a.toml", with(TIMES, "nominal = 2"));
+    folder.write(
+        "b.toml",
+        with(TRAPEZOID, "close_start = 4; close_end = 4.25; triggers = 4; min_gap = 0"),
+    );
+    let out = folder.run("plan a.toml b.toml").well().out;
+    let rows: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(rows[1], ["a", "2", "ms", "-", "-", "-", "-", "3", "as", "measured"]);
+    assert_eq!(rows[2][..3], ["b", "-", "4"]);
+}
+
+/// Whoever needs a curve is told that there is none, rather than of an unknown key.
+#[test]
+fn where_a_curve_is_required_such_a_scene_is_refused_by_its_name() {
+    let fault = scene::parse(TIMES).err().unwrap();
+    let told = "trigger_times: this scene has times as they were measured";
+    assert!(fault.locate("a.toml", TIMES).contains(told));
+    assert_eq!(fault.at.map(|at| &TIMES[at..at + 13]), Some("trigger_times"));
+}
