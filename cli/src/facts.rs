@@ -83,29 +83,17 @@ pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
 
 fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit);
-    let of = |seconds: f64| short(unit.of(seconds), 5);
+    let [from, open, close, to] =
+        [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
+            .map(|time| short(unit.of(time), 5));
+    let [t1, t2, t3] = [facts.opening, facts.open, facts.closing].map(|time| unit.show(time));
     let mut lines = vec![
         ("scene", name.to_string()),
         (
             "shutter",
-            format!(
-                "opens from {} to {}, closes from {} to {} {}",
-                of(curve.open_start().into()),
-                of(curve.open_end().into()),
-                of(curve.close_start().into()),
-                of(curve.close_end().into()),
-                unit.name()
-            ),
+            format!("opens from {from} to {open}, closes from {close} to {to} {}", unit.name()),
         ),
-        (
-            "times",
-            format!(
-                "T1 {} opening, T2 {} fully open, T3 {} closing",
-                unit.show(facts.opening),
-                unit.show(facts.open),
-                unit.show(facts.closing),
-            ),
-        ),
+        ("times", format!("T1 {t1} opening, T2 {t2} fully open, T3 {t3} closing")),
         ("half open", format!("TE {}, between the half openings", unit.show(facts.half_open))),
         ("exposure", format!("TV {}, fully open for as much light", unit.show(facts.exposure))),
         ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
@@ -114,25 +102,22 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
-    lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length))));
+    lines.push(("timer", plan.timer.told(plan.from_edge())));
     lines.push(("delay", delay(plan.delay, unit)));
     lines.extend(lag(plan.lag, unit));
     lines.push(("gap", gap(plan)));
     lines.extend(pulses(plan).map(|pulses| ("pulses", pulses)));
     lines.push(("set-up", set_up(plan)));
-    let keep = if plan.most == 1 {
-        "1 keeps the gap".into()
-    } else {
-        format!("up to {} keep the gap", plan.most)
+    let keep = match plan.most {
+        1 => "1 keeps the gap".into(),
+        most => format!("up to {most} keep the gap"),
     };
     lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
-    lines.push((
-        "direct",
-        match curve.direct_triggers() {
-            0 => "every frame needs a search".into(),
-            n => format!("frames of up to {} never need a search", count(n, "trigger")),
-        },
-    ));
+    let direct = match curve.direct_triggers() {
+        0 => "every frame needs a search".into(),
+        n => format!("frames of up to {} never need a search", count(n, "trigger")),
+    };
+    lines.push(("direct", direct));
     lines
 }
 
@@ -148,7 +133,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = times.gaps().min().map(|ticks| times.seconds(ticks));
     lines.extend([
-        ("timer", times.timer.told(from_edge(times.delay, times.length))),
+        ("timer", times.timer.told(times.from_edge())),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
         ("set-up", if times.set_up.is_some() { FLASHES } else { "not said" }.into()),
@@ -219,17 +204,12 @@ pub fn spread(plan: &Planned) -> Option<String> {
 
 /// In how many frames a delay that moves by a tick a second moves by 1 % of a share, if there is a delay and a share.
 pub fn drift(plan: &Planned) -> Option<f64> {
-    if !plan.timer.is_given {
+    if !plan.timer.is_given || plan.delay.is_none() {
         return None;
     }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
     let ticks = share(plan)? * f64::from(plan.timer.hz);
-    Some(MATTERS * ticks / from_edge(Some(plan.delay?), plan.length))
-}
-
-/// From the edge to the end of a frame that lasts so many seconds.
-pub(crate) fn from_edge(delay: Option<Delay>, seconds: f64) -> f64 {
-    delay.map_or(0.0, |delay| delay.seconds) + seconds
+    Some(MATTERS * ticks / plan.from_edge())
 }
 
 /// From where the ticks count.

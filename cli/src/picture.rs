@@ -16,8 +16,8 @@ use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
 use drawing::{
-    Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, is_near, lit, pen,
-    picture, sync, time_range,
+    Drawn, MOST_MARKS, POINTS, SCALE, below, dot, draw_curve, graph, is_near, lit, pen, picture,
+    sync, time_range,
 };
 pub use set_ups::set_ups;
 use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
@@ -60,9 +60,7 @@ fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
             n => format!("{n} triggers, each in the middle of an equal share of the exposure"),
         },
     );
-    let middle = SIZE.0 * SCALE / 2;
-    area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
-    area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+    drawing::write_heading(area, SIZE.0, name, &facts)?;
     legend(area, plan)
 }
 

@@ -169,9 +169,7 @@ impl Asked {
         }
         let lamp = match (&scene.pulse, &scene.duty) {
             _ if fully_open.is_some() => Lamp::FullyOpen,
-            (Some(_), Some(duty)) => {
-                return Err(Fault::at(duty, What::DutyAndPulse));
-            }
+            (Some(_), Some(duty)) => return Err(Fault::at(duty, What::DutyAndPulse)),
             (Some(place), None) => {
                 let ticks = (pulse.unwrap_or_default() * f64::from(timer_hz)).round();
                 if ticks == 0.0 {

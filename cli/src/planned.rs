@@ -44,6 +44,11 @@ impl Common {
         self.fitted.iter().filter(|(what, _)| *what == "doubt").map(|(_, told)| told.as_str())
     }
 
+    /// From the edge of the sync, or the start of opening where there is no delay, to the end of a frame, in seconds.
+    pub(crate) fn from_edge(&self) -> f64 {
+        self.delay.map_or(0.0, |delay| delay.seconds) + self.length
+    }
+
     /// How long so many ticks last.
     pub fn seconds(&self, ticks: u32) -> f64 {
         f64::from(ticks) / f64::from(self.timer.hz)

@@ -159,7 +159,7 @@ fn triggers(
     timer: Timer,
     gap: u64,
 ) -> Result<Vec<Given>, Fault> {
-    let hz = f64::from(timer.hz);
+    let (hz, gap) = (f64::from(timer.hz), i64::try_from(gap).unwrap_or(i64::MAX));
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
         return Err(Fault::at(&scene.trigger_times, What::TimesCount(times.len())));
@@ -180,9 +180,9 @@ fn triggers(
             if time < last.time {
                 return fault(What::TimesOutOfOrder { i: i - 1 });
             }
-            if by < i64::try_from(gap).unwrap_or(i64::MAX) {
+            if by < gap {
                 let ticks = |count| Ticks { count, timer, unit };
-                let (gap, least) = (ticks(by), ticks(i64::try_from(gap).unwrap_or(i64::MAX)));
+                let (gap, least) = (ticks(by), ticks(gap));
                 return fault(What::TimesClose(Pair { first: i - 1, gap, least }));
             }
         }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::facts::{self, Facts};
+use crate::facts::Facts;
 use crate::lamp::SetUp;
 use crate::planned::{Planned, Row};
 
@@ -50,7 +50,7 @@ struct Document<'a> {
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
-        let (timer, length) = (plan.timer, facts::from_edge(plan.delay, plan.length));
+        let (timer, length) = (plan.timer, plan.from_edge());
         let rate = (timer.off(length) >= HALF_TICK).then(|| timer.told(length));
         let fact = |of: fn(Facts) -> f64| facts.map(|facts| of(facts) as f32);
         Self {

@@ -165,6 +165,12 @@ pub fn draw_marks(
     Ok(())
 }
 
-pub fn centred(size: i32) -> TextStyle<'static> {
-    style::text(size * SCALE, HPos::Center, VPos::Center)
+/// The name of what is drawn, and its facts, on a page of this width.
+pub fn write_heading(area: &Area, width: i32, name: &str, facts: &str) -> Drawn {
+    let middle = width * SCALE / 2;
+    for (text, size, y) in [(name, 19, 22), (facts, 14, 48)] {
+        let centred = style::text(size * SCALE, HPos::Center, VPos::Center);
+        area.draw_text(text, &centred, (middle, y * SCALE))?;
+    }
+    Ok(())
 }

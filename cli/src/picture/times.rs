@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{Axis, SCALE, axes, centred, draw_marks, pen, picture};
+use super::drawing::{Axis, SCALE, axes, draw_marks, pen, picture, write_heading};
 use super::style::{self, INK};
 use crate::times::Times;
 
@@ -26,10 +26,8 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let triggers = count(times.triggers.len() as u64, "trigger");
-        let middle = SIZE.0 * SCALE / 2;
-        heading.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
         let facts = format!("no curve: {triggers} as measured");
-        heading.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+        write_heading(&heading, SIZE.0, name, &facts)?;
         let (time, places) = (format!("time ({})", unit.name()), decimals(end - start, 3));
         let across = Axis {
             range: first - room..end + room,

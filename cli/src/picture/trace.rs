@@ -9,7 +9,7 @@ use shutter_fit::trace::Trace;
 use shutter_fit::unit::{decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Axis, Drawn, SCALE, axes, centred, dot, draw_marks, pen, picture};
+use super::drawing::{Axis, Drawn, SCALE, axes, dot, draw_marks, pen, picture};
 use super::style::{self, Area, BLUE, GREY, Graph};
 
 const SIZE: (i32, i32) = (900, 640);
@@ -42,9 +42,7 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
         if fit.from == From::Trace { " by the trace" } else { "" },
         short(100.0 * fit.best().rms, 3),
     );
-    let middle = SIZE.0 * SCALE / 2;
-    area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
-    area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+    super::drawing::write_heading(area, SIZE.0, name, &facts)?;
     let y = 74 * SCALE;
     let trigger = match fit.from {
         From::Model => "trigger",
