@@ -35,6 +35,8 @@ pub(crate) struct Sync<'a> {
     pub spread: Optional<'a>,
     pub falls: Option<&'a Spanned<bool>>,
     pub lag: Optional<'a>,
+    pub unit: Unit,
+    pub timer_hz: u32,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
@@ -46,9 +48,7 @@ impl Delay {
     /// # Errors
     /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a delay without one.
     pub(crate) fn new(
-        &Sync { delay, spread, falls, lag }: &Sync,
-        unit: Unit,
-        timer_hz: u32,
+        &Sync { delay, spread, falls, lag, unit, timer_hz }: &Sync,
         end: f64,
     ) -> Result<(Option<Self>, Option<Lag>), Fault> {
         let deviation = spread.map(|place| seconds(unit, "delay_spread", place)).transpose()?;
@@ -85,17 +85,11 @@ impl Lag {
     ///
     /// # Errors
     /// By how much it would come before the edge; without a delay, before the start of opening.
-    pub(crate) fn checked(
-        lag: Option<Self>,
-        first: u32,
-        sync: &Sync,
-        unit: Unit,
-        hz: u32,
-    ) -> Result<(), Fault> {
+    pub(crate) fn checked(lag: Option<Self>, first: u32, sync: &Sync) -> Result<(), Fault> {
         let (Some(lag), Some(place)) = (lag, sync.lag) else { return Ok(()) };
         let Some(by) = lag.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
-        let by = f64::from(by) / f64::from(hz);
+        let by = f64::from(by) / f64::from(sync.timer_hz);
         let (most, by_edge) = (lag.seconds - by, sync.delay.is_some());
-        Err(Fault::at(place, What::Lag { by, most, by_edge, unit }))
+        Err(Fault::at(place, What::Lag { by, most, by_edge, unit: sync.unit }))
     }
 }

@@ -21,10 +21,6 @@ pub struct Facts {
     pub closing: f64,
     /// TE: from half open to half closed.
     pub half_open: f64,
-    /// TV: the effective exposure, as long as a shutter without ramps would be open for as much light.
-    pub exposure: f64,
-    /// The effective exposure as a part of the time from the start of opening to the end of closing.
-    pub efficiency: f64,
     /// By how many stops the exposure is longer than the nominal one, where that is known; negative if it is shorter.
     pub delta_ev: Option<f64>,
 }
@@ -36,16 +32,13 @@ impl Facts {
         let [open_start, open_end, close_start, close_end] =
             [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
                 .map(f64::from);
-        let exposure = f64::from(curve.exposure());
         Self {
             opening: open_end - open_start,
             open: close_start - open_end,
             closing: close_end - close_start,
             half_open: f64::from(half(curve, curve.close_end(), curve.close_start()))
                 - f64::from(half(curve, curve.open_start(), curve.open_end())),
-            exposure,
-            efficiency: curve.efficiency().into(),
-            delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
+            delta_ev: plan.nominal.map(|nominal| (f64::from(curve.exposure()) / nominal).log2()),
         }
     }
 }
@@ -95,8 +88,8 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
         ),
         ("times", format!("T1 {t1} opening, T2 {t2} fully open, T3 {t3} closing")),
         ("half open", format!("TE {}, between the half openings", unit.show(facts.half_open))),
-        ("exposure", format!("TV {}, fully open for as much light", unit.show(facts.exposure))),
-        ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
+        ("exposure", format!("TV {}, fully open for as much light", unit.show(curve.exposure()))),
+        ("efficiency", format!("{} %", short(100.0 * f64::from(curve.efficiency()), 4))),
     ];
     lines.extend(plan.fitted.iter().cloned());
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {

@@ -79,8 +79,10 @@ impl Plan {
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
             lag: scene.lamp_lag.as_ref(),
+            unit: scene.unit(),
+            timer_hz,
         };
-        let (delay, lag) = Delay::new(&sync, scene.unit(), timer_hz, end)?;
+        let (delay, lag) = Delay::new(&sync, end)?;
         timer.holds(
             delay.map_or(0.0, |delay| delay.ticks.into()) + end,
             scene.timer_bits.as_ref(),
@@ -91,7 +93,7 @@ impl Plan {
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
         };
         let first = frame.first().map_or(0, |first| first.on as u32);
-        Lag::checked(lag, first, &sync, scene.unit(), timer_hz)?;
+        Lag::checked(lag, first, &sync)?;
         let trigger = |(i, flash): (u32, &Flash)| {
             let u = (i as f32 + 0.5) / n as f32;
             let (u, time) = match asked.lamp {

@@ -3,6 +3,7 @@
 use shutter_fit::unit::{short, stops};
 
 use crate::facts::Facts;
+use crate::plan::Plan;
 use crate::planned::Planned;
 
 /// A row for each plan, under the names of what stands in it.
@@ -10,20 +11,20 @@ pub fn text(plans: &[(String, Planned)]) -> String {
     let row = |(name, planned): &(String, Planned)| {
         let unit = planned.unit;
         // Times without a curve tell of no exposure.
-        let facts = planned.plan().map(Facts::new);
+        let plan = planned.plan();
         let optional =
             |seconds: Option<f64>| seconds.map_or("-".into(), |seconds| unit.show(seconds));
-        let delta = facts.and_then(|facts| facts.delta_ev);
-        let efficiency = facts.map(|facts| format!("{} %", short(100.0 * facts.efficiency, 3)));
+        let delta = plan.and_then(|plan| Facts::new(plan).delta_ev);
+        let percent = |plan: &Plan| short(100.0 * f64::from(plan.curve.efficiency()), 3) + " %";
         let triggers = planned.rows().len();
         [
             printable(name),
             optional(planned.nominal),
-            optional(facts.map(|facts| facts.exposure)),
+            optional(plan.map(|plan| plan.curve.exposure().into())),
             delta.map_or("-".into(), stops),
-            efficiency.unwrap_or("-".into()),
+            plan.map_or("-".into(), percent),
             optional(planned.delay.map(|delay| delay.seconds)),
-            match planned.plan() {
+            match plan {
                 Some(plan) => format!("{triggers} of {}", plan.most),
                 None => format!("{triggers} as measured"),
             },

@@ -131,10 +131,12 @@ impl Times {
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
             lag: scene.lamp_lag.as_ref(),
+            unit,
+            timer_hz: timer.hz,
         };
-        let (delay, lag) = Delay::new(&sync, unit, timer.hz, end)?;
+        let (delay, lag) = Delay::new(&sync, end)?;
         let first = triggers.first().map_or(0, |first| first.ticks);
-        Lag::checked(lag, first, &sync, unit, timer.hz)?;
+        Lag::checked(lag, first, &sync)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
         let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
         let last = triggers.last().map_or(0.0, |last| last.time - open_start);
