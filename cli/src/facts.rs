@@ -95,7 +95,7 @@ fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
-    lines.push(("timer", plan.timer.told(plan.from_edge())));
+    lines.push(("timer", plan.timer.told(plan.edge_to_end())));
     lines.push(("delay", delay(plan.delay, unit)));
     lines.extend(lag(plan.lag, unit));
     lines.push(("gap", gap(plan)));
@@ -126,7 +126,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
     let gap = times.gaps().min().map(|ticks| times.seconds(ticks));
     lines.extend([
-        ("timer", times.timer.told(times.from_edge())),
+        ("timer", times.timer.told(times.edge_to_end())),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
         ("set-up", if times.set_up.is_some() { FLASHES } else { "not said" }.into()),
@@ -202,7 +202,7 @@ pub fn drift(plan: &Planned) -> Option<f64> {
     }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
     let ticks = share(plan)? * f64::from(plan.timer.hz);
-    Some(MATTERS * ticks / plan.from_edge())
+    Some(MATTERS * ticks / plan.edge_to_end())
 }
 
 /// From where the ticks count.

@@ -45,7 +45,7 @@ impl Common {
     }
 
     /// From the edge of the sync, or the start of opening where there is no delay, to the end of a frame, in seconds.
-    pub(crate) fn from_edge(&self) -> f64 {
+    pub(crate) fn edge_to_end(&self) -> f64 {
         self.delay.map_or(0.0, |delay| delay.seconds) + self.length
     }
 

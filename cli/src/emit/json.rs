@@ -50,7 +50,7 @@ struct Document<'a> {
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
-        let (timer, length) = (plan.timer, plan.from_edge());
+        let (timer, length) = (plan.timer, plan.edge_to_end());
         let rate = (timer.off(length) >= HALF_TICK).then(|| timer.told(length));
         let fact = |of: fn(Facts) -> f64| facts.map(|facts| of(facts) as f32);
         Self {
