@@ -4,7 +4,7 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 
 use crate::fault::{Fault, What};
-use crate::scene::{Number, seconds};
+use crate::scene::{Optional, not_negative, seconds};
 
 /// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
 /// second of the two, and only the edge can be seen.
@@ -31,10 +31,12 @@ pub struct Lag {
 
 /// What a scene has of a sync and a lamp.
 pub(crate) struct Sync<'a> {
-    pub delay: Option<&'a Spanned<Number>>,
-    pub spread: Option<&'a Spanned<Number>>,
+    pub delay: Optional<'a>,
+    pub spread: Optional<'a>,
     pub falls: Option<&'a Spanned<bool>>,
-    pub lag: Option<&'a Spanned<Number>>,
+    pub lag: Optional<'a>,
+    pub unit: Unit,
+    pub timer_hz: u32,
 }
 
 /// A frame's last tick, counted from the edge: beyond it, wrapping ticks of 32 bits no longer tell past from future.
@@ -46,24 +48,17 @@ impl Delay {
     /// # Errors
     /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a delay without one.
     pub(crate) fn new(
-        &Sync { delay, spread, falls, lag }: &Sync,
-        unit: Unit,
-        timer_hz: u32,
+        &Sync { delay, spread, falls, lag, unit, timer_hz }: &Sync,
         end: f64,
     ) -> Result<(Option<Self>, Option<Lag>), Fault> {
-        let of_spread = |place| Ok((place, seconds(unit, "delay_spread", place)?));
-        let spread = spread.map(of_spread).transpose()?;
-        if let Some((place, _)) = spread.filter(|(_, spread)| delay.is_none() || *spread < 0.0) {
+        let deviation = spread.map(|place| seconds(unit, "delay_spread", place)).transpose()?;
+        if let Some(place) = spread.filter(|_| delay.is_none() || deviation < Some(0.0)) {
             return Err(Fault::at(place, What::Spread));
         }
         if let (None, Some(place)) = (delay, falls) {
             return Err(Fault::at(place, What::Falls));
         }
-        let lag = lag.map(|place| Ok((place, seconds(unit, "lamp_lag", place)?))).transpose()?;
-        if let Some((place, _)) = lag.filter(|(_, lag)| *lag < 0.0) {
-            return Err(Fault::at(place, What::NotNegative { key: "lamp_lag" }));
-        }
-        let lag = lag.map(|(_, lag)| lag);
+        let lag = lag.map(|place| not_negative(unit, "lamp_lag", place)).transpose()?;
         let count = |seconds: f64| (seconds.max(0.0) * f64::from(timer_hz)).round();
         // The cast saturates; what is so long is refused later.
         let beyond =
@@ -79,10 +74,9 @@ impl Delay {
             return Err(Fault::at(place, What::DelayTooLong { most }));
         }
         // Neither is -0.
-        let spread = spread.map(|(_, spread)| spread);
         let falls = falls.map(|falls| *falls.get_ref());
-        let delay = Self { seconds: seconds + 0.0, ticks: ticks as u32, spread, falls };
-        Ok((Some(delay), beyond(seconds)))
+        let (seconds, ticks) = (seconds + 0.0, ticks as u32);
+        Ok((Some(Self { seconds, ticks, spread: deviation, falls }), beyond(seconds)))
     }
 }
 
@@ -91,17 +85,11 @@ impl Lag {
     ///
     /// # Errors
     /// By how much it would come before the edge; without a delay, before the start of opening.
-    pub(crate) fn checked(
-        lag: Option<Self>,
-        first: u32,
-        sync: &Sync,
-        unit: Unit,
-        hz: u32,
-    ) -> Result<(), Fault> {
+    pub(crate) fn checked(lag: Option<Self>, first: u32, sync: &Sync) -> Result<(), Fault> {
         let (Some(lag), Some(place)) = (lag, sync.lag) else { return Ok(()) };
         let Some(by) = lag.ticks.checked_sub(first).filter(|by| *by > 0) else { return Ok(()) };
-        let by = f64::from(by) / f64::from(hz);
+        let by = f64::from(by) / f64::from(sync.timer_hz);
         let (most, by_edge) = (lag.seconds - by, sync.delay.is_some());
-        Err(Fault::at(place, What::Lag { by, most, by_edge, unit }))
+        Err(Fault::at(place, What::Lag { by, most, by_edge, unit: sync.unit }))
     }
 }

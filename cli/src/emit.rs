@@ -11,8 +11,7 @@ mod rust;
 pub use name::{identifier, module};
 
 use crate::facts;
-use crate::lamp::Lamp;
-use crate::lamp::SetUp;
+use crate::lamp::{Lamp, SetUp};
 use crate::planned::Planned;
 use crate::set_up::doses;
 
@@ -32,13 +31,6 @@ pub enum Form {
 
 /// The plan of the scene `name` in this form; a module has the `curve` only where that is asked for.
 ///
-/// ```
-/// use shutter::{emit, planned::Planned};
-/// let plan = Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
-/// let csv = emit::emit(emit::Form::Csv, "box", &plan, false).expect("a scene for hardware");
-/// assert!(csv.starts_with("scene,index,u,time_s,ticks,gap_ticks,"));
-/// ```
-///
 /// # Errors
 /// A plan that lacks what hardware needs, and a curve that is not there or for which the form has no place.
 pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<String, String> {
@@ -53,14 +45,6 @@ pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<Strin
 
 /// Several plans as one text called `name`, in this order: modules or headers with an array of them, rows or objects one
 /// after the other.
-///
-/// ```
-/// use shutter::{emit, planned::Planned};
-/// let plan = || Planned::parse(include_str!("../scenes/box.toml")).expect("a good scene");
-/// let speeds = [("fast".to_string(), plan()), ("slow".to_string(), plan())];
-/// let header = emit::several(emit::Form::C, "camera", &speeds, false).expect("they share a timer");
-/// assert!(header.contains("static const camera_speed camera_speeds[CAMERA_SPEEDS] = {"));
-/// ```
 ///
 /// # Errors
 /// What [`emit`] refuses of any of them, and plans that do not go together.
@@ -94,13 +78,13 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
         return Err("--curve: the scene has trigger times and no curve".into());
     }
     let mut lacks = Vec::new();
-    if plan.set_up().is_none() {
+    if plan.set_up.is_none() {
         lacks.extend(set_ups(plan));
     }
-    if !plan.timer().is_given {
+    if !plan.timer.is_given {
         lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
     }
-    if plan.delay().is_some_and(|delay| delay.falls.is_none()) {
+    if plan.delay.is_some() && falls(plan).is_none() {
         lacks.push(
             "sync_falls = ...     # true, or false if the delay counts from an edge that rises"
                 .into(),
@@ -144,7 +128,7 @@ fn set_ups(planned: &Planned) -> Vec<String> {
 fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
     let Some(((first, one), others)) = plans.split_first() else { return Ok(()) };
     for (i, (name, plan)) in (1..).zip(others) {
-        let [a, b] = [one.timer(), plan.timer()];
+        let [a, b] = [one.timer, plan.timer];
         for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
             if a != b {
                 return Err(format!(
@@ -155,33 +139,28 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
         if form == Form::Csv {
             continue;
         }
-        let (has, lacks) = match (one.delay().is_some(), plan.delay().is_some()) {
-            (true, false) => (first, name),
-            (false, true) => (name, first),
-            _ => (name, name),
-        };
-        if has != lacks {
+        let [a, b] = [one, plan];
+        if a.delay.is_some() != b.delay.is_some() {
+            let (has, lacks) = if a.delay.is_some() { (first, name) } else { (name, first) };
             return Err(format!(
                 "delay: {has} has one and {lacks} has none; an array needs all or none"
             ));
         }
-        let falls = |plan: &Planned| plan.delay().and_then(|delay| delay.falls);
-        if falls(one) != falls(plan) {
-            return Err(format!("sync_falls: {first} and {name} differ; an array is for one edge"));
+        let differ = format!("{first} and {name} differ; an array is for one");
+        if falls(a) != falls(b) {
+            return Err(format!("sync_falls: {differ} edge"));
         }
-        if one.set_up() != plan.set_up() {
-            return Err(format!("set_up: {first} and {name} differ; an array is for one set-up"));
+        if a.set_up != b.set_up {
+            return Err(format!("set_up: {differ} set-up"));
         }
-        if has_pulses(one) != has_pulses(plan) {
+        if has_pulses(a) != has_pulses(b) {
             return Err(format!(
                 "pulses: one of {first} and {name} has them; an array needs all or none"
             ));
         }
-        let identifier = |name: &str| name::identifier(name);
-        if let Some((other, _)) =
-            plans[..i].iter().find(|(other, _)| identifier(other) == identifier(name))
-        {
-            return Err(format!("{other} and {name} would both be called {}", identifier(name)));
+        let called = identifier(name);
+        if let Some((other, _)) = plans[..i].iter().find(|(other, _)| identifier(other) == called) {
+            return Err(format!("{other} and {name} would both be called {called}"));
         }
     }
     Ok(())
@@ -215,7 +194,7 @@ fn rows(items: impl Iterator<Item = String>) -> String {
 
 /// What the delay is, as a module or a header says it.
 fn delay(plan: &Planned) -> &'static str {
-    match plan.lag() {
+    match plan.lag {
         Some(lag) if lag.ticks > 0 => {
             "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks."
         }
@@ -228,10 +207,15 @@ fn delay(plan: &Planned) -> &'static str {
 
 /// From where the ticks of all these count.
 fn origin<'a>(mut plans: impl Iterator<Item = &'a Planned>) -> &'static str {
-    match plans.any(|plan| plan.delay().is_some() && plan.lag().is_some()) {
+    match plans.any(|plan| plan.delay.is_some() && plan.lag.is_some()) {
         true => "counted from the end of the delay",
         false => "counted from the start of opening",
     }
+}
+
+/// Which edge of the sync counts, if the scene tells.
+fn falls(plan: &Planned) -> Option<bool> {
+    plan.delay?.falls
 }
 
 fn has_pulses(plan: &Planned) -> bool {

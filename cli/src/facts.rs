@@ -4,8 +4,7 @@ use shutter_curve::ShutterCurve;
 use shutter_fit::unit::{Unit, count, short, stops};
 
 use crate::delay::{Delay, Lag};
-use crate::lamp::SetUp;
-use crate::lamp::{FullyOpen, Lamp};
+use crate::lamp::{FullyOpen, Lamp, SetUp};
 use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::set_up::doses;
@@ -22,12 +21,6 @@ pub struct Facts {
     pub closing: f64,
     /// TE: from half open to half closed.
     pub half_open: f64,
-    /// TV: the effective exposure, as long as a shutter without ramps would be open for as much light.
-    pub exposure: f64,
-    /// The effective exposure as a part of the time from the start of opening to the end of closing.
-    pub efficiency: f64,
-    /// Frames of up to so many triggers are placed without a search on the microcontroller.
-    pub direct_triggers: u32,
     /// By how many stops the exposure is longer than the nominal one, where that is known; negative if it is shorter.
     pub delta_ev: Option<f64>,
 }
@@ -39,25 +32,15 @@ impl Facts {
         let [open_start, open_end, close_start, close_end] =
             [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
                 .map(f64::from);
-        let exposure = f64::from(curve.exposure());
         Self {
             opening: open_end - open_start,
             open: close_start - open_end,
             closing: close_end - close_start,
-            half_open: half_open(curve),
-            exposure,
-            efficiency: curve.efficiency().into(),
-            direct_triggers: curve.direct_triggers(),
-            delta_ev: plan.nominal.map(|nominal| (exposure / nominal).log2()),
+            half_open: f64::from(half(curve, curve.close_end(), curve.close_start()))
+                - f64::from(half(curve, curve.open_start(), curve.open_end())),
+            delta_ev: plan.nominal.map(|nominal| (f64::from(curve.exposure()) / nominal).log2()),
         }
     }
-}
-
-/// From the first to the last time at which the shutter is half open.
-fn half_open(curve: &ShutterCurve) -> f64 {
-    let first = half(curve, curve.open_start(), curve.open_end());
-    let last = half(curve, curve.close_end(), curve.close_start());
-    f64::from(last) - f64::from(first)
 }
 
 /// The first time on the way from `dark` to `open` at which the shutter is half open.
@@ -92,63 +75,48 @@ pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
 }
 
 fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
-    let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit());
-    let of = |seconds: f64| short(unit.of(seconds), 5);
+    let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit);
+    let [from, open, close, to] =
+        [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
+            .map(|time| short(unit.of(time), 5));
+    let [t1, t2, t3] = [facts.opening, facts.open, facts.closing].map(|time| unit.show(time));
     let mut lines = vec![
         ("scene", name.to_string()),
         (
             "shutter",
-            format!(
-                "opens from {} to {}, closes from {} to {} {}",
-                of(curve.open_start().into()),
-                of(curve.open_end().into()),
-                of(curve.close_start().into()),
-                of(curve.close_end().into()),
-                unit.name()
-            ),
+            format!("opens from {from} to {open}, closes from {close} to {to} {}", unit.name()),
         ),
-        (
-            "times",
-            format!(
-                "T1 {} opening, T2 {} fully open, T3 {} closing",
-                unit.show(facts.opening),
-                unit.show(facts.open),
-                unit.show(facts.closing),
-            ),
-        ),
+        ("times", format!("T1 {t1} opening, T2 {t2} fully open, T3 {t3} closing")),
         ("half open", format!("TE {}, between the half openings", unit.show(facts.half_open))),
-        ("exposure", format!("TV {}, fully open for as much light", unit.show(facts.exposure))),
-        ("efficiency", format!("{} %", short(100.0 * facts.efficiency, 4))),
+        ("exposure", format!("TV {}, fully open for as much light", unit.show(curve.exposure()))),
+        ("efficiency", format!("{} %", short(100.0 * f64::from(curve.efficiency()), 4))),
     ];
     lines.extend(plan.fitted.iter().cloned());
     if let (Some(nominal), Some(delta)) = (plan.nominal, facts.delta_ev) {
         lines.push(("nominal", format!("{}, ΔEV {}", unit.show(nominal), stops(delta))));
     }
-    lines.push(("timer", plan.timer.told(from_edge(plan.delay, plan.length()))));
+    lines.push(("timer", plan.timer.told(plan.edge_to_end())));
     lines.push(("delay", delay(plan.delay, unit)));
     lines.extend(lag(plan.lag, unit));
     lines.push(("gap", gap(plan)));
     lines.extend(pulses(plan).map(|pulses| ("pulses", pulses)));
     lines.push(("set-up", set_up(plan)));
-    let keep = if plan.most == 1 {
-        "1 keeps the gap".into()
-    } else {
-        format!("up to {} keep the gap", plan.most)
+    let keep = match plan.most {
+        1 => "1 keeps the gap".into(),
+        most => format!("up to {most} keep the gap"),
     };
     lines.push(("triggers", format!("{}; {keep}", plan.triggers.len())));
-    lines.push((
-        "direct",
-        match facts.direct_triggers {
-            0 => "every frame needs a search".into(),
-            n => format!("frames of up to {} never need a search", count(n, "trigger")),
-        },
-    ));
+    let direct = match curve.direct_triggers() {
+        0 => "every frame needs a search".into(),
+        n => format!("frames of up to {} never need a search", count(n, "trigger")),
+    };
+    lines.push(("direct", direct));
     lines
 }
 
 /// Without a curve there is less to say.
 fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
-    let (unit, triggers) = (times.unit(), &times.triggers);
+    let (unit, triggers) = (times.unit, &times.triggers);
     let mut lines = vec![
         ("scene", name.to_string()),
         ("shutter", "no curve: trigger times as measured".into()),
@@ -156,10 +124,9 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
     ];
     lines.extend(times.fitted.iter().cloned());
     lines.extend(times.nominal.map(|nominal| ("nominal", unit.show(nominal))));
-    let gap = triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks).min();
-    let gap = gap.map(|ticks| f64::from(ticks) / f64::from(times.timer.hz));
+    let gap = times.gaps().min().map(|ticks| times.seconds(ticks));
     lines.extend([
-        ("timer", times.timer.told(from_edge(times.delay, times.length()))),
+        ("timer", times.timer.told(times.edge_to_end())),
         ("delay", delay(times.delay, unit)),
         ("gap", format!("at least {}{}", unit.show(times.min_gap), closest(gap, unit))),
         ("set-up", if times.set_up.is_some() { FLASHES } else { "not said" }.into()),
@@ -171,7 +138,7 @@ fn of_times(name: &str, times: &Times) -> Vec<(&'static str, String)> {
 
 /// What the gap is to be, and what it is.
 fn gap(plan: &Plan) -> String {
-    let unit = plan.unit();
+    let unit = plan.unit;
     let mut gap = format!("at least {}", unit.show(plan.min_gap));
     if plan.lamp.has_pulses() {
         gap += " of darkness between pulses";
@@ -204,20 +171,14 @@ fn share(plan: &Planned) -> Option<f64> {
             };
             Some(all / plan.triggers.len() as f64)
         }
-        Planned::Times(times) => {
-            let gaps = times.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks);
-            gaps.min().map(|ticks| f64::from(ticks) / f64::from(times.timer.hz))
-        }
+        Planned::Times(times) => times.gaps().min().map(|ticks| times.seconds(ticks)),
     }
 }
 
 /// What the delay's spread between shots does to a frame, if the scene tells it.
 pub fn spread(plan: &Planned) -> Option<String> {
-    let (spread, share, unit) = (plan.delay()?.spread?, share(plan)?, plan.unit());
-    let gap = match plan {
-        Planned::Curve(plan) => plan.min_gap,
-        Planned::Times(times) => times.min_gap,
-    };
+    let (spread, share, unit) = (plan.delay?.spread?, share(plan)?, plan.unit);
+    let gap = plan.min_gap;
     let percent = |of: f64| format!("{} %", short(100.0 * spread / of, 2));
     let gap = if gap > 0.0 { format!(" and {} of the gap", percent(gap)) } else { String::new() };
     let most = MATTERS * share * plan.rows().len() as f64 / spread;
@@ -236,21 +197,12 @@ pub fn spread(plan: &Planned) -> Option<String> {
 
 /// In how many frames a delay that moves by a tick a second moves by 1 % of a share, if there is a delay and a share.
 pub fn drift(plan: &Planned) -> Option<f64> {
-    let length = match plan {
-        Planned::Curve(plan) => plan.length(),
-        Planned::Times(times) => times.length(),
-    };
-    if !plan.timer().is_given {
+    if !plan.timer.is_given || plan.delay.is_none() {
         return None;
     }
     // A tick a second is so many ticks after as many seconds, in frames one right after the other.
-    let ticks = share(plan)? * f64::from(plan.timer().hz);
-    Some(MATTERS * ticks / from_edge(Some(plan.delay()?), length))
-}
-
-/// From the edge to the end of a frame that lasts so many seconds.
-pub(crate) fn from_edge(delay: Option<Delay>, seconds: f64) -> f64 {
-    delay.map_or(0.0, |delay| delay.seconds) + seconds
+    let ticks = share(plan)? * f64::from(plan.timer.hz);
+    Some(MATTERS * ticks / plan.edge_to_end())
 }
 
 /// From where the ticks count.
@@ -275,7 +227,7 @@ fn lag(lag: Option<Lag>, unit: Unit) -> Option<(&'static str, String)> {
 
 /// How long the lamp's pulses are, if it has any.
 fn pulses(plan: &Plan) -> Option<String> {
-    let unit = plan.unit();
+    let unit = plan.unit;
     match plan.lamp {
         Lamp::Triggered | Lamp::FullyOpen => None,
         Lamp::Equal { ticks } => {
@@ -338,8 +290,8 @@ pub fn unequal(plan: &Plan) -> Option<String> {
 /// By how much the timer's ticks move a flash without a dose of its own, in percent of a share, if it is more than one.
 pub fn coarse(plan: &Planned) -> Option<f64> {
     let has_doses = plan.plan().is_some_and(|plan| matches!(plan.lamp, Lamp::Doses { .. }));
-    let percent = 50.0 / (share(plan)? * f64::from(plan.timer().hz));
-    let is_told = plan.timer().is_given && !has_doses && percent > 100.0 * MATTERS;
+    let percent = 50.0 / (share(plan)? * f64::from(plan.timer.hz));
+    let is_told = plan.timer.is_given && !has_doses && percent > 100.0 * MATTERS;
     is_told.then_some(percent)
 }
 

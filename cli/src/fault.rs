@@ -9,7 +9,6 @@ use thiserror::Error;
 use toml::Spanned;
 
 use crate::plan::MOST_TRIGGERS;
-use crate::scene::KEYS;
 use crate::timer::Timer;
 
 /// What is wrong with a scene, and at which byte of its text, where that is known.
@@ -37,11 +36,6 @@ impl Fault {
     /// What is wrong, in words.
     pub fn reason(&self) -> String {
         self.what.to_string()
-    }
-
-    /// The key that it is about, in a scene of numbers.
-    pub fn key(&self) -> Option<&'static str> {
-        KEYS.get(self.at?).copied()
     }
 
     /// The number of its line, from 1, and the line.

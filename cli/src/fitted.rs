@@ -6,8 +6,8 @@ use shutter_fit::unit::{Unit, decimals, short, trimmed};
 use shutter_fit::{Curve, Fit, From, Kind, Reason, delay};
 
 use crate::fault::{Fault, What};
-use crate::plan::Plan;
 use crate::planned::Planned;
+use crate::scene::KEYS;
 
 /// Where a scene's time 0 is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,17 +45,10 @@ pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Sc
     if fit.from == From::Model || fit.reason == Reason::Asked {
         return curve_scene(fit, name, zero, unit);
     }
-    let text = write_times(fit, name, zero, unit.unwrap_or(fit.unit()));
-    match Planned::parse(&text) {
-        Ok(_) => Ok(Scene { text, zero }),
-        Err(fault) => Err(no_scene(&fault)),
-    }
+    planned(write_times(fit, name, zero, unit.unwrap_or(fit.unit())), zero)
 }
 
 /// The scene of the chosen model's curve, whether it explains the trace or not.
-///
-/// # Errors
-/// Where no scene can be made of it that can be planned.
 pub fn curve_scene(
     fit: &Fit,
     name: &str,
@@ -66,12 +59,13 @@ pub fn curve_scene(
     let curve = fit.best().signal.curve;
     let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
     let zero = if rounding > ROUNDING * curve.length() { Zero::Open } else { zero };
-    let curve = match zero {
-        Zero::Trace => curve,
-        Zero::Open => curve.mapped(1.0, -curve.start),
-    };
-    let text = write_curve(fit, name, &resolved(&curve), unit);
-    match Plan::parse(&text) {
+    let curve = if zero == Zero::Open { curve.mapped(1.0, -curve.start) } else { curve };
+    planned(write_curve(fit, name, &resolved(&curve), unit), zero)
+}
+
+/// The scene, if it can be planned.
+fn planned(text: String, zero: Zero) -> Result<Scene, Refusal> {
+    match Planned::parse(&text) {
         Ok(_) => Ok(Scene { text, zero }),
         Err(fault) => Err(no_scene(&fault)),
     }
@@ -90,11 +84,9 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
         text += "# This curve does not explain the trace, and its triggers are not the trace's own, which `shutter \
                  fit` without --model writes.\n";
     }
-    text += &comments(fit);
-    text += &format!("unit = \"{}\"\n", unit.name());
+    text += &comments(fit, unit);
     let places = decimals(unit.of(curve.length()), DIGITS);
-    let keys = ["open_start", "open_end", "close_start", "close_end"];
-    for (key, time) in keys.into_iter().zip(curve.times()) {
+    for (key, time) in KEYS.into_iter().zip(curve.times()) {
         text += &format!("{key} = {}\n", trimmed(unit.of(time), places));
     }
     if fit.chosen > Kind::Trapezoid {
@@ -111,10 +103,7 @@ fn write_curve(fit: &Fit, name: &str, curve: &Curve, unit: Unit) -> String {
 fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
     let curve = &fit.best().signal.curve;
     let places = decimals(unit.of(curve.length()), DIGITS);
-    let zero = match zero {
-        Zero::Trace => 0.0,
-        Zero::Open => fit.opens,
-    };
+    let zero = if zero == Zero::Open { fit.opens } else { 0.0 };
     let time = |seconds: f64| trimmed(unit.of(seconds - zero), places);
     let model = fit.chosen.name();
     let mut text = format!(
@@ -122,12 +111,10 @@ fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
          # `--model {model}` writes the curve that comes nearest.\n",
         shown(name),
     );
-    text += &comments(fit);
-    text += &format!("unit = \"{}\"\nopen_start = {}\n", unit.name(), time(fit.opens));
-    text += "trigger_times = [\n";
-    let times: Vec<f64> = fit.triggers.iter().map(|trigger| trigger.value).collect();
-    for few in times.chunks(8) {
-        let few: Vec<String> = few.iter().map(|seconds| time(*seconds)).collect();
+    text += &comments(fit, unit);
+    text += &format!("open_start = {}\ntrigger_times = [\n", time(fit.opens));
+    for few in fit.triggers.chunks(8) {
+        let few: Vec<String> = few.iter().map(|trigger| time(trigger.value)).collect();
         text += &format!("    {},\n", few.join(", "));
     }
     text += "]\n";
@@ -135,8 +122,8 @@ fn write_times(fit: &Fit, name: &str, zero: Zero, unit: Unit) -> String {
     text + &asked(fit, unit, false)
 }
 
-/// What was read, and what came of it.
-fn comments(fit: &Fit) -> String {
+/// What was read, and what came of it; below that, the unit.
+fn comments(fit: &Fit, unit: Unit) -> String {
     let mut text = String::new();
     if let Some(reading) = &fit.reading {
         text += &format!("# Read: {}.\n", shown(&reading.to_string()));
@@ -152,7 +139,7 @@ fn comments(fit: &Fit) -> String {
     for warning in &fit.warnings {
         text += &format!("# Warning: {warning}.\n");
     }
-    text
+    text + &format!("unit = \"{}\"\n", unit.name())
 }
 
 /// On one line.

@@ -105,13 +105,14 @@ impl Lamp {
     ) -> Result<Vec<Flash>, ScheduleError> {
         let ticks = curve.trigger_ticks(n, timer_hz)?;
         let flash = |tick: u32, on: i64, off: i64| Flash { tick, on, off };
+        let at = |tick: u32| flash(tick, tick.into(), tick.into());
         Ok(match self {
-            Self::Triggered => ticks.map(|tick| flash(tick, tick.into(), tick.into())).collect(),
+            Self::Triggered => ticks.map(at).collect(),
             Self::FullyOpen => {
                 let plateau = FullyOpen::new(curve);
                 let time = |i| plateau.after_start((f64::from(i) + 0.5) / f64::from(n));
                 let tick = |i| (time(i) * f64::from(timer_hz)).round() as u32;
-                (0..n).map(tick).map(|tick| flash(tick, tick.into(), tick.into())).collect()
+                (0..n).map(tick).map(at).collect()
             }
             Self::Equal { ticks: length } => ticks
                 .map(|tick| {

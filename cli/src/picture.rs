@@ -10,14 +10,14 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
-use shutter_fit::unit::{Unit, count, short};
+use shutter_fit::unit::{count, short};
 
 use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
 use drawing::{
-    Drawn, MOST_MARKS, POINTS, SCALE, below, centred, dot, draw_curve, graph, is_near, lit, pen,
-    picture, sync, time_range,
+    Drawn, MOST_MARKS, POINTS, SCALE, below, dot, draw_curve, graph, is_near, lit, pen, picture,
+    sync, time_range,
 };
 pub use set_ups::set_ups;
 use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
@@ -31,9 +31,6 @@ const OPENNESS: i32 = 330;
 const TICK: f64 = 0.04;
 
 /// The plan of the scene `name`, as an SVG.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
     let plan = match planned {
         Planned::Curve(plan) => plan,
@@ -50,7 +47,7 @@ pub fn svg(name: &str, planned: &Planned) -> Result<String, Box<dyn Error>> {
 }
 
 fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
-    let unit = plan.unit();
+    let unit = plan.unit;
     let facts = format!(
         "exposure {}, efficiency {} %, {}",
         unit.show(plan.curve.exposure()),
@@ -63,9 +60,7 @@ fn write_heading(area: &Area, name: &str, plan: &Plan) -> Drawn {
             n => format!("{n} triggers, each in the middle of an equal share of the exposure"),
         },
     );
-    let middle = SIZE.0 * SCALE / 2;
-    area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
-    area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+    drawing::write_heading(area, SIZE.0, name, &facts)?;
     legend(area, plan)
 }
 
@@ -113,7 +108,7 @@ enum Key {
 }
 
 fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let at = |t: f32| (unit.of(t), f64::from(curve.openness(t)));
     let ramps = plan.shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
     let heights = ramps.iter().flatten().flatten().map(|(_, y)| f64::from(*y));
@@ -121,7 +116,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
         heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
     let room = 0.05 * (high - low);
     let range = if low < 0.0 { low - room } else { 0.0 }..high + room;
-    let mut graph = graph(area, plan, unit, "openness", None, range)?;
+    let mut graph = graph(area, plan, "openness", None, range)?;
     let n = plan.triggers.len();
     let edge = |i: usize| match plan.lamp {
         Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
@@ -138,10 +133,10 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
             Polygon::new(vec![(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], lit())
         }
     }))?;
-    draw_curve(&mut graph, plan, unit, |t| curve.openness(t))?;
-    draw_sync(&mut graph, plan, unit)?;
+    draw_curve(&mut graph, plan, |t| curve.openness(t))?;
+    draw_sync(&mut graph, plan)?;
     let marks = plan.triggers.iter().map(|trigger| at(trigger.time));
-    draw_marks(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
+    draw_triggers(&mut graph, marks, |(t, f)| vec![(t, 0.0), (t, f)])?;
     for ramp in ramps.iter().flatten() {
         let points = ramp.map(|(t, y)| (unit.of(t), f64::from(y)));
         for [end, inner] in [[points[0], points[1]], [points[3], points[2]]] {
@@ -153,17 +148,18 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
 }
 
 /// The edge of the camera's sync, and the delay from there to the start of opening.
-fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
-    let (Some(edge), Some(delay)) = (sync(plan, unit), plan.delay) else { return Ok(()) };
+fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
+    let unit = plan.unit;
+    let (Some(edge), Some(delay)) = (sync(plan), plan.delay) else { return Ok(()) };
     let start = unit.of(plan.curve.open_start());
     let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);
-    let is_near = is_near(plan, unit, edge);
-    let from = if is_near { edge } else { time_range(plan, unit).start };
+    let is_near = is_near(plan, edge);
+    let from = if is_near { edge } else { time_range(plan).start };
     if is_near {
         graph.draw_series([PathElement::new([(edge, 0.0), (edge, 1.0)], pen(INK, 2.0))])?;
     }
     // An arrow whose tip is the start of opening.
-    let (y, tip) = (0.62, 0.012 * unit.of(plan.length()));
+    let (y, tip) = (0.62, 0.012 * unit.of(plan.length));
     let head = [(start - tip, y + 0.025), (start, y), (start - tip, y - 0.025)];
     graph.draw_series([PathElement::new([(from, y), (start, y)], pen(INK, 1.2))])?;
     graph.draw_series([PathElement::new(head, pen(INK, 1.2))])?;
@@ -178,15 +174,15 @@ fn draw_sync(graph: &mut Graph, plan: &Plan, unit: Unit) -> Drawn {
 }
 
 fn draw_cdf(area: &Area, plan: &Plan) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let time = format!("time ({})", unit.name());
     let y = "fraction of the exposure";
-    let mut graph = graph(area, plan, unit, y, Some(&time), 0.0..1.05)?;
-    let left = time_range(plan, unit).start;
-    draw_curve(&mut graph, plan, unit, |t| curve.cdf(t))?;
+    let mut graph = graph(area, plan, y, Some(&time), 0.0..1.05)?;
+    let left = time_range(plan).start;
+    draw_curve(&mut graph, plan, |t| curve.cdf(t))?;
     let marks = plan.triggers.iter().map(|mark| (unit.of(mark.time), f64::from(mark.u)));
     // How a time is found: from the fraction to the curve, and down.
-    draw_marks(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
+    draw_triggers(&mut graph, marks, |(t, u)| vec![(left, u), (t, u), (t, 0.0)])
 }
 
 /// When the lamp is on, in seconds.
@@ -197,7 +193,7 @@ fn pulses(plan: &Plan) -> impl Iterator<Item = (f32, f32)> {
 }
 
 /// A line to each mark and a dot on it; ticks at the bottom where there are too many.
-fn draw_marks(
+fn draw_triggers(
     graph: &mut Graph,
     marks: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
     line: impl Fn((f64, f64)) -> Vec<(f64, f64)>,
@@ -207,10 +203,7 @@ fn draw_marks(
         graph.draw_series(marks.map(tick))?;
         return Ok(());
     }
-    graph
-        .draw_series(marks.clone().map(|mark| PathElement::new(line(mark), pen(VERMILION, 1.2))))?;
-    graph.draw_series(marks.map(dot))?;
-    Ok(())
+    drawing::draw_marks(graph, marks, line)
 }
 
 /// A control point.

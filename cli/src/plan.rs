@@ -1,14 +1,16 @@
 //! A scene's triggers, checked.
 
+use std::ops::Deref;
+
 use shutter_curve::{ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
 use crate::delay::{Delay, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
-use crate::lamp::SetUp;
-use crate::lamp::{Flash, FullyOpen, Lamp};
-use crate::scene::{Scene, min_gap, positive, whole};
+use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
+use crate::planned::Common;
+use crate::scene::{Scene, not_negative, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
 
@@ -32,54 +34,33 @@ pub struct Plan {
     pub shape: Shape,
     /// The shutter.
     pub curve: ShutterCurve,
-    /// What counts the ticks.
-    pub timer: Timer,
-    /// From the edge of the camera's sync to the start of opening, if the scene tells.
-    pub delay: Option<Delay>,
-    /// Of the lamp, if the scene tells.
-    pub lag: Option<Lag>,
-    /// How the flashes meet the shutter, if the scene tells.
-    pub set_up: Option<SetUp>,
-    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
-    /// asks.
-    pub min_gap: f64,
     /// What the lamp does.
     pub lamp: Lamp,
-    /// The exposure that the shutter's maker names, in seconds.
-    pub nominal: Option<f64>,
     /// So many triggers keep what the scene asks for, and one more does not.
     pub most: u32,
     /// In order.
     pub triggers: Vec<Trigger>,
-    /// What the scene's text keeps of the fit that it comes from, and what is doubtful about the curve's times.
-    pub fitted: Vec<(&'static str, String)>,
-    unit: Option<Unit>,
+    common: Common,
+}
+
+impl Deref for Plan {
+    type Target = Common;
+
+    fn deref(&self) -> &Common {
+        &self.common
+    }
 }
 
 impl Plan {
     /// The plan of the scene that `text` describes.
-    ///
-    /// ```
-    /// let plan = shutter::plan::Plan::parse(
-    ///     "unit = 'ms'\nopen_start = 0\nopen_end = 2\nclose_start = 6\nclose_end = 8\n\
-    ///      triggers = 3\ntimer_hz = 1000\nmin_gap = 1\n",
-    /// ).expect("a good scene");
-    /// assert!(plan.triggers.iter().map(|trigger| trigger.ticks).eq([2, 4, 6]));
-    /// ```
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let scene = crate::scene::parse(text)?;
-        let plan = Self::new(&scene).map_err(|fault| scene.noted(fault))?;
-        let fitted = [crate::scene::fitted(text), plan.fitted].concat();
-        Ok(Self { fitted, ..plan })
+        let mut plan = Self::new(&scene).map_err(|fault| scene.noted(fault))?;
+        plan.common.fitted.splice(..0, crate::scene::fitted(text));
+        Ok(plan)
     }
 
     /// The plan of a scene.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene.
     pub fn new(scene: &Scene) -> Result<Self, Fault> {
         let n = whole("triggers", &scene.triggers, MOST_TRIGGERS)?;
         let (shape, curve) = scene.curve()?;
@@ -98,8 +79,10 @@ impl Plan {
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
             lag: scene.lamp_lag.as_ref(),
+            unit: scene.unit(),
+            timer_hz,
         };
-        let (delay, lag) = Delay::new(&sync, scene.unit(), timer_hz, end)?;
+        let (delay, lag) = Delay::new(&sync, end)?;
         timer.holds(
             delay.map_or(0.0, |delay| delay.ticks.into()) + end,
             scene.timer_bits.as_ref(),
@@ -110,7 +93,7 @@ impl Plan {
             Err(problem) => return Err(problem.told(scene, &frames, &asked, n)),
         };
         let first = frame.first().map_or(0, |first| first.on as u32);
-        Lag::checked(lag, first, &sync, scene.unit(), timer_hz)?;
+        Lag::checked(lag, first, &sync)?;
         let trigger = |(i, flash): (u32, &Flash)| {
             let u = (i as f32 + 0.5) / n as f32;
             let (u, time) = match asked.lamp {
@@ -133,36 +116,18 @@ impl Plan {
         });
         let triggers = (0..).zip(&frame).map(trigger).collect();
         let most = frames.most(&asked, n, MOST_TRIGGERS + 1);
-        Ok(Self {
-            shape,
-            curve,
+        let common = Common {
             timer,
             delay,
             lag,
             set_up: scene.set_up.as_ref().map(|it| *it.get_ref()),
             min_gap: asked.min_gap,
-            lamp: asked.lamp,
             nominal: asked.nominal,
-            most,
-            triggers,
             fitted: moved.map(|told| ("doubt", told)).into_iter().collect(),
-            unit: scene.unit,
-        })
-    }
-
-    /// From opening to closed, in seconds.
-    pub fn length(&self) -> f64 {
-        f64::from(self.curve.close_end()) - f64::from(self.curve.open_start())
-    }
-
-    /// The scene's unit, or the one that suits its times.
-    pub fn unit(&self) -> Unit {
-        self.unit.unwrap_or_else(|| Unit::fit(self.length()))
-    }
-
-    /// How long so many ticks last.
-    pub fn seconds(&self, ticks: u32) -> f64 {
-        f64::from(ticks) / f64::from(self.timer.hz)
+            unit: scene.unit.unwrap_or_else(|| Unit::fit(length)),
+            length,
+        };
+        Ok(Self { shape, curve, lamp: asked.lamp, most, triggers, common })
     }
 
     /// From each trigger to the next, in ticks.
@@ -185,7 +150,7 @@ struct Asked {
 impl Asked {
     fn new(scene: &Scene, curve: &ShutterCurve, timer_hz: u32) -> Result<Self, Fault> {
         let unit = scene.unit();
-        let min_gap = min_gap(unit, &scene.min_gap)?;
+        let min_gap = not_negative(unit, "min_gap", &scene.min_gap)?;
         let nominal = positive(unit, "nominal", scene.nominal.as_ref())?;
         let pulse = positive(unit, "pulse", scene.pulse.as_ref())?;
         let min_pulse = positive(unit, "min_pulse", scene.min_pulse.as_ref())?;
@@ -206,9 +171,7 @@ impl Asked {
         }
         let lamp = match (&scene.pulse, &scene.duty) {
             _ if fully_open.is_some() => Lamp::FullyOpen,
-            (Some(_), Some(duty)) => {
-                return Err(Fault::at(duty, What::DutyAndPulse));
-            }
+            (Some(_), Some(duty)) => return Err(Fault::at(duty, What::DutyAndPulse)),
             (Some(place), None) => {
                 let ticks = (pulse.unwrap_or_default() * f64::from(timer_hz)).round();
                 if ticks == 0.0 {

@@ -1,5 +1,7 @@
 //! What a scene becomes: a plan by a curve, or trigger times as they were measured. What both have is asked for here.
 
+use std::ops::Deref;
+
 use serde::Serialize;
 use shutter_fit::unit::Unit;
 
@@ -11,6 +13,47 @@ use crate::scene::trigger_times_at;
 use crate::set_up::doses;
 use crate::timer::Timer;
 use crate::times::{Given, Times};
+
+/// What a plan by a curve and one by trigger times both have.
+#[derive(Clone, Debug)]
+pub struct Common {
+    /// What counts the ticks.
+    pub timer: Timer,
+    /// From the edge of the camera's sync to the start of opening, if the scene tells.
+    pub delay: Option<Delay>,
+    /// Of the lamp, if the scene tells.
+    pub lag: Option<Lag>,
+    /// How the flashes meet the shutter, if the scene tells.
+    pub set_up: Option<SetUp>,
+    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
+    /// asks.
+    pub min_gap: f64,
+    /// The exposure that the shutter's maker names, in seconds.
+    pub nominal: Option<f64>,
+    /// What the scene's text keeps of the fit that it comes from, and what is doubtful about the curve's times.
+    pub fitted: Vec<(&'static str, String)>,
+    /// The scene's unit, or the one that suits its times.
+    pub unit: Unit,
+    /// From opening to closed in seconds; without a curve, to the last trigger, and a tick at least.
+    pub length: f64,
+}
+
+impl Common {
+    /// What is doubtful about the fit that the scene comes from.
+    pub fn doubts(&self) -> impl Iterator<Item = &str> {
+        self.fitted.iter().filter(|(what, _)| *what == "doubt").map(|(_, told)| told.as_str())
+    }
+
+    /// From the edge of the sync, or the start of opening where there is no delay, to the end of a frame, in seconds.
+    pub(crate) fn edge_to_end(&self) -> f64 {
+        self.delay.map_or(0.0, |delay| delay.seconds) + self.length
+    }
+
+    /// How long so many ticks last.
+    pub fn seconds(&self, ticks: u32) -> f64 {
+        f64::from(ticks) / f64::from(self.timer.hz)
+    }
+}
 
 /// A scene that can be played.
 #[derive(Clone)]
@@ -33,6 +76,17 @@ impl From<Times> for Planned {
     }
 }
 
+impl Deref for Planned {
+    type Target = Common;
+
+    fn deref(&self) -> &Common {
+        match self {
+            Self::Curve(plan) => plan,
+            Self::Times(times) => times,
+        }
+    }
+}
+
 /// A trigger of either, under the keys that it has in all forms.
 #[derive(Serialize)]
 pub(crate) struct Row {
@@ -52,9 +106,6 @@ pub(crate) struct Row {
 
 impl Planned {
     /// What the scene that `text` describes becomes.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         match trigger_times_at(text) {
             Some(_) => Times::parse(text).map(Self::from),
@@ -70,76 +121,11 @@ impl Planned {
         }
     }
 
-    /// What counts the ticks.
-    pub fn timer(&self) -> Timer {
-        match self {
-            Self::Curve(plan) => plan.timer,
-            Self::Times(times) => times.timer,
-        }
-    }
-
-    /// From the edge of the camera's sync to the start of opening, if the scene tells.
-    pub fn delay(&self) -> Option<Delay> {
-        match self {
-            Self::Curve(plan) => plan.delay,
-            Self::Times(times) => times.delay,
-        }
-    }
-
-    /// Of the lamp, if the scene tells.
-    pub fn lag(&self) -> Option<Lag> {
-        match self {
-            Self::Curve(plan) => plan.lag,
-            Self::Times(times) => times.lag,
-        }
-    }
-
-    /// How the flashes meet the shutter, if the scene tells.
-    pub fn set_up(&self) -> Option<SetUp> {
-        match self {
-            Self::Curve(plan) => plan.set_up,
-            Self::Times(times) => times.set_up,
-        }
-    }
-
-    /// What is doubtful about the fit that the scene comes from.
-    pub fn doubts(&self) -> impl Iterator<Item = &str> {
-        let fitted = match self {
-            Self::Curve(plan) => &plan.fitted,
-            Self::Times(times) => &times.fitted,
-        };
-        fitted.iter().filter(|(what, _)| *what == "doubt").map(|(_, told)| told.as_str())
-    }
-
-    /// The exposure that the shutter's maker names, in seconds.
-    pub fn nominal(&self) -> Option<f64> {
-        match self {
-            Self::Curve(plan) => plan.nominal,
-            Self::Times(times) => times.nominal,
-        }
-    }
-
-    /// The scene's unit, or the one that suits its times.
-    pub fn unit(&self) -> Unit {
-        match self {
-            Self::Curve(plan) => plan.unit(),
-            Self::Times(times) => times.unit(),
-        }
-    }
-
-    /// In seconds, up to what is to be seen of it.
-    pub(crate) fn length(&self) -> f64 {
-        match self {
-            Self::Curve(plan) => plan.length(),
-            Self::Times(times) => times.length(),
-        }
-    }
-
     /// The triggers, in order.
     pub(crate) fn rows(&self) -> Vec<Row> {
-        let (delay, mut last) = (self.delay(), None);
+        let (delay, mut last) = (self.delay, None);
         // Checked when the lag was read: the first trigger comes no earlier.
-        let early = self.lag().map_or(0, |lag| lag.ticks);
+        let early = self.lag.map_or(0, |lag| lag.ticks);
         let doses = self.plan().and_then(|plan| Some(doses(plan.set_up?, plan)));
         let mut row = |index, u, time_s, ticks: u32, pulse: Option<(u32, u32)>| Row {
             index,

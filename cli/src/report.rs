@@ -5,12 +5,11 @@ use std::iter::once;
 
 use console::Term;
 use shutter_fit::report::hidden_rows;
-use shutter_fit::unit::{Unit, decimals, short};
+use shutter_fit::unit::{decimals, short};
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 use crate::facts;
-use crate::lamp::Lamp;
-use crate::lamp::SetUp;
+use crate::lamp::{Lamp, SetUp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::{Planned, Row};
 use crate::times::Times;
@@ -29,60 +28,52 @@ pub fn width() -> u16 {
 
 /// The plan of the scene `name`, for a terminal of so many columns.
 pub fn text(name: &str, plan: &Planned, columns: u16) -> String {
-    let mut text = String::new();
+    let mut lines = facts::lines(name, plan);
+    lines.extend(facts::spread(plan).map(|spread| ("spread", spread)));
+    lines.extend(facts::drift(plan).map(|frames| {
+        let frames = short(frames, 2);
+        ("drift", format!("a tick a second moves the delay by 1 % of a share in {frames} frames"))
+    }));
+    let facts: String = lines.iter().map(|(name, fact)| format!("{name:11}  {fact}\n")).collect();
     // The labels beside a drawing take 8.
-    let cells = columns.max(32) - 8;
-    write_text(&mut text, name, plan, cells.into()).expect("a string takes all");
+    let cells = usize::from(columns.max(32) - 8);
+    let drawn = match plan {
+        Planned::Curve(plan) => drawings(plan, cells),
+        Planned::Times(times) => line_of_time(times, cells),
+    };
+    let mut text = format!("{facts}\n{drawn}\n");
+    table(&mut text, plan).expect("a string takes all");
     text
 }
 
-fn write_text(out: &mut String, name: &str, planned: &Planned, cells: usize) -> fmt::Result {
-    for (name, fact) in facts::lines(name, planned) {
-        writeln!(out, "{name:11}  {fact}")?;
-    }
-    let drift = facts::drift(planned).map(|frames| {
-        let frames = short(frames, 2);
-        format!("a tick a second moves the delay by 1 % of a share in {frames} frames")
-    });
-    for (name, fact) in [("spread", facts::spread(planned)), ("drift", drift)] {
-        if let Some(fact) = fact {
-            writeln!(out, "{name:11}  {fact}")?;
-        }
-    }
-    match planned {
-        Planned::Curve(plan) => write_curve(out, plan, cells)?,
-        Planned::Times(times) => write_times(out, times, cells)?,
-    }
-    writeln!(out)?;
-    table(out, planned)
-}
-
-fn write_curve(out: &mut String, plan: &Plan, cells: usize) -> fmt::Result {
-    let (unit, curve) = (plan.unit(), &plan.curve);
-    writeln!(out, "\nopenness over time ({}), a line at each trigger", unit.name())?;
-    out.push_str(&drawing(plan, unit, cells, |t| curve.openness(t)));
-    writeln!(out, "\nfraction of the exposure collected over time ({})", unit.name())?;
-    out.push_str(&drawing(plan, unit, cells, |t| curve.cdf(t)));
-    Ok(())
+fn drawings(plan: &Plan, cells: usize) -> String {
+    let (unit, curve) = (plan.unit.name(), &plan.curve);
+    let openness = drawing(plan, cells, |t| curve.openness(t));
+    let cdf = drawing(plan, cells, |t| curve.cdf(t));
+    format!(
+        "openness over time ({unit}), a line at each trigger\n{openness}\n\
+         fraction of the exposure collected over time ({unit})\n{cdf}"
+    )
 }
 
 /// The triggers on a line of time.
-fn write_times(out: &mut String, times: &Times, cells: usize) -> fmt::Result {
-    let unit = times.unit();
+fn line_of_time(times: &Times, cells: usize) -> String {
+    let unit = times.unit;
     let mut line = vec!['─'; cells];
     for trigger in &times.triggers {
-        let part = (trigger.time - times.open_start) / times.length();
+        let part = (trigger.time - times.open_start) / times.length;
         line[(part * (cells - 1) as f64).round() as usize] = '┼';
     }
-    let ends = [times.open_start, times.open_start + times.length()];
+    let ends = [times.open_start, times.open_start + times.length];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
-    writeln!(out, "\ntriggers over time ({})", unit.name())?;
-    writeln!(out, "{}", String::from_iter(line))?;
-    writeln!(out, "{first}{last:>width$}", width = cells.saturating_sub(first.len()))
+    let (name, line, width) =
+        (unit.name(), String::from_iter(line), cells.saturating_sub(first.len()));
+    format!("triggers over time ({name})\n{line}\n{first}{last:>width$}\n")
 }
 
 /// The function `f` of time with a line up to it at each trigger.
-fn drawing(plan: &Plan, unit: Unit, cells: usize, f: impl Fn(f32) -> f32) -> String {
+fn drawing(plan: &Plan, cells: usize, f: impl Fn(f32) -> f32) -> String {
+    let unit = plan.unit;
     // Two dots a character.
     let (dots, curve) = (2 * cells as u32 - 1, &plan.curve);
     let (start, end) = (curve.open_start(), curve.close_end());
@@ -113,10 +104,10 @@ fn drawing(plan: &Plan, unit: Unit, cells: usize, f: impl Fn(f32) -> f32) -> Str
 }
 
 fn table(out: &mut String, planned: &Planned) -> fmt::Result {
-    let (unit, rows, timer) = (planned.unit(), planned.rows(), planned.timer());
+    let (unit, rows, timer) = (planned.unit, planned.rows(), planned.timer);
     // A digit more than tells one tick from the next, as far as f32 has them.
     let tick = unit.of(1.0 / f64::from(timer.hz));
-    let places = decimals(tick, 2).min(decimals(unit.of(planned.length()), 7));
+    let places = decimals(tick, 2).min(decimals(unit.of(planned.length), 7));
     let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
     let is_dimmed = planned.plan().is_some_and(|plan| {
         plan.set_up == Some(SetUp::InPath)
@@ -127,7 +118,7 @@ fn table(out: &mut String, planned: &Planned) -> fmt::Result {
         true => format!("  {cell:>width$}"),
         false => String::new(),
     };
-    let (by_curve, has_edge) = (planned.plan().is_some(), planned.delay().is_some());
+    let (by_curve, has_edge) = (planned.plan().is_some(), planned.delay.is_some());
     let ticks = |name: &dyn Display, edge: &dyn Display, on: &dyn Display, off: &dyn Display| {
         // By the timer's count at the sync's edge, where that is known.
         column(timer.is_given, name, 10)

@@ -51,6 +51,9 @@ impl Number {
     }
 }
 
+/// The number of a key that may be left out.
+pub(crate) type Optional<'a> = Option<&'a Spanned<Number>>;
+
 /// The keys of a scene without a text, as a page in a browser numbers them and as a fault's place does.
 pub const KEYS: [&str; 19] = [
     "open_start",
@@ -82,7 +85,8 @@ impl Scene {
     pub const NUMBERS: usize = KEYS.len() + 7;
 
     /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
-    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. The place in its faults is the number of a key; [`Fault::key`] tells which.
+    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. A fault's
+    /// place is that of its key.
     pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
         let number = |key: &str| {
             let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
@@ -211,15 +215,14 @@ impl Scene {
     /// # Errors
     /// Numbers that are not finite or that `f32` loses, and other than eight of `shutteropening`.
     pub fn shape(&self) -> Result<Shape, Fault> {
-        let keys = ["open_start", "open_end", "close_start", "close_end"];
         let mut seconds = [0.0; 4];
-        for ((key, value), seconds) in keys.into_iter().zip(self.times()).zip(&mut seconds) {
+        for ((key, value), seconds) in KEYS.into_iter().zip(self.times()).zip(&mut seconds) {
             *seconds = self::seconds(self.unit(), key, value)?;
         }
         let times = seconds.map(|time| time as f32);
         let length = seconds[3] - seconds[0];
         for (i, value) in self.times().into_iter().enumerate() {
-            let (key, off) = (keys[i], (f64::from(times[i]) - seconds[i]).abs());
+            let (key, off) = (KEYS[i], (f64::from(times[i]) - seconds[i]).abs());
             if times[i].is_infinite() {
                 return Err(Fault::at(value, What::Beyond { key }));
             }
@@ -346,21 +349,22 @@ pub(crate) fn seconds(unit: Unit, key: &'static str, time: &Spanned<Number>) -> 
 pub(crate) fn positive(
     unit: Unit,
     key: &'static str,
-    time: Option<&Spanned<Number>>,
+    time: Optional,
 ) -> Result<Option<f64>, Fault> {
     let Some(place) = time else { return Ok(None) };
     let seconds = seconds(unit, key, place)?;
-    if seconds > 0.0 {
-        return Ok(Some(seconds));
-    }
-    Err(Fault::at(place, What::Positive { key }))
+    if seconds > 0.0 { Ok(Some(seconds)) } else { Err(Fault::at(place, What::Positive { key })) }
 }
 
-/// The least gap, in seconds.
-pub(crate) fn min_gap(unit: Unit, time: &Spanned<Number>) -> Result<f64, Fault> {
-    let seconds = seconds(unit, "min_gap", time)?;
+/// A time in seconds that has to be 0 or more.
+pub(crate) fn not_negative(
+    unit: Unit,
+    key: &'static str,
+    time: &Spanned<Number>,
+) -> Result<f64, Fault> {
+    let seconds = seconds(unit, key, time)?;
     if seconds < 0.0 {
-        return Err(Fault::at(time, What::NotNegative { key: "min_gap" }));
+        return Err(Fault::at(time, What::NotNegative { key }));
     }
     Ok(seconds)
 }

@@ -14,9 +14,6 @@ pub struct Shape {
 
 impl Shape {
     /// The shutter.
-    ///
-    /// # Errors
-    /// Whatever the crate refuses.
     pub fn curve(&self) -> Result<ShutterCurve, CurveError> {
         let [open_start, open_end, close_start, close_end] = self.times;
         match self.inner {

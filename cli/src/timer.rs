@@ -1,10 +1,9 @@
 //! A scene's timer.
 
 use shutter_fit::unit::short;
-use toml::Spanned;
 
 use crate::fault::{Fault, What};
-use crate::scene::Number;
+use crate::scene::Optional;
 
 /// A timer that counts up and wraps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,41 +23,29 @@ impl Timer {
     ///
     /// # Errors
     /// A rate that is 0 or no `u32` when it is rounded, and other bits.
-    pub(crate) fn new(
-        hz: Option<&Spanned<Number>>,
-        bits: Option<&Spanned<Number>>,
-        seconds: f64,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn new(hz: Optional, bits: Optional, seconds: f64) -> Result<Self, Fault> {
         let exact_hz = hz.map_or_else(|| fine(seconds), |hz| hz.get_ref().get());
         // From 0.5 on it is 1 when it is rounded.
         if let Some(hz) = hz.filter(|_| !(0.5..=f64::from(u32::MAX)).contains(&exact_hz)) {
             return Err(Fault::at(hz, What::Rate));
         }
-        let is_given = hz.is_some();
-        let timer = |bits| Self { hz: exact_hz.round() as u32, exact_hz, bits, is_given };
-        match bits.map(|bits| (bits, bits.get_ref().get())) {
-            None => Ok(timer(32)),
-            Some((_, bits)) if bits == 16.0 || bits == 32.0 => Ok(timer(bits as u32)),
-            Some((place, _)) => Err(Fault::at(place, What::Bits)),
+        let width = bits.map_or(32.0, |bits| bits.get_ref().get());
+        if let Some(place) = bits.filter(|_| ![16.0, 32.0].contains(&width)) {
+            return Err(Fault::at(place, What::Bits));
         }
-    }
-
-    /// The most ticks of a delay and a frame: beyond them, wrapping ticks no longer tell past from future.
-    pub(crate) fn most(&self) -> f64 {
-        (1u64 << (self.bits - 1)) as f64
+        let (hz, is_given) = (exact_hz.round() as u32, hz.is_some());
+        Ok(Self { hz, exact_hz, bits: width as u32, is_given })
     }
 
     /// Has the count room for a delay and a frame of so many ticks? Of 32 bits that is checked as they are planned.
     ///
     /// # Errors
     /// A prescaler with which it has.
-    pub(crate) fn holds(&self, ticks: f64, bits: Option<&Spanned<Number>>) -> Result<(), Fault> {
-        let (most, Some(place)) = (self.most(), bits.filter(|_| self.is_given)) else {
-            return Ok(());
-        };
-        if ticks <= most {
-            return Ok(());
-        }
+    pub(crate) fn holds(&self, ticks: f64, bits: Optional) -> Result<(), Fault> {
+        // Beyond half of the count, wrapping ticks no longer tell past from future.
+        let most = (1u64 << (self.bits - 1)) as f64;
+        let is_beyond = self.is_given && ticks > most;
+        let Some(place) = bits.filter(|_| is_beyond) else { return Ok(()) };
         let least = (ticks / most).ceil();
         // One that leaves a whole rate, if there is one nearby.
         let whole = |by: &f64| (self.exact_hz / by).fract() == 0.0;

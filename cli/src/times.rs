@@ -1,5 +1,7 @@
 //! Trigger times as they were measured, in place of a curve: a scene's `trigger_times`, checked.
 
+use std::ops::Deref;
+
 use serde::Deserialize;
 use shutter_fit::unit::Unit;
 use toml::Spanned;
@@ -9,6 +11,7 @@ use crate::delay::{Delay, LAST, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
+use crate::planned::Common;
 use crate::scene::{self, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
 
@@ -45,23 +48,17 @@ pub struct Given {
 pub struct Times {
     /// When the shutter starts to open, in seconds: ticks count from there.
     pub open_start: f64,
-    /// What counts the ticks.
-    pub timer: Timer,
-    /// From the edge of the camera's sync to the start of opening, if the scene tells.
-    pub delay: Option<Delay>,
-    /// Of the lamp, if the scene tells.
-    pub lag: Option<Lag>,
-    /// The set-up, if the scene tells; it is not in the light's path.
-    pub set_up: Option<SetUp>,
-    /// Between two triggers, at least so many seconds, as the scene asks.
-    pub min_gap: f64,
-    /// The exposure that the shutter's maker names, in seconds.
-    pub nominal: Option<f64>,
     /// In order.
     pub triggers: Vec<Given>,
-    /// What the scene's text keeps of the fit that it comes from.
-    pub fitted: Vec<(&'static str, String)>,
-    unit: Option<Unit>,
+    common: Common,
+}
+
+impl Deref for Times {
+    type Target = Common;
+
+    fn deref(&self) -> &Common {
+        &self.common
+    }
 }
 
 /// Why a key that goes with a curve has no meaning beside trigger times.
@@ -81,16 +78,6 @@ fn of_a_curve(key: &str) -> Option<&'static str> {
 
 impl Times {
     /// The triggers of the scene that `text` describes.
-    ///
-    /// ```
-    /// let times = shutter::times::Times::parse(
-    ///     "unit = 'ms'\nopen_start = 1\ntrigger_times = [2, 3.5, 6]\ntimer_hz = 1000\nmin_gap = 1\n",
-    /// ).expect("a good scene");
-    /// assert!(times.triggers.iter().map(|trigger| trigger.ticks).eq([1, 3, 5]));
-    /// ```
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene, and where in the text.
     pub fn parse(text: &str) -> Result<Self, Fault> {
         let table = DeTable::parse(text).map(Spanned::into_inner).unwrap_or_default();
         for key in table.keys() {
@@ -98,14 +85,12 @@ impl Times {
                 return Err(Fault::at(key, What::Text(format!("{}: {why}", key.get_ref()))));
             }
         }
-        let times = Self::new(&scene::read(text)?)?;
-        Ok(Self { fitted: scene::fitted(text), ..times })
+        let mut times = Self::new(&scene::read(text)?)?;
+        times.common.fitted = scene::fitted(text);
+        Ok(times)
     }
 
     /// The triggers at these times of a scene of numbers, counted from the start of opening at 0.
-    ///
-    /// # Errors
-    /// Whatever is wrong with the scene.
     pub fn of_numbers(scene: scene::Scene, times: &[f64]) -> Result<Self, Fault> {
         let place = scene.triggers.span();
         let at = |time| Spanned::new(place.clone(), Number::Any(time));
@@ -136,7 +121,7 @@ impl Times {
         let delay = scene.delay.as_ref().map_or(0.0, |delay| delay.get_ref().get());
         let until_end = unit.seconds(last + delay) - open_start;
         let timer = Timer::new(scene.timer_hz.as_ref(), bits, until_end)?;
-        let min_gap = scene::min_gap(unit, &scene.min_gap)?;
+        let min_gap = scene::not_negative(unit, "min_gap", &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
         let triggers =
             triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
@@ -146,35 +131,25 @@ impl Times {
             spread: scene.delay_spread.as_ref(),
             falls: scene.sync_falls.as_ref(),
             lag: scene.lamp_lag.as_ref(),
+            unit,
+            timer_hz: timer.hz,
         };
-        let (delay, lag) = Delay::new(&sync, unit, timer.hz, end)?;
+        let (delay, lag) = Delay::new(&sync, end)?;
         let first = triggers.first().map_or(0, |first| first.ticks);
-        Lag::checked(lag, first, &sync, unit, timer.hz)?;
+        Lag::checked(lag, first, &sync)?;
         timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, bits)?;
         let set_up = scene.set_up.as_ref().map(|it| *it.get_ref());
-        Ok(Self {
-            open_start,
-            timer,
-            delay,
-            lag,
-            set_up,
-            min_gap,
-            nominal,
-            triggers,
-            fitted: Vec::new(),
-            unit: scene.unit,
-        })
+        let last = triggers.last().map_or(0.0, |last| last.time - open_start);
+        let length = last.max(1.0 / f64::from(timer.hz));
+        let unit = scene.unit.unwrap_or_else(|| Unit::fit(length));
+        let fitted = Vec::new();
+        let common = Common { timer, delay, lag, set_up, min_gap, nominal, fitted, unit, length };
+        Ok(Self { open_start, triggers, common })
     }
 
-    /// From the start of opening to the last trigger, in seconds; a tick at least.
-    pub fn length(&self) -> f64 {
-        let last = self.triggers.last().map_or(0.0, |last| last.time - self.open_start);
-        last.max(1.0 / f64::from(self.timer.hz))
-    }
-
-    /// The scene's unit, or the one that suits its times.
-    pub fn unit(&self) -> Unit {
-        self.unit.unwrap_or_else(|| Unit::fit(self.length()))
+    /// From each trigger to the next, in ticks.
+    pub fn gaps(&self) -> impl Iterator<Item = u32> {
+        self.triggers.windows(2).map(|pair| pair[1].ticks - pair[0].ticks)
     }
 }
 
@@ -186,7 +161,7 @@ fn triggers(
     timer: Timer,
     gap: u64,
 ) -> Result<Vec<Given>, Fault> {
-    let hz = f64::from(timer.hz);
+    let (hz, gap) = (f64::from(timer.hz), i64::try_from(gap).unwrap_or(i64::MAX));
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {
         return Err(Fault::at(&scene.trigger_times, What::TimesCount(times.len())));
@@ -207,9 +182,9 @@ fn triggers(
             if time < last.time {
                 return fault(What::TimesOutOfOrder { i: i - 1 });
             }
-            if by < i64::try_from(gap).unwrap_or(i64::MAX) {
+            if by < gap {
                 let ticks = |count| Ticks { count, timer, unit };
-                let (gap, least) = (ticks(by), ticks(i64::try_from(gap).unwrap_or(i64::MAX)));
+                let (gap, least) = (ticks(by), ticks(gap));
                 return fault(What::TimesClose(Pair { first: i - 1, gap, least }));
             }
         }

@@ -233,10 +233,9 @@ fn fitted(
         From::Model => None,
         From::Trace => {
             let text = fitted::scene(&fit, name, Zero::Open, None)?.text;
-            let Times { triggers, timer, .. } =
-                Times::parse(&text).map_err(|fault| no_scene(&fault))?;
-            let times = triggers.iter().map(|trigger| trigger.time).collect();
-            Some(Own { times, timer_hz: timer.hz, until_curve: signal.curve.start - fit.opens })
+            let own = Times::parse(&text).map_err(|fault| no_scene(&fault))?;
+            let times = own.triggers.iter().map(|trigger| trigger.time).collect();
+            Some(Own { times, timer_hz: own.timer.hz, until_curve: signal.curve.start - fit.opens })
         }
     };
     let start = signal.curve.start - own.as_ref().map_or(0.0, |own| own.until_curve);

@@ -162,18 +162,16 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
 }
 
 fn put_plan(planned: &Planned, parts: &mut Parts) {
-    let (timer, delay) = (planned.timer(), planned.delay());
+    let (timer, delay) = (planned.timer, planned.delay);
     let plan = planned.plan();
     // What a lamp's lag takes off each tick.
-    let early = planned.lag().map_or(0, |lag| lag.ticks);
-    let (ticks, pulses, min_gap): (Vec<_>, Vec<_>, _) = match planned {
+    let early = planned.lag.map_or(0, |lag| lag.ticks);
+    let (ticks, pulses): (Vec<_>, Vec<_>) = match planned {
         Planned::Curve(plan) => {
             let pulses = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
-            (plan.triggers.iter().map(|it| it.ticks).collect(), pulses.collect(), plan.min_gap)
+            (plan.triggers.iter().map(|it| it.ticks).collect(), pulses.collect())
         }
-        Planned::Times(times) => {
-            (times.triggers.iter().map(|it| it.ticks).collect(), Vec::new(), times.min_gap)
-        }
+        Planned::Times(times) => (times.triggers.iter().map(|it| it.ticks).collect(), Vec::new()),
     };
     // The least gap between two, or the least darkness.
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]).min();
@@ -186,7 +184,7 @@ fn put_plan(planned: &Planned, parts: &mut Parts) {
         delay.map_or(none, |delay| delay.ticks.into()),
         plan.map_or(none, |plan| plan.most.into()),
         closest.map_or(none, |ticks| f64::from(ticks) / f64::from(timer.hz)),
-        min_gap,
+        planned.min_gap,
         plan.map_or(none, |plan| Facts::new(plan).half_open),
         drift(planned).unwrap_or(none),
         coarse(planned).unwrap_or(none),

@@ -57,20 +57,21 @@ pub fn run(args: &Args, out: &mut dyn Write) -> Result<(), String> {
     Ok(())
 }
 
-/// All files of the page by the paths that a browser asks for. Nothing else can be asked for.
-struct Page(HashMap<String, (&'static str, Vec<u8>)>);
+/// Files by the paths that a browser asks for, each with what it is.
+type Files = HashMap<String, (&'static str, Vec<u8>)>;
+
+/// All files of the page. Nothing else can be asked for.
+struct Page(Files);
 
 impl Page {
     fn read(folder: &Path) -> Result<Self, String> {
         let here = folder.display();
         let missing = |e: io::Error| format!("{here}: {e}; designer/build.sh makes the page");
-        let mut files = HashMap::new();
+        let mut files = Files::new();
         add(&mut files, folder, "/", 2).map_err(missing)?;
-        let index = files.get("/index.html").cloned();
-        files.insert(
-            "/".into(),
-            index.ok_or(format!("{here}: no page; designer/build.sh makes it"))?,
-        );
+        let none = || format!("{here}: no page; designer/build.sh makes it");
+        let index = files.get("/index.html").cloned().ok_or_else(none)?;
+        files.insert("/".into(), index);
         Ok(Self(files))
     }
 
@@ -112,12 +113,7 @@ impl Page {
 }
 
 /// All files of a folder that are a page's, by their paths behind `at`, and of so many levels of folders in it.
-fn add(
-    files: &mut HashMap<String, (&'static str, Vec<u8>)>,
-    folder: &Path,
-    at: &str,
-    levels: u8,
-) -> io::Result<()> {
+fn add(files: &mut Files, folder: &Path, at: &str, levels: u8) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let Some(name) = path.file_name().and_then(OsStr::to_str) else { continue };
@@ -133,12 +129,10 @@ fn add(
 /// Does the name by which a browser asks mean this machine? Any other may be a page's that is made to point here, which then
 /// could read what it is not meant to.
 fn is_here(host: &str) -> bool {
+    let host = host.to_ascii_lowercase();
     let is_port = |port: &str| port.bytes().all(|c| c.is_ascii_digit());
-    ["localhost", "127.0.0.1", "[::1]"].iter().any(|here| {
-        let rest = host.to_ascii_lowercase();
-        rest.strip_prefix(here)
-            .is_some_and(|rest| rest.is_empty() || rest.strip_prefix(':').is_some_and(is_port))
-    })
+    let name = host.rsplit_once(':').filter(|(_, port)| is_port(port)).map_or(&*host, |it| it.0);
+    ["localhost", "127.0.0.1", "[::1]"].contains(&name)
 }
 
 /// What a file of the page is, by its name.

@@ -150,11 +150,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         );
     }
     for paths in [&traces, &files] {
-        let mut pairs = paths.iter().enumerate().map(|(i, path)| (path, &paths[..i]));
-        if let Some((twice, _)) =
-            pairs.find(|(path, others)| others.iter().any(|it| is_same(it, path)))
-        {
-            return Err(format!("{}: it is given twice", shown(twice)));
+        let is_twice = |i: &usize| paths[..*i].iter().any(|other| is_same(other, paths[*i]));
+        if let Some(i) = (0..paths.len()).find(is_twice) {
+            return Err(format!("{}: it is given twice", shown(paths[i])));
         }
     }
     let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
@@ -175,8 +173,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     if let Some(picture) = &args.picture {
         outputs.check(picture, mark::SVG)?;
     }
-    let olds: Result<Vec<_>, _> = scenes.iter().map(|file| old(&mut outputs, file)).collect();
-    let olds = olds?;
+    let olds = scenes.iter().map(|file| old(&mut outputs, file)).collect::<Result<Vec<_>, _>>()?;
 
     let (how, options) = args.asked();
     let read = traces.iter().enumerate();
@@ -252,12 +249,9 @@ fn sensors(
         let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
         let Speed { fit, warnings, .. } =
             measure(&[read], &[record], args.triggers).map_err(refused)?;
-        let counts = [
-            all.first().map_or(fit.frames.count, |first| first.fit.frames.count),
-            fit.frames.count,
-        ];
-        if counts[0] != counts[1] && args.frame.is_none() {
-            let [first, here] = counts;
+        let here = fit.frames.count;
+        let first = all.first().map_or(here, |first| first.fit.frames.count);
+        if first != here && args.frame.is_none() {
             return Err(format!(
                 "--columns: column {signal} has {here} whole pulses and the first sensor {first}, so nothing tells which belong \
                  together; see --from, --to and --frame"

@@ -4,7 +4,7 @@ use shutter_fit::trace::Warning;
 use shutter_fit::unit::{short, stops};
 use shutter_fit::{Fit, From, Measured};
 
-use crate::speeds::columns;
+use crate::speeds::{columns, printable};
 
 /// A trace with what came of it.
 pub struct Speed {
@@ -16,9 +16,7 @@ pub struct Speed {
 /// A row for each trace.
 pub fn table(speeds: &[Speed]) -> String {
     let header = ["trace", "nominal", "measured", "ΔEV", "spread", "pulses", "model"];
-    let mut rows = vec![header.map(String::from)];
-    rows.extend(speeds.iter().map(row));
-    columns(&rows)
+    columns(header, speeds.iter().map(row))
         + "measured: TV, fully open for as much light, ± one standard error; spread: how much the pulses of a trace differ\n"
         + &delays(speeds)
 }
@@ -38,19 +36,14 @@ fn delays(speeds: &[Speed]) -> String {
             optional(delay.worst()),
         ])
     };
-    let header = ["trace", "delay", "to any trigger", "shots", "spread", "worst"];
-    let mut rows = vec![header.map(String::from)];
-    rows.extend(speeds.iter().filter_map(row));
-    if rows.len() == 1 {
+    if speeds.iter().all(|speed| speed.fit.delay.is_none()) {
         return String::new();
     }
+    let header = ["trace", "delay", "to any trigger", "shots", "spread", "worst"];
+    let rows = columns(header, speeds.iter().filter_map(row));
     let told = "delay: from the sync's edge to the opening; spread: its standard deviation between shots, and worst: how far one \
                 is off their mean; shots of one speed, to 10 %, and of one edge count together\n";
-    format!("\n{}{told}", columns(&rows))
-}
-
-fn printable(name: &str) -> String {
-    name.chars().filter(|c| !c.is_control()).collect()
+    format!("\n{rows}{told}")
 }
 
 fn row(Speed { name, fit, .. }: &Speed) -> [String; 7] {

@@ -6,17 +6,8 @@ use shutter_fit::unit::{Unit, count};
 use toml_edit::{Decor, DocumentMut, Item, Key};
 
 use super::quantity;
+use crate::scene::{KEYS, TRIGGER_TIMES};
 
-/// The keys that every fit writes anew, or leaves out.
-const MEASURED: [&str; 7] = [
-    "open_start",
-    "open_end",
-    "close_start",
-    "close_end",
-    "shutteropening",
-    "triggers",
-    "trigger_times",
-];
 /// How a fit's comments begin: the first one, those that follow it, and those above a key.
 const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
 const NEXT: [&str; 6] =
@@ -88,7 +79,7 @@ impl Old {
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
             let is_asked = ["delay", "delay_spread", "sync_falls", "nominal"].contains(&name)
                 && fresh.is_some();
-            let is_measured = MEASURED.contains(&name) || is_asked;
+            let is_measured = is_measured(name) || is_asked;
             if is_measured {
                 above += &inside(old);
             }
@@ -130,6 +121,12 @@ impl Old {
         }
         (scene, kept)
     }
+}
+
+/// Does every fit write this key anew, or leave it out?
+fn is_measured(key: &str) -> bool {
+    // Those of the curve, and their number.
+    KEYS[..6].contains(&key) || key == TRIGGER_TIMES
 }
 
 /// The lines above a key that no fit has written.

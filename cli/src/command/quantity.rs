@@ -1,8 +1,6 @@
 //! Quantities as people write them in arguments: `1.5ms`, `84MHz`, `1/250`, `0.1%`.
 
-use serde::Deserialize;
-use serde::de::IntoDeserializer;
-use serde::de::value::{Error, StrDeserializer};
+use clap::ValueEnum;
 use shutter_fit::Tolerance;
 use shutter_fit::unit::Unit;
 
@@ -18,8 +16,7 @@ fn split(text: &str) -> Option<(f64, &str)> {
 
 /// The unit of this name.
 pub fn unit(name: &str) -> Option<Unit> {
-    let name: StrDeserializer<'_, Error> = name.into_deserializer();
-    Unit::deserialize(name).ok()
+    Unit::from_str(name, false).ok()
 }
 
 fn seconds(text: &str) -> Option<f64> {

@@ -10,9 +10,8 @@ use crate::speeds::columns;
 /// A row for each sensor, compared with the first.
 pub fn table(sensors: &[Speed]) -> String {
     let header = ["sensor", "exposure", "stops", "opens later by", "closes later by", "model"];
-    let mut rows = vec![header.map(String::from)];
     let first = &sensors[0].fit;
-    for (k, Speed { name, fit, .. }) in sensors.iter().enumerate() {
+    let row = |(k, Speed { name, fit, .. }): (usize, &Speed)| {
         let later = |place: usize| {
             let ends =
                 [0, fit.triggers.len() - 1].map(|k| [first, fit].map(|fit| fit.triggers[k].error));
@@ -24,9 +23,9 @@ pub fn table(sensors: &[Speed]) -> String {
         let (unit, Measured { value, error }) = (fit.unit(), fit.exposure);
         let more = if k == 0 { "-".into() } else { stops((value / first.exposure.value).log2()) };
         let exposure = unit.plus_minus(value, error);
-        rows.push([name.clone(), exposure, more, later(0), later(1), fit.chosen.title().into()]);
-    }
-    columns(&rows)
+        [name.clone(), exposure, more, later(0), later(1), fit.chosen.title().into()]
+    };
+    columns(header, sensors.iter().enumerate().map(row))
         + "stops: how much more light the sensor gets than the first one; opens, closes later by: the travel of the first and of the\n\
            second curtain from the first sensor to this one, at half light\n"
 }

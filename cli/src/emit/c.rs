@@ -2,13 +2,13 @@
 
 use std::iter::once;
 
-use super::{MADE_BY, comment, fnv, has_pulses, name, origin, pulses, rows, ticks};
+use super::{MADE_BY, comment, falls, fnv, has_pulses, name, origin, pulses, rows, ticks};
 use crate::planned::Planned;
 
 /// The header of a plan, its names those of the scene.
 pub fn header(scene: &str, plan: &Planned) -> String {
     let (lower, upper) = names(scene);
-    let (ticks, bits) = (ticks(plan), plan.timer().bits);
+    let (ticks, bits) = (ticks(plan), plan.timer.bits);
     let n = ticks.len();
     let mut body = format!(
         "#include <stdint.h>
@@ -17,9 +17,9 @@ pub fn header(scene: &str, plan: &Planned) -> String {
 #define {upper}_TIMER_HZ UINT32_C({})
 #define {upper}_COUNT {n}
 ",
-        plan.timer().hz
+        plan.timer.hz
     );
-    if let Some(delay) = plan.delay() {
+    if let Some(delay) = plan.delay {
         body += &edge(&upper, plan);
         body += &format!(
             "/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
@@ -42,7 +42,7 @@ pub fn header(scene: &str, plan: &Planned) -> String {
     } else {
         body += &array(&format!("When to trigger, {origin}."), "ticks", rows(ticks));
     }
-    if plan.delay().is_some() {
+    if plan.delay.is_some() {
         let int = format!("uint{bits}_t");
         let (doc, on, off) = match has_pulses(plan) {
             true => (
@@ -80,15 +80,15 @@ static inline uint{bits}_t {lower}_due(uint{bits}_t edge, uint{bits}_t ticks)
 pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let (lower, upper) = names(called);
-    let bits = one.timer().bits;
+    let bits = one.timer.bits;
     let mut body = format!(
         "#include <stdint.h>\n\n/* The timer's rate. */\n#define {upper}_TIMER_HZ UINT32_C({})\n#define {upper}_SPEEDS {}\n{}\n",
-        one.timer().hz,
+        one.timer.hz,
         plans.len(),
         edge(&upper, one)
     );
     body += "typedef struct {\n    const char *name;\n    uint32_t count;\n";
-    if one.delay().is_some() {
+    if one.delay.is_some() {
         body += &format!("    /* See its _DELAY_TICKS. */\n    uint{bits}_t delay_ticks;\n");
     }
     let origin = origin(plans.iter().map(|(_, plan)| plan));
@@ -102,7 +102,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     );
     for (scene, plan) in plans {
         let (lower, upper) = names(scene);
-        let delay = plan.delay().map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
+        let delay = plan.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
         let arrays = arrays.iter().map(|array| format!("{lower}_{array}")).collect::<Vec<_>>();
         body += &format!("    {{\"{lower}\", {upper}_COUNT, {delay}{}}},\n", arrays.join(", "));
     }
@@ -119,8 +119,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
 
 /// Which edge of the sync counts, if there is a delay from it.
 fn edge(upper: &str, plan: &Planned) -> String {
-    let falls = plan.delay().and_then(|delay| delay.falls);
-    falls.map_or(String::new(), |falls| {
+    falls(plan).map_or(String::new(), |falls| {
         let falls = u8::from(falls);
         format!(
             "/* Which edge of the camera's sync counts: the falling one (1), or the rising one (0). */\n#define {upper}_SYNC_FALLS {falls}\n"

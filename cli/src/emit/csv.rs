@@ -3,23 +3,12 @@
 use crate::planned::Planned;
 
 /// The scene's name, and the keys of a row.
-const NAMES: [&str; 10] = [
-    "scene",
-    "index",
-    "u",
-    "time_s",
-    "ticks",
-    "gap_ticks",
-    "from_edge_ticks",
-    "on_ticks",
-    "off_ticks",
-    "dose",
-];
+const NAMES: &[u8] =
+    b"scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n";
 
 /// The rows of plans; what one of them does not have is empty.
 pub fn rows<'a>(plans: impl IntoIterator<Item = (&'a str, &'a Planned)>) -> String {
-    let mut out = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
-    out.write_record(NAMES).expect("memory takes all");
+    let mut out = csv::WriterBuilder::new().has_headers(false).from_writer(NAMES.to_vec());
     for (scene, plan) in plans {
         for row in plan.rows() {
             out.serialize((scene, row)).expect("memory takes all");

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::facts::{self, Facts};
+use crate::facts::Facts;
 use crate::lamp::SetUp;
 use crate::planned::{Planned, Row};
 
@@ -50,27 +50,27 @@ struct Document<'a> {
 impl<'a> Document<'a> {
     fn new(scene: &'a str, plan: &'a Planned) -> Self {
         let (curve, facts) = (plan.plan().map(|plan| &plan.curve), plan.plan().map(Facts::new));
-        let (timer, length) = (plan.timer(), facts::from_edge(plan.delay(), plan.length()));
+        let (timer, length) = (plan.timer, plan.edge_to_end());
         let rate = (timer.off(length) >= HALF_TICK).then(|| timer.told(length));
-        let fact = |of: fn(&Facts) -> f64| facts.as_ref().map(|facts| of(facts) as f32);
+        let fact = |of: fn(Facts) -> f64| facts.map(|facts| of(facts) as f32);
         Self {
             scene,
-            set_up: plan.set_up(),
+            set_up: plan.set_up,
             timer_hz: timer.hz,
-            nominal_s: plan.nominal(),
-            delay_s: plan.delay().map(|delay| delay.seconds),
-            delay_ticks: plan.delay().map(|delay| delay.ticks),
-            delay_spread_s: plan.delay().and_then(|delay| delay.spread),
-            sync_falls: plan.delay().and_then(|delay| delay.falls),
-            lamp_lag_s: plan.lag().map(|lag| lag.seconds),
+            nominal_s: plan.nominal,
+            delay_s: plan.delay.map(|delay| delay.seconds),
+            delay_ticks: plan.delay.map(|delay| delay.ticks),
+            delay_spread_s: plan.delay.and_then(|delay| delay.spread),
+            sync_falls: super::falls(plan),
+            lamp_lag_s: plan.lag.map(|lag| lag.seconds),
             opening_s: fact(|it| it.opening),
             open_s: fact(|it| it.open),
             closing_s: fact(|it| it.closing),
             half_open_s: fact(|it| it.half_open),
             exposure_s: curve.map(|curve| curve.exposure()),
             efficiency: curve.map(|curve| curve.efficiency()),
-            direct_triggers: facts.as_ref().map(|it| it.direct_triggers),
-            delta_ev: facts.as_ref().and_then(|it| it.delta_ev).map(|delta| delta as f32),
+            direct_triggers: curve.map(|curve| curve.direct_triggers()),
+            delta_ev: facts.and_then(|it| it.delta_ev).map(|delta| delta as f32),
             doubts: plan.doubts().map(String::from).chain(rate).collect(),
             triggers: plan.rows(),
         }

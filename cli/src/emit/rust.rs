@@ -2,7 +2,7 @@
 
 use std::iter::once;
 
-use super::{MADE_BY, comment, has_pulses, name, origin, pulses, rows, ticks};
+use super::{MADE_BY, comment, falls, has_pulses, name, origin, pulses, rows, ticks};
 use crate::plan::Plan;
 use crate::planned::Planned;
 use crate::shape::Shape;
@@ -27,7 +27,7 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
     text += &format!(
         "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    pub name: &'static str,\n"
     );
-    let delay = one.delay().map(|_| {
+    let delay = one.delay.map(|_| {
         text += &format!("    /// See `DELAY_TICKS`.\n    pub delay_ticks: {int},\n");
         "        delay_ticks: {}::DELAY_TICKS,\n"
     });
@@ -66,9 +66,9 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
 
 /// What the speeds of a shutter have in common: the timer, and the edge.
 fn common(plan: &Planned) -> String {
-    let hz = grouped(plan.timer().hz);
+    let hz = grouped(plan.timer.hz);
     let mut text = format!("/// The timer's rate.\n{ALLOW}\npub const TIMER_HZ: u32 = {hz};\n");
-    if let Some(falls) = plan.delay().and_then(|delay| delay.falls) {
+    if let Some(falls) = falls(plan) {
         text += &format!(
             "\n/// Which edge of the camera's sync counts: the falling one, or the rising one.\n{ALLOW}\npub const SYNC_FALLS: bool = {falls};\n"
         );
@@ -93,7 +93,7 @@ fn items(plan: &Planned, curve: bool) -> String {
         "\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {};\n",
         ticks(plan).len()
     );
-    if let Some(delay) = plan.delay() {
+    if let Some(delay) = plan.delay {
         text += &format!(
             "\n/// {}\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
             super::delay(plan),
@@ -108,7 +108,7 @@ fn items(plan: &Planned, curve: bool) -> String {
         false => (format!("TICKS: [{int}; COUNT]"), rows(ticks(plan))),
     };
     text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(once(plan)));
-    if plan.delay().is_some() {
+    if plan.delay.is_some() {
         text += &from_edge(plan, int);
     }
     match plan.plan() {
@@ -173,7 +173,7 @@ pub static SHUTTER: ShutterCurve = valid(ShutterCurve::{});
 
 /// The type of the timer's count.
 fn int(plan: &Planned) -> &'static str {
-    match plan.timer().bits {
+    match plan.timer.bits {
         16 => "u16",
         _ => "u32",
     }

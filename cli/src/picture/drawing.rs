@@ -51,10 +51,10 @@ pub fn below(
 }
 
 /// From just before to just after the curve, so that a jump at an end is drawn.
-pub fn draw_curve(graph: &mut Graph, plan: &Plan, unit: Unit, f: impl Fn(f32) -> f32) -> Drawn {
+pub fn draw_curve(graph: &mut Graph, plan: &Plan, f: impl Fn(f32) -> f32) -> Drawn {
     let (start, end) = (plan.curve.open_start(), plan.curve.close_end());
     let times = once(start.next_down()).chain(steps(start, end, POINTS)).chain(once(end.next_up()));
-    let line = times.map(|t| (unit.of(t), f64::from(f(t))));
+    let line = times.map(|t| (plan.unit.of(t), f64::from(f(t))));
     graph.draw_series(LineSeries::new(line, pen(BLUE, 2.5)))?;
     Ok(())
 }
@@ -103,32 +103,33 @@ pub fn axes<'a, 'b>(
 pub fn graph<'a, 'b>(
     area: &'a Area<'b>,
     plan: &Plan,
-    unit: Unit,
     y: &str,
     x: Option<&str>,
     range: Range<f64>,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let places = decimals(unit.of(plan.length()), 3);
-    let time = Axis { range: time_range(plan, unit), name: x, label: &|t| trimmed(*t, places) };
+    let places = decimals(plan.unit.of(plan.length), 3);
+    let time = Axis { range: time_range(plan), name: x, label: &|t| trimmed(*t, places) };
     axes(area, time, Axis { range, name: Some(y), label: &|y| format!("{y:.1}") }, 60)
 }
 
 /// The axis of time: the interval, and a little room on either side.
-pub fn time_range(plan: &Plan, unit: Unit) -> Range<f64> {
+pub fn time_range(plan: &Plan) -> Range<f64> {
+    let unit = plan.unit;
     let (start, end) = (unit.of(plan.curve.open_start()), unit.of(plan.curve.close_end()));
-    let start = sync(plan, unit).filter(|edge| is_near(plan, unit, *edge)).unwrap_or(start);
+    let start = sync(plan).filter(|edge| is_near(plan, *edge)).unwrap_or(start);
     let room = 0.03 * (end - start);
     start - room..end + room
 }
 
 /// The edge of the camera's sync on the plan's axis of time.
-pub fn sync(plan: &Plan, unit: Unit) -> Option<f64> {
+pub fn sync(plan: &Plan) -> Option<f64> {
+    let unit = plan.unit;
     plan.delay.map(|delay| unit.of(plan.curve.open_start()) - unit.of(delay.seconds))
 }
 
 /// Can the edge be on the axis without squeezing the curve?
-pub fn is_near(plan: &Plan, unit: Unit, edge: f64) -> bool {
-    unit.of(plan.curve.open_start()) - edge <= 1.5 * unit.of(plan.length())
+pub fn is_near(plan: &Plan, edge: f64) -> bool {
+    plan.unit.of(plan.curve.open_start()) - edge <= 1.5 * plan.unit.of(plan.length)
 }
 
 /// So many steps from `from` to `to`, both ends included.
@@ -150,6 +151,26 @@ pub fn dot<C>(at: C) -> Circle<C, i32> {
     Circle::new(at, 4 * SCALE, VERMILION.filled())
 }
 
-pub fn centred(size: i32) -> TextStyle<'static> {
-    style::text(size * SCALE, HPos::Center, VPos::Center)
+/// A line to each mark, and a dot on it where these do not run into each other.
+pub fn draw_marks(
+    graph: &mut Graph,
+    marks: impl ExactSizeIterator<Item = (f64, f64)> + Clone,
+    line: impl Fn((f64, f64)) -> Vec<(f64, f64)>,
+) -> Drawn {
+    let lines = marks.clone().map(|mark| PathElement::new(line(mark), pen(VERMILION, 1.2)));
+    graph.draw_series(lines)?;
+    if marks.len() <= MOST_MARKS {
+        graph.draw_series(marks.map(dot))?;
+    }
+    Ok(())
+}
+
+/// The name of what is drawn, and its facts, on a page of this width.
+pub fn write_heading(area: &Area, width: i32, name: &str, facts: &str) -> Drawn {
+    let middle = width * SCALE / 2;
+    for (text, size, y) in [(name, 19, 22), (facts, 14, 48)] {
+        let centred = style::text(size * SCALE, HPos::Center, VPos::Center);
+        area.draw_text(text, &centred, (middle, y * SCALE))?;
+    }
+    Ok(())
 }

@@ -20,9 +20,6 @@ const MOST_LABELS: usize = 12;
 
 /// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays open,
 /// the same with the shutter in the light's path, and pulses of equal doses there.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan));
     let title = format!(
@@ -56,9 +53,9 @@ fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
 
 /// The lamp in outlines, and what of its light comes through.
 fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
-    let (curve, unit) = (&plan.curve, plan.unit());
+    let (curve, unit) = (&plan.curve, plan.unit);
     let time = format!("time ({})", unit.name());
-    let mut graph = graph(area, plan, unit, "openness", Some(&time), 0.0..1.08)?;
+    let mut graph = graph(area, plan, "openness", Some(&time), 0.0..1.08)?;
     let at = |t: f32| {
         let openness = if row.is_shuttered { curve.openness(t) } else { 1.0 };
         (unit.of(t), f64::from(openness))
@@ -71,7 +68,7 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
         PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
     }))?;
     if row.is_shuttered {
-        draw_curve(&mut graph, plan, unit, |t| curve.openness(t))
+        draw_curve(&mut graph, plan, |t| curve.openness(t))
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();

@@ -6,8 +6,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::unit::{count, decimals, trimmed};
 
-use super::drawing::{Axis, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
-use super::style::{self, INK, VERMILION};
+use super::drawing::{Axis, SCALE, axes, draw_marks, pen, picture, write_heading};
+use super::style::{self, INK};
 use crate::times::Times;
 
 const SIZE: (i32, i32) = (900, 240);
@@ -15,8 +15,8 @@ const HEADING: i32 = 70;
 
 /// The triggers of the scene `name`.
 pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
-    let unit = times.unit();
-    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length()));
+    let unit = times.unit;
+    let (start, end) = (unit.of(times.open_start), unit.of(times.open_start + times.length));
     // The sync is shown where it does not make the triggers small.
     let edge = times.delay.map(|delay| start - unit.of(delay.seconds));
     let edge = edge.filter(|edge| start - edge < end - start);
@@ -26,10 +26,8 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let triggers = count(times.triggers.len() as u64, "trigger");
-        let middle = SIZE.0 * SCALE / 2;
-        heading.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
         let facts = format!("no curve: {triggers} as measured");
-        heading.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+        write_heading(&heading, SIZE.0, name, &facts)?;
         let (time, places) = (format!("time ({})", unit.name()), decimals(end - start, 3));
         let across = Axis {
             range: first - room..end + room,
@@ -38,13 +36,8 @@ pub fn svg(name: &str, times: &Times) -> Result<String, Box<dyn Error>> {
         };
         let up = Axis { range: 0.0..1.2, name: None, label: &|_| String::new() };
         let mut graph = axes(&rest, across, up, 20)?;
-        let marks = times.triggers.iter().map(|trigger| unit.of(trigger.time));
-        graph.draw_series(
-            marks.clone().map(|t| PathElement::new([(t, 0.0), (t, 1.0)], pen(VERMILION, 1.2))),
-        )?;
-        if times.triggers.len() <= MOST_MARKS {
-            graph.draw_series(marks.map(|t| dot((t, 1.0))))?;
-        }
+        let marks = times.triggers.iter().map(|trigger| (unit.of(trigger.time), 1.0));
+        draw_marks(&mut graph, marks, |(t, y)| vec![(t, 0.0), (t, y)])?;
         for (t, words) in edge.map(|t| (t, "sync")).into_iter().chain([(start, "opens")]) {
             graph.draw_series([PathElement::new([(t, 0.0), (t, 1.0)], pen(INK, 1.2))])?;
             let label = style::text(13 * SCALE, HPos::Left, VPos::Bottom);

@@ -6,11 +6,11 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter_fit::trace::Trace;
-use shutter_fit::unit::{Unit, decimals, short, trimmed};
+use shutter_fit::unit::{decimals, short, trimmed};
 use shutter_fit::{Fit, From};
 
-use super::drawing::{Axis, Drawn, MOST_MARKS, SCALE, axes, centred, dot, pen, picture};
-use super::style::{self, Area, BLUE, GREY, Graph, VERMILION};
+use super::drawing::{Axis, Drawn, SCALE, axes, dot, draw_marks, pen, picture};
+use super::style::{self, Area, BLUE, GREY, Graph};
 
 const SIZE: (i32, i32) = (900, 640);
 const HEADING: i32 = 88;
@@ -21,9 +21,6 @@ const MOST: usize = 3000;
 const POINTS: usize = 1500;
 
 /// The fit of the trace `name`, as an SVG.
-///
-/// # Errors
-/// Where it cannot be drawn.
 pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
     let title =
         format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
@@ -45,9 +42,7 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
         if fit.from == From::Trace { " by the trace" } else { "" },
         short(100.0 * fit.best().rms, 3),
     );
-    let middle = SIZE.0 * SCALE / 2;
-    area.draw_text(name, &centred(19), (middle, 22 * SCALE))?;
-    area.draw_text(&facts, &centred(14), (middle, 48 * SCALE))?;
+    super::drawing::write_heading(area, SIZE.0, name, &facts)?;
     let y = 74 * SCALE;
     let trigger = match fit.from {
         From::Model => "trigger",
@@ -70,9 +65,9 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
 
 fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
     let (unit, sign) = (fit.unit(), if fit.inverted { -1.0 } else { 1.0 });
-    let raw: Vec<(f64, f64)> = samples(fit, unit, |_, v| sign * v);
+    let raw = samples(fit, |_, v| sign * v);
     let range = range(raw.iter().map(|(_, v)| *v), 0.06);
-    let mut graph = graph(area, fit, unit, "signal", None, range)?;
+    let mut graph = graph(area, fit, "signal", None, range)?;
     graph.draw_series(LineSeries::new(raw, pen(GREY, 1.0)))?;
     let (first, last) = ends(fit);
     let at = |t: f64| (unit.of(t), sign * fit.value(t));
@@ -98,13 +93,7 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
         )?;
     }
     let marks = fit.triggers.iter().map(|trigger| seen(trigger.value));
-    graph.draw_series(
-        marks.clone().map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(VERMILION, 1.2))),
-    )?;
-    if fit.triggers.len() <= MOST_MARKS {
-        graph.draw_series(marks.map(dot))?;
-    }
-    Ok(())
+    draw_marks(&mut graph, marks, |(t, v)| vec![(t, dark), (t, v)])
 }
 
 /// The trace at a time.
@@ -118,13 +107,13 @@ fn between(fit: &Fit, t: f64) -> f64 {
 fn draw_residual(area: &Area, fit: &Fit) -> Drawn {
     let unit = fit.unit();
     let gain = fit.best().signal.gain;
-    let missed = samples(fit, unit, |t, v| 100.0 * (v - fit.value(t)) / gain);
+    let missed = samples(fit, |t, v| 100.0 * (v - fit.value(t)) / gain);
     // Edges within one sample would hide all else.
     let mut sizes: Vec<f64> = missed.iter().map(|(_, m)| m.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let most = 1.4 * sizes[(sizes.len() - 1) * 99 / 100].max(1e-3);
     let time = format!("time ({})", unit.name());
-    let mut graph = graph(area, fit, unit, "residual (% of the light)", Some(&time), -most..most)?;
+    let mut graph = graph(area, fit, "residual (% of the light)", Some(&time), -most..most)?;
     let kept = missed.into_iter().map(|(t, m)| (t, m.clamp(-most, most)));
     graph.draw_series(LineSeries::new(kept, pen(GREY, 1.0)))?;
     let (first, last) = ends(fit);
@@ -139,7 +128,8 @@ fn ends(fit: &Fit) -> (f64, f64) {
 }
 
 /// What `f` makes of the samples; of many, the least and the greatest of neighbours.
-fn samples(fit: &Fit, unit: Unit, f: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+fn samples(fit: &Fit, f: impl Fn(f64, f64) -> f64) -> Vec<(f64, f64)> {
+    let unit = fit.unit();
     let samples = fit.samples.times.iter().zip(&fit.samples.values);
     let all: Vec<(f64, f64)> = samples.map(|(t, v)| (unit.of(*t), f(*t, *v))).collect();
     if all.len() <= MOST {
@@ -164,12 +154,11 @@ fn range(values: impl Iterator<Item = f64>, room: f64) -> Range<f64> {
 fn graph<'a, 'b>(
     area: &'a Area<'b>,
     fit: &Fit,
-    unit: Unit,
     y: &str,
     x: Option<&str>,
     range: Range<f64>,
 ) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
-    let (first, last) = ends(fit);
+    let (unit, (first, last)) = (fit.unit(), ends(fit));
     let (across, up) = (decimals(unit.of(last - first), 3), decimals(range.end - range.start, 3));
     let time = unit.of(first)..unit.of(last);
     let time = Axis { range: time, name: x, label: &|t| trimmed(*t, across) };

@@ -220,7 +220,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
             expected += &format!("{} {}\n", delay.ticks, u8::from(delay.falls.unwrap()));
         }
     }
-    assert!(scenes.iter().any(|(_, planned)| planned.delay().is_some()));
+    assert!(scenes.iter().any(|(_, planned)| planned.delay.is_some()));
     assert_eq!(compiled(&folder, &includes, &body), expected);
 }
 
@@ -275,7 +275,7 @@ fn speeds_are_an_array_of_c() {
             }}"
         );
         let expected = plans.iter().zip(names).map(|((_, speed), name)| {
-            let delay = speed.delay().map_or(0, |delay| delay.ticks);
+            let delay = speed.delay.map_or(0, |delay| delay.ticks);
             format!("{name} 1000000 {delay}\n{}", lines(speed))
         });
         assert_eq!(compiled(&folder, &includes.concat(), &body), expected.collect::<String>());
@@ -365,7 +365,7 @@ fn flashes_are_counted_from_the_edge_in_rust_and_in_c() {
         folder.write(&format!("{name}.h"), text(Form::C, name, &plan));
         mods += &format!("mod {name};\n");
         includes += &format!("#include \"{name}.h\"\n");
-        let bits = plan.timer().bits;
+        let bits = plan.timer.bits;
         // In a constant, as a firmware may have it.
         rust += &format!(
             "{{
