@@ -1,4 +1,4 @@
-//! From the edge of a camera's sync to the start of opening.
+//! From the edge of a camera's sync to the start of opening, and from a trigger to the lamp's light.
 
 use shutter_fit::unit::Unit;
 use toml::Spanned;

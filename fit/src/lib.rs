@@ -6,7 +6,7 @@
 //! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with the
 //!   `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `choice`: the kinds compared, and one chosen; with a flicker, where that explains more;
-//! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them;
+//! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them, as a [`trace::Warning`];
 //! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples themselves, where it does not;
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
 //!

@@ -156,7 +156,7 @@ fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
     }
 }
 
-/// What is doubtful about a trace or about what was made of it.
+/// What is doubtful about a trace or about what was made of it. A variant's name in snake case is its code.
 #[derive(Clone, Debug, EnumIter, Error, IntoStaticStr, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
