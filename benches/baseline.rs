@@ -106,8 +106,7 @@ impl Sextic {
 
     fn density(&self, p: f32) -> f32 {
         let c = &self.c;
-        c[0] + p
-            * (2.0 * c[1] + p * (3.0 * c[2] + p * (4.0 * c[3] + p * (5.0 * c[4] + p * 6.0 * c[5]))))
+        c[0] + p * (2.0 * c[1] + p * (3.0 * c[2] + p * (4.0 * c[3] + p * (5.0 * c[4] + p * 6.0 * c[5]))))
     }
 
     fn time(&self, p: f32) -> f32 {
@@ -137,8 +136,8 @@ impl Sextic {
     }
 }
 
-/// The same textbook, done with care: sextics in powers from both ends of each ramp, built in `f64`, and the fraction counted
-/// from the curve's nearer end.
+/// The same textbook, done with care: sextics in powers from both ends of each ramp, built in `f64`, and the fraction
+/// counted from the curve's nearer end.
 #[derive(Clone, Copy)]
 pub struct NearerEnd {
     /// The opening ramp, and the closing one seen from its end.
@@ -198,11 +197,7 @@ impl NearerEnd {
         };
         // Where a straight ramp has the answer.
         let p = sqrt(a / side.share);
-        if a < 0.5 * side.share {
-            side.from_outside.time(a, p)
-        } else {
-            side.from_inside.time(side.share - a, 1.0 - p)
-        }
+        if a < 0.5 * side.share { side.from_outside.time(a, p) } else { side.from_inside.time(side.share - a, 1.0 - p) }
     }
 }
 

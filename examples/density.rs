@@ -12,8 +12,7 @@ const SCALE: f32 = 1.0 / 128.0;
 /// A Bezier's value at `p`, and its slope.
 fn bezier(c: [f64; 4], p: f64) -> (f64, f64) {
     let q = 1.0 - p;
-    let value =
-        c[0] * q * q * q + 3.0 * c[1] * q * q * p + 3.0 * c[2] * q * p * p + c[3] * p * p * p;
+    let value = c[0] * q * q * q + 3.0 * c[1] * q * q * p + 3.0 * c[2] * q * p * p + c[3] * p * p * p;
     let slope = (c[1] - c[0]) * q * q + 2.0 * (c[2] - c[1]) * q * p + (c[3] - c[2]) * p * p;
     (value, 3.0 * slope)
 }
@@ -33,11 +32,7 @@ fn main() -> Result<(), CurveError> {
             let p = f64::from(i + 1) / f64::from(STEPS);
             let time = bezier(t, p).0 as f32;
             let cdf = curve.cdf(time);
-            println!(
-                "{p:5.1} {time:9.6} {:13.7} {cdf:12.7} {:12.6}",
-                f64::from(k) * integral,
-                curve.inverse_cdf(cdf)
-            );
+            println!("{p:5.1} {time:9.6} {:13.7} {cdf:12.7} {:12.6}", f64::from(k) * integral, curve.inverse_cdf(cdf));
         }
     }
     Ok(())

@@ -1,8 +1,8 @@
-//! Motion blur as a renderer samples it: a bright edge moves across a picture while a soft shutter is open. Each pixel takes
-//! its samples at `inverse_cdf` of stratified fractions, and they all count the same.
+//! Motion blur as a renderer samples it: a bright edge moves across a picture while a soft shutter is open. Each pixel
+//! takes its samples at `inverse_cdf` of stratified fractions, and they all count the same.
 //!
-//! `cargo run --example motion_blur`, or with `-- FILE.svg`, draws that beside the exact integral, and beside samples at
-//! equally spaced times, which give another shutter's blur. A file that exists is left as it is.
+//! `cargo run --example motion_blur`, or with `-- FILE.svg`, draws that beside the exact integral, and beside samples
+//! at equally spaced times, which give another shutter's blur. A file that exists is left as it is.
 
 use std::fmt::Write;
 use std::fs::{File, create_dir_all};
@@ -46,8 +46,7 @@ fn draw(svg: &mut String, row: usize, name: &str, light: impl Fn(usize) -> f32) 
         let grey = (255.0 * light(pixel).powf(1.0 / 2.2)) as u8;
         let (x, y) = (10 + 2 * pixel, top + 28);
         let fill = format!("rgb({grey},{grey},{grey})");
-        let _ =
-            writeln!(svg, "<rect x=\"{x}\" y=\"{y}\" width=\"2\" height=\"36\" fill=\"{fill}\"/>");
+        let _ = writeln!(svg, "<rect x=\"{x}\" y=\"{y}\" width=\"2\" height=\"36\" fill=\"{fill}\"/>");
     }
 }
 
@@ -65,9 +64,8 @@ fn main() -> ExitCode {
 
     println!("samples  largest error at inverse_cdf  at equally spaced times");
     for n in [4, 16, 64, 256] {
-        let worst = |time: fn(f32) -> f32| {
-            (0..PIXELS).map(|p| (sampled(p, n, time) - exact(p)).abs()).fold(0.0, f32::max)
-        };
+        let worst =
+            |time: fn(f32) -> f32| (0..PIXELS).map(|p| (sampled(p, n, time) - exact(p)).abs()).fold(0.0, f32::max);
         println!("{n:7} {:29.4} {:24.4}", worst(|u| SHUTTER.inverse_cdf(u)), worst(|u| u));
     }
     let asked = std::env::args().nth(1);

@@ -10,7 +10,7 @@ octave/mod.rs top ec60763a below b73f9ae7 Octave::offset f842a0c4 times_high 657
 octave/span.rs Span::new f245b7f1 center c648d563
 octave/build.rs top_beyond 090e7081
 octave/candidate.rs candidate d3eb3555
-inverse.rs Inverse::new 182aa4cc section 44bee705 look_up 157f7e9c by_octave c60f2056 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
+inverse.rs Inverse::new 182aa4cc section 44bee705 look_up 157f7e9c by_octave f9806312 direct_units 0f0faea8 last_before 0877d156 last_before_line e915c97a in_line_units 6fe0fed4
 fraction.rs Fraction::new a0cd572f
 """)
 

@@ -116,9 +116,7 @@ impl CurveError {
             E::NotFinite(part) => {
                 of_part!(part, "a control point is NaN, infinite or beyond f32 (3.4e38)")
             }
-            E::TimesOutOfOrder => {
-                "times out of order: open_start <= open_end <= close_start <= close_end is required"
-            }
+            E::TimesOutOfOrder => "times out of order: open_start <= open_end <= close_start <= close_end is required",
             E::TimeOutsideRamp { part, point } => {
                 of_point!(part, point, "the time of its ", " has to lie between the ramp's ends")
             }
@@ -141,25 +139,20 @@ impl CurveError {
                 "the density has to be in [0, 1] at each control point; scale a greater one down \
                  (CubicBezier::scaled)"
             }
-            E::NotFullyOpen(Part::Closing) => {
-                "closing ramp: it has to begin fully open, at openness 1"
-            }
+            E::NotFullyOpen(Part::Closing) => "closing ramp: it has to begin fully open, at openness 1",
             E::NotFullyOpen(part) => of_part!(part, "it has to end fully open, at openness 1"),
             E::IntervalUnresolved => {
                 "the interval is too short for its distance from time 0: below 2^-16 of its greatest \
                  time; count times from a nearer origin"
             }
-            E::IntervalOutOfRange => {
-                "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"
-            }
+            E::IntervalOutOfRange => "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)",
             E::DensityTooSmall => {
                 "the density's exposure is below 2^-20 of its interval; scale it up \
                  (CubicBezier::scaled)"
             }
-            E::TooShort(part) => of_part!(
-                part,
-                "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"
-            ),
+            E::TooShort(part) => {
+                of_part!(part, "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length")
+            }
         }
     }
 }
@@ -248,17 +241,11 @@ impl fmt::Display for ScheduleError {
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
                 let s = plural(*gap);
-                write!(
-                    out,
-                    "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}"
-                )
+                write!(out, "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}")
             }
             Self::PulsesTooClose { pulse, gap, min_gap } => {
                 let s = plural(*gap);
-                write!(
-                    out,
-                    "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}"
-                )
+                write!(out, "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}")
             }
             Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {

@@ -40,10 +40,7 @@ impl Exposure {
     /// Checks both ramps, and integrates them. Returns their shapes, too, since octaves are built from those. Out of
     /// line: all constructors share it.
     #[inline(never)]
-    pub(crate) const fn new(
-        opening: &CubicBezier,
-        closing: &CubicBezier,
-    ) -> Result<(Self, [Shape; 2]), CurveError> {
+    pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<(Self, [Shape; 2]), CurveError> {
         tried!(domain::check(opening, closing));
         let ([start, _, _, open], [close, _, _, end]) = (opening.times(), closing.times());
         let plateau = close as f64 - open as f64;
@@ -52,8 +49,7 @@ impl Exposure {
         if area < LEAST_EXPOSURE * (end as f64 - start as f64) {
             return Err(CurveError::DensityTooSmall);
         }
-        let ramps =
-            [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
+        let ramps = [Ramp::new([start, open], &shapes[0], area), Ramp::new([close, end], &shapes[1], area)];
         let plateau = Pair::from_f64(plateau / area * WHOLE as f64);
         Ok((Self { ramps, plateau, area }, shapes))
     }

@@ -24,9 +24,7 @@ use crate::error::{CurveError, tried};
 use crate::exposure::Exposure;
 use crate::fraction::Fraction;
 use crate::fraction::Side::{self, End, Start};
-use crate::number::units::{
-    FINE, exponent, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent,
-};
+use crate::number::units::{FINE, exponent, fixed_down, fixed_towards_0, floor_bits, power_of_two, time_exponent};
 use crate::octave::span::Span;
 use crate::octave::{self, Octave, build};
 use crate::ramp::bezier::CubicBezier;
@@ -63,10 +61,7 @@ enum Section {
 }
 
 impl<const OCTAVES: usize> Inverse<OCTAVES> {
-    pub(crate) const fn new(
-        opening: &CubicBezier,
-        closing: &CubicBezier,
-    ) -> Result<Self, CurveError> {
+    pub(crate) const fn new(opening: &CubicBezier, closing: &CubicBezier) -> Result<Self, CurveError> {
         // So a fraction of 0 finds no octave: its index is at least 99, the exponent's bits of the least top, 2⁻²⁸.
         const { assert!(OCTAVES <= 64, "at most 64 octaves a side") };
         let (exposure, shapes) = tried!(Exposure::new(opening, closing));
@@ -87,10 +82,8 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
             // It is off by what an `f64` rounds of the areas and by a few units: a trace of an ulp of `u`, which takes
             // 2⁸ units or more, as by the rules of `domain` its slope is at least 2⁴⁰ (proofs/domain.py).
             let [open, close] = [exposure.join_time(Start), exposure.join_time(End)];
-            let first =
-                fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
-            let last =
-                fixed_down(close, unit_exponent) + fixed_towards_0(shapes[1].area(), unit_exponent);
+            let first = fixed_down(open, unit_exponent) - fixed_towards_0(shapes[0].area(), unit_exponent);
+            let last = fixed_down(close, unit_exponent) + fixed_towards_0(shapes[1].area(), unit_exponent);
             (this.line_base_units, this.line_slope_units) = (first, last - first);
             this.line_len = [
                 this.line_last_bits[0].saturating_sub(last_before_line(from_start[0])),
@@ -101,8 +94,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
         // `OCTAVES > 0` leaves the code that builds octaves out where there are none.
         while OCTAVES > 0 && side < 2 {
             let octaves = &mut this.octaves[side];
-            this.tops[side] =
-                build::build(&this.exposure, &shapes, unit_exponent, Side::BOTH[side], octaves);
+            this.tops[side] = build::build(&this.exposure, &shapes, unit_exponent, Side::BOTH[side], octaves);
             side += 1;
         }
         Ok(this)
@@ -205,9 +197,7 @@ impl<const OCTAVES: usize> Inverse<OCTAVES> {
     const fn by_octave(&self, fraction: Fraction, ramp: Side) -> Option<i64> {
         match self.look_up(fraction, ramp) {
             // Tested before any coefficient is loaded, or the compiler loads all at once and saves registers for them.
-            Some((octave, position)) if octave.exists() => {
-                Some(octave.time(octave.offset(position)))
-            }
+            Some((octave, position)) if octave.exists() => Some(octave.time(octave.offset(position))),
             _ => None,
         }
     }

@@ -77,12 +77,7 @@ impl ShutterCurve {
     ///
     /// # Errors
     /// Those of [`with_octaves`](Self::with_octaves).
-    pub const fn linear(
-        open_start: f32,
-        open_end: f32,
-        close_start: f32,
-        close_end: f32,
-    ) -> Result<Self, CurveError> {
+    pub const fn linear(open_start: f32, open_end: f32, close_start: f32, close_end: f32) -> Result<Self, CurveError> {
         Self::with_octaves(
             CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
             CubicBezier::line((close_start, 1.0), (close_end, 0.0)),
@@ -117,9 +112,7 @@ impl ShutterCurve {
             return Err(CurveError::NotFinite(Part::Closing));
         }
         match Self::new(opening, closing) {
-            Err(CurveError::TimeOutsideRamp { part, point }) => {
-                Err(CurveError::FractionOutsideRamp { part, point })
-            }
+            Err(CurveError::TimeOutsideRamp { part, point }) => Err(CurveError::FractionOutsideRamp { part, point }),
             curve => curve,
         }
     }
@@ -170,10 +163,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// A [`CurveError`] that names the [rule](Self) that the ramps break.
-    pub const fn with_octaves(
-        opening: CubicBezier,
-        closing: CubicBezier,
-    ) -> Result<Self, CurveError> {
+    pub const fn with_octaves(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
         Ok(Self { inverse: tried!(Inverse::new(&opening, &closing)) })
     }
 
@@ -365,11 +355,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// A rate of 0, or one at which the interval has more than 2³¹ ticks; more than 2²² triggers.
-    pub const fn trigger_ticks(
-        &self,
-        n: u32,
-        timer_hz: u32,
-    ) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
+    pub const fn trigger_ticks(&self, n: u32, timer_hz: u32) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
         let frame = tried!(Ticks::new(&self.inverse, n, timer_hz));
         Ok(TriggerTicks { frame, left: 0..n })
     }
@@ -393,12 +379,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// # Errors
     /// A gap that is too small, after which the slice holds a part of the frame; and those of
     /// [`trigger_ticks`](Self::trigger_ticks), after which it is unchanged.
-    pub const fn ticks_into(
-        &self,
-        ticks: &mut [u32],
-        timer_hz: u32,
-        min_gap: u32,
-    ) -> Result<(), ScheduleError> {
+    pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
         }
@@ -421,11 +402,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// Those of [`ticks_into`](Self::ticks_into).
-    pub const fn ticks<const N: usize>(
-        &self,
-        timer_hz: u32,
-        min_gap: u32,
-    ) -> Result<[u32; N], ScheduleError> {
+    pub const fn ticks<const N: usize>(&self, timer_hz: u32, min_gap: u32) -> Result<[u32; N], ScheduleError> {
         let mut ticks = [0; N];
         tried!(self.ticks_into(&mut ticks, timer_hz, min_gap));
         Ok(ticks)
@@ -474,12 +451,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// # Errors
     /// Those of [`trigger_ticks`](Self::trigger_ticks).
-    pub const fn most_triggers(
-        &self,
-        wanted: u32,
-        timer_hz: u32,
-        min_gap: u32,
-    ) -> Result<u32, ScheduleError> {
+    pub const fn most_triggers(&self, wanted: u32, timer_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
         let frame = tried!(Ticks::new(&self.inverse, wanted, timer_hz));
         // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
         let guess = timer_hz as f32 / (self.normalization() * min_gap as f32);
@@ -609,9 +581,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 /// If `curve` is an error; meant for constants, where that stops the build.
 #[must_use]
 #[track_caller]
-pub const fn valid<const OCTAVES: usize>(
-    curve: Result<ShutterCurve<OCTAVES>, CurveError>,
-) -> ShutterCurve<OCTAVES> {
+pub const fn valid<const OCTAVES: usize>(curve: Result<ShutterCurve<OCTAVES>, CurveError>) -> ShutterCurve<OCTAVES> {
     match curve {
         Ok(curve) => curve,
         Err(error) => panic!("{}", error.message()),

@@ -81,11 +81,9 @@ fn powers_have_a_closed_form() {
     let even = Exact::new(&Curve::single([(7.0, 1.0), (7.0, 1.0), (9.0, 1.0), (9.0, 1.0)]));
     for u in hard_us(&quartic, 2, 4000) {
         let part = Dd::from(u);
-        for (exact, time) in [
-            (&quartic, part.sqrt().sqrt() * 3.0),
-            (&square, part.sqrt()),
-            (&even, part * 2.0 + Dd::from(7.0)),
-        ] {
+        for (exact, time) in
+            [(&quartic, part.sqrt().sqrt() * 3.0), (&square, part.sqrt()), (&even, part * 2.0 + Dd::from(7.0))]
+        {
             let found = exact.inverse_cdf(u);
             let off = relative(found, time, time);
             assert!(off < 2e-29, "u = {u:e}: {found:?} for {time:?}");
@@ -126,8 +124,7 @@ fn a_mirrored_or_scaled_curve_gives_mirrored_or_scaled_times() {
     for i in 0..500 {
         let curve = random_hard(2, i);
         let exact = Exact::new(&curve);
-        let (mirrored, scaled) =
-            (Exact::new(&curve.mirrored()), Exact::new(&curve.scaled(exp2(-3) as f32)));
+        let (mirrored, scaled) = (Exact::new(&curve.mirrored()), Exact::new(&curve.scaled(exp2(-3) as f32)));
         for u in hard_us(&exact, i, 32) {
             let time = exact.inverse_cdf(u);
             assert_eq!(scaled.inverse_cdf(u), time.scale(exp2(-3)));
@@ -184,10 +181,7 @@ fn errors_are_measured_in_ulp() {
     // Across time 0 the reach is an ulp of the greater end.
     assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-25) as f32, 0.0), 0.0);
     assert_eq!(across.near(0.0).cdf_ulp(0.5 + exp2(-23) as f32, 0.0), 1.0);
-    assert_eq!(
-        [exact.near(0.5).openness_ulp(1.0, 0.0), exact.near(2.0).openness_ulp(0.0, 0.0)],
-        [0.0; 2]
-    );
+    assert_eq!([exact.near(0.5).openness_ulp(1.0, 0.0), exact.near(2.0).openness_ulp(0.0, 0.0)], [0.0; 2]);
     assert_eq!(exact.near(0.5).openness_ulp(1f32.next_down(), 0.0), 0.5);
     // The density touches 0 between two samples of time.
     let dip = Exact::new(&Curve::single([(0.0, 0.75), (0.25, -0.25), (0.5, -0.25), (0.75, 0.75)]));

@@ -9,9 +9,8 @@ mod support;
 use support::aimed::{FAMILIES, aimed};
 use support::cases::{CASES, shutter};
 use support::curves::{
-    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted,
-    hard_openness, hard_times, hard_us, instant, line, named, neighbours, placed, random_density,
-    random_hard, random_typical, settled, shape,
+    Kind, LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, accepted, hard_openness, hard_times,
+    hard_us, instant, line, named, neighbours, placed, random_density, random_hard, random_typical, settled, shape,
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
@@ -50,7 +49,8 @@ fn ask(figures: &mut Figures, curve: &Curve, all_octaves: bool, reach: Reach) {
     }
 }
 
-/// Is a design as [`random_typical`](support::curves::random_typical) draws them? On these the forward error is promised.
+/// Is a design as [`random_typical`](support::curves::random_typical) draws them? On these the forward error is
+/// promised.
 fn is_typical(curve: &Curve) -> bool {
     let is_gentle = |ramp: Points| {
         let length = ramp[3].0 - ramp[0].0;
@@ -212,8 +212,7 @@ fn octaves_at_their_limit() {
     for index in 0..1200 * times() {
         let rng = &mut Rng::new(SEED, index);
         let [at, a, b] = [0; 3].map(|_| rng.unit());
-        let (flat, rest) =
-            (hard_openness(rng), [0.0, 1.0, 30.0, 1000.0][rng.below(4) as usize] as f32);
+        let (flat, rest) = (hard_openness(rng), [0.0, 1.0, 30.0, 1000.0][rng.below(4) as usize] as f32);
         let t = hard_times(rng);
         let with = |dial: f64| {
             let first = dial * MOST_CROSSED + at * (1.0 - dial * MOST_CROSSED);
@@ -281,8 +280,7 @@ fn faults() {
     let closing = [(-1.22e-7, 1.0), (-1.525e-8, 0.0), (-1.0675e-7, 0.0), (0.0, 1.0)];
     curves.push(Curve::shutter(instant(-1.338), closing));
     // Subnormal times.
-    let closing =
-        [(2.6020853e-19, 1.0), (4.3368087e-19, 0.7), (6.938894e-19, 0.3), (8.6736174e-19, 0.0)];
+    let closing = [(2.6020853e-19, 1.0), (4.3368087e-19, 0.7), (6.938894e-19, 0.3), (8.6736174e-19, 0.0)];
     curves.push(Curve::shutter(instant(-1.1912527e-38), closing));
     let opening = [(-6e-20, 0.0), (-4.6e-44, 0.24176656), (-4.6e-44, 0.6375081), (-1e-45, 1.0)];
     curves.push(Curve::shutter(opening, instant(1e-20)));
@@ -291,10 +289,7 @@ fn faults() {
     let half = line((-unit, 1.0), (least - unit, 0.0));
     curves.push(Curve::shutter(line((-1.0, 0.0), (-unit, 1.0)), half));
     let plateau = [-1.75 * unit, 0.75 * unit];
-    curves.push(Curve::shutter(
-        line((-0.5, 0.0), (plateau[0], 1.0)),
-        line((plateau[1], 1.0), (0.5, 0.0)),
-    ));
+    curves.push(Curve::shutter(line((-0.5, 0.0), (plateau[0], 1.0)), line((plateau[1], 1.0), (0.5, 0.0))));
     // The line, counted from either end.
     for [open, close] in [[0.001, 0.9995], [0.3, 0.999], [0.0, 1.0], [0.002, 0.6]] {
         let [opening, closing] = [line((0.0, 0.0), (open, 1.0)), line((close, 1.0), (1.0, 0.0))];
@@ -312,25 +307,21 @@ fn faults() {
         }
     }
     // Boxes in which the middle of two fractions is where the time since the start gains a last bit.
-    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)]
-    {
+    for (start, end) in [(-1.3730043, 2.5725152), (-1.7764826, 0.6210457), (-1.8631686, 2.4521976)] {
         let ours = shutter::<8>(&Curve::shutter(instant(start), instant(end)));
         let first = (exp2(-24) as f32).to_bits() - 200;
         let values: Vec<f32> = (first..first + 400).map(|t| ours.cdf(f32::from_bits(t))).collect();
         assert!(values.is_sorted(), "from {start} to {end}");
     }
-    // Parts of frames: hardly any light precedes a closing ramp; the last of 2³¹ ticks; a first pulse next to the start.
+    // Parts of frames: hardly any light precedes a closing ramp; the last of 2³¹ ticks; a first pulse next to the
+    // start.
     let third = 1.0 / 3.0;
     let late = Curve::shutter(
         [(0.0, 0.0), (3e-5, 0.3), (6e-5, 0.6), (1e-4, 1.0)],
         [(1e-4, 1.0), (0.33, 0.0), (0.66, 0.0), (1.0, 0.0)],
     );
-    let last = Curve::shutter(
-        [(-1.0, 0.0), (-1.0, 1.472065e-5), (-1.0, 1.768388e-5), (0.0, 1.0)],
-        instant(0.16237123),
-    );
-    let first =
-        Curve::shutter([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)], instant(1.0));
+    let last = Curve::shutter([(-1.0, 0.0), (-1.0, 1.472065e-5), (-1.0, 1.768388e-5), (0.0, 1.0)], instant(0.16237123));
+    let first = Curve::shutter([(0.0, 0.0), (third, 0.0), (2.0 * third, 0.0), (1.0, 1.0)], instant(1.0));
     let all = 1 << 22;
     for (curve, n, duty, at, count, hz) in [
         (late, all / 4, None, all / 4 - 2000, 2000, 1 << 31),
@@ -440,22 +431,10 @@ fn aimed_curves_meet_what_they_are_aimed_at() {
             },
             200,
         ),
-        (
-            "an end of order 6",
-            |c, _| c.opening[2] == (c.open_start(), 0.0) && sections(c)[0] > 0.0,
-            30,
-        ),
-        (
-            "a section of the least length",
-            |c, _| sections(c).contains(&(LEAST_SECTION * greatest(c))),
-            50,
-        ),
+        ("an end of order 6", |c, _| c.opening[2] == (c.open_start(), 0.0) && sections(c)[0] > 0.0, 30),
+        ("a section of the least length", |c, _| sections(c).contains(&(LEAST_SECTION * greatest(c))), 50),
         ("the least interval", |c, _| whole(c) == LEAST_INTERVAL * greatest(c), 200),
-        (
-            "the least exposure, to 2^-19",
-            |c, e| e.area().hi < (1.0 + exp2(-19)) * LEAST_EXPOSURE * whole(c),
-            50,
-        ),
+        ("the least exposure, to 2^-19", |c, e| e.area().hi < (1.0 + exp2(-19)) * LEAST_EXPOSURE * whole(c), 50),
         ("a density dark at both ends", |c, _| c.opening[0].1 == 0.0 && c.opening[3].1 == 0.0, 50),
         ("an inner join at time 0", |c, _| c.open_end() == 0.0 || c.close_start() == 0.0, 300),
         ("across time 0", |c, _| is_across(c), 400),
@@ -464,11 +443,7 @@ fn aimed_curves_meet_what_they_are_aimed_at() {
             |_, e| e.landmarks()[..2].iter().any(|u| (u.hi - 0.5).abs() < exp2(-26)),
             40,
         ),
-        (
-            "a ramp with less than 2^-20 of the light",
-            |_, e| (exp2(-60)..exp2(-20)).contains(&e.landmarks()[0].hi),
-            60,
-        ),
+        ("a ramp with less than 2^-20 of the light", |_, e| (exp2(-60)..exp2(-20)).contains(&e.landmarks()[0].hi), 60),
         (
             "an f32 is the fraction where something changes, to 2^-34",
             |_, e| {
@@ -482,7 +457,5 @@ fn aimed_curves_meet_what_they_are_aimed_at() {
         ),
     ];
     let families = FAMILIES.len() as u64;
-    have(&features, 300 * families, |index| {
-        aimed((index % families) as usize, SEED, index / families)
-    });
+    have(&features, 300 * families, |index| aimed((index % families) as usize, SEED, index / families));
 }

@@ -17,8 +17,8 @@ fn number(rng: &mut Rng) -> f32 {
     }
 }
 
-/// Eight times at any offset and scale, and eight opennesses; sorted, within [0, 1] and 1 at the joins, so that some make
-/// a curve, or not.
+/// Eight times at any offset and scale, and eight opennesses; sorted, within [0, 1] and 1 at the joins, so that some
+/// make a curve, or not.
 fn ramps(rng: &mut Rng) -> Curve {
     let [mut t, mut f] = [0, 1].map(|_| [0; 8].map(|_| number(rng)));
     let scale = exp2(rng.below(140) as i32 - 70);
@@ -67,9 +67,7 @@ fn a_shutter_is_refused_or_keeps_its_promises() {
         accepted += 1;
         let us: Vec<f32> = (0..8).map(|_| number(rng)).collect();
         let parts: Vec<f32> = (0..4).map(|_| number(rng)).collect();
-        let at = |part: f32| {
-            (f64::from(start) + (f64::from(end) - f64::from(start)) * f64::from(part)) as f32
-        };
+        let at = |part: f32| (f64::from(start) + (f64::from(end) - f64::from(start)) * f64::from(part)) as f32;
         let ts = parts.iter().flat_map(|part| [*part, at(*part)]);
         let ts: Vec<f32> = ts.chain([0.0, -0.0, 1e-45, ours.open_end()]).collect();
         for u in us.iter().chain(&[0.0, -0.0]) {

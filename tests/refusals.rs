@@ -6,9 +6,7 @@ mod support;
 use CurveError as E;
 use Part::{Closing, Opening, Plateau};
 use shutter_curve::{CubicBezier, CurveError, Part, ScheduleError, ShutterCurve};
-use support::curves::{
-    LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, instant, is_valid, line,
-};
+use support::curves::{LEAST_EXPOSURE, LEAST_INTERVAL, LEAST_SECTION, MOST_CROSSED, Rng, instant, is_valid, line};
 use support::oracle::{Curve, Points, exp2};
 
 const OPENS: Points = [(0.0, 0.0), (0.1, 0.0), (0.15, 1.0), (0.25, 1.0)];
@@ -45,12 +43,8 @@ fn other(part: Part) -> Part {
 fn both(opening: Points, closing: Points, expected: Result<(), CurveError>) {
     assert_eq!(verdict(opening, closing), expected, "{opening:?} {closing:?}");
     let expected = expected.map_err(|error| match error {
-        E::TimeOutsideRamp { part, point } => {
-            E::TimeOutsideRamp { part: other(part), point: 3 - point }
-        }
-        E::OpennessOutOfRange { part, point } => {
-            E::OpennessOutOfRange { part: other(part), point: 3 - point }
-        }
+        E::TimeOutsideRamp { part, point } => E::TimeOutsideRamp { part: other(part), point: 3 - point },
+        E::OpennessOutOfRange { part, point } => E::OpennessOutOfRange { part: other(part), point: 3 - point },
         E::TimesCross(part) => E::TimesCross(other(part)),
         E::NotFullyOpen(part) => E::NotFullyOpen(other(part)),
         E::TooShort(part) => E::TooShort(other(part)),
@@ -163,8 +157,7 @@ fn rule_2_openness_lies_between_0_and_1() {
                 ramp
             };
             let error = |part| E::OpennessOutOfRange { part, point: point as u8 };
-            let at_edge =
-                if point == 3 && edge == 0.0 { Err(E::NotFullyOpen(Opening)) } else { Ok(()) };
+            let at_edge = if point == 3 && edge == 0.0 { Err(E::NotFullyOpen(Opening)) } else { Ok(()) };
             both(with(edge), CLOSES, at_edge);
             both(with(beyond), CLOSES, Err(error(Opening)));
             assert_eq!(density(with(edge)), Ok(()));
@@ -212,11 +205,7 @@ fn rule_2_the_first_inner_time_passes_the_second_by_15_16() {
         both(
             with(t1, f32::next_down(t2)),
             instant(1.0),
-            if t2 == 0.0 {
-                Err(E::TimeOutsideRamp { part: Opening, point: 2 })
-            } else {
-                Err(E::TimesCross(Opening))
-            },
+            if t2 == 0.0 { Err(E::TimeOutsideRamp { part: Opening, point: 2 }) } else { Err(E::TimesCross(Opening)) },
         );
     }
 }
@@ -249,9 +238,7 @@ fn rule_3_ramps_are_fully_open_at_their_join() {
 #[test]
 fn rule_4_the_interval_is_resolved_and_in_range() {
     let rng = &mut Rng::new(5, 0);
-    let holds = |start: f32, end: f32| {
-        span(start, end) >= LEAST_INTERVAL * f64::from(start.abs().max(end.abs()))
-    };
+    let holds = |start: f32, end: f32| span(start, end) >= LEAST_INTERVAL * f64::from(start.abs().max(end.abs()));
     for i in 0..2000 {
         let start = if i % 2 == 0 {
             [1000.0, 0.1, 1.0, 3600.0, 1024.0, 65_535.0][i / 2 % 6]
@@ -268,9 +255,7 @@ fn rule_4_the_interval_is_resolved_and_in_range() {
     }
     both(instant(65_535.0), instant(65_536.0), Ok(()));
     let out_of_range = Err(E::IntervalOutOfRange);
-    for (length, beyond) in
-        [(exp2(-64) as f32, f32::next_down as fn(f32) -> f32), (exp2(64) as f32, f32::next_up)]
-    {
+    for (length, beyond) in [(exp2(-64) as f32, f32::next_down as fn(f32) -> f32), (exp2(64) as f32, f32::next_up)] {
         for before in [0.0, 0.25, 0.5] {
             let [start, end] = [-before * length, (1.0 - before) * length];
             both(instant(start), instant(end), Ok(()));
@@ -291,15 +276,11 @@ fn rule_4_the_interval_is_resolved_and_in_range() {
 fn rule_5_sections_have_no_length_or_the_least() {
     let rng = &mut Rng::new(6, 0);
     for i in 0..2000 {
-        let greatest = if i % 2 == 0 {
-            [1.0, 10.0, 0.02, 1000.0][i / 2 % 4]
-        } else {
-            rng.power_of_ten(-9.0, 9.0) as f32
-        };
+        let greatest =
+            if i % 2 == 0 { [1.0, 10.0, 0.02, 1000.0][i / 2 % 4] } else { rng.power_of_ten(-9.0, 9.0) as f32 };
         let least = |end: f32| LEAST_SECTION * f64::from(end);
         // The short section begins here, where `f32` are fine enough.
-        let from =
-            (f64::from(greatest) * (rng.unit() - 0.5) * exp2(-(rng.below(20) as i32 + 10))) as f32;
+        let from = (f64::from(greatest) * (rng.unit() - 0.5) * exp2(-(rng.below(20) as i32 + 10))) as f32;
         let near = (f64::from(from) + least(greatest)) as f32;
         let [to, short] = edge(near, false, |to| span(from, to) >= least(greatest));
         let [_, late] = edge(from, true, |from| span(from, to) >= least(greatest));
@@ -363,8 +344,7 @@ fn rule_6_a_density_has_the_least_exposure() {
 fn the_first_rule_is_named() {
     let mut ramp = [(0.0, -1.0), (2.0, 2.0), (-1.0, 0.5), (0.9, 0.5)];
     let closing = line((1.0, 1.0), (1.0 + 1e-7, 0.0));
-    let mut errors =
-        vec![verdict(ramp, [(0.5, f32::NAN); 4]), verdict(ramp, line((0.5, 1.0), (1.0, 0.0)))];
+    let mut errors = vec![verdict(ramp, [(0.5, f32::NAN); 4]), verdict(ramp, line((0.5, 1.0), (1.0, 0.0)))];
     errors.push(verdict(ramp, closing));
     ramp[0].1 = 0.0;
     errors.extend([verdict(ramp, instant(1.0))]);
@@ -391,8 +371,7 @@ fn the_first_rule_is_named() {
 fn messages() {
     let told = |error: &dyn std::error::Error, text: &str| assert_eq!(error.to_string(), text);
     let points = ["first point", "first inner point", "second inner point", "last point"];
-    for (part, name) in [(Opening, "opening ramp"), (Plateau, "plateau"), (Closing, "closing ramp")]
-    {
+    for (part, name) in [(Opening, "opening ramp"), (Plateau, "plateau"), (Closing, "closing ramp")] {
         assert_eq!(part.to_string(), name);
         let end = if part == Closing { "begin" } else { "end" };
         let open = format!("it has to {end} fully open, at openness 1");
@@ -404,10 +383,7 @@ fn messages() {
                  move them closer",
             ),
             (E::NotFullyOpen(part), &open),
-            (
-                E::TooShort(part),
-                "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length",
-            ),
+            (E::TooShort(part), "it is shorter than 2^-24 of the greatest time; make it longer, or give it no length"),
         ] {
             told(&error, &format!("{name}: {text}"));
         }
@@ -427,10 +403,7 @@ fn messages() {
         }
     }
     for (error, text) in [
-        (
-            E::TimesOutOfOrder,
-            "times out of order: open_start <= open_end <= close_start <= close_end is required",
-        ),
+        (E::TimesOutOfOrder, "times out of order: open_start <= open_end <= close_start <= close_end is required"),
         (
             E::DensityOutOfRange,
             "the density has to be in [0, 1] at each control point; scale a greater one down \
@@ -441,10 +414,7 @@ fn messages() {
             "the interval is too short for its distance from time 0: below 2^-16 of its greatest \
              time; count times from a nearer origin",
         ),
-        (
-            E::IntervalOutOfRange,
-            "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)",
-        ),
+        (E::IntervalOutOfRange, "the interval is shorter than 2^-64 (5.4e-20) or longer than 2^64 (1.8e19)"),
         (
             E::DensityTooSmall,
             "the density's exposure is below 2^-20 of its interval; scale it up \
@@ -456,39 +426,21 @@ fn messages() {
     use ScheduleError as S;
     for (error, text) in [
         (S::TickRateZero, "the tick rate is 0"),
-        (
-            S::TickRateTooHigh { most: 9 },
-            "the interval is longer than 2^31 ticks; up to 9 Hz it is not",
-        ),
-        (
-            S::TickRateTooHigh { most: 0 },
-            "the interval is longer than 2^31 ticks, whatever the rate",
-        ),
-        (
-            S::TooManyTriggers { most: 1 << 22 },
-            "more triggers or pulses than the 4194304 that a frame can have",
-        ),
-        (
-            S::CapacityExceeded { capacity: 16 },
-            "more triggers than the 16 that the schedule can hold",
-        ),
+        (S::TickRateTooHigh { most: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
+        (S::TickRateTooHigh { most: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
+        (S::TooManyTriggers { most: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
+        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the schedule can hold"),
         (
             S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
             "the gap before trigger 3 is 562 ticks; the minimum is 1000",
         ),
-        (
-            S::GapTooSmall { trigger: 1, gap: 1, min_gap: 2 },
-            "the gap before trigger 1 is 1 tick; the minimum is 2",
-        ),
+        (S::GapTooSmall { trigger: 1, gap: 1, min_gap: 2 }, "the gap before trigger 1 is 1 tick; the minimum is 2"),
         (
             S::PulsesTooClose { pulse: 17, gap: 0, min_gap: 4711 },
             "the gap before pulse 17 is 0 ticks; the minimum is 4711",
         ),
         (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
-        (
-            S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 },
-            "pulse 17 lasts 815 ticks; the minimum is 4711",
-        ),
+        (S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 }, "pulse 17 lasts 815 ticks; the minimum is 4711"),
     ] {
         told(&error, text);
     }
@@ -504,13 +456,9 @@ fn read(x: f64, decimals: usize) -> f32 {
 #[test]
 fn inner_points_at_ends_and_joins_are_accepted() {
     let mut curves = 0;
-    for (length, decimals) in
-        [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 1), (0.02, 4), (2.13, 3), (8.1, 2)]
-    {
+    for (length, decimals) in [(0.1, 3), (0.01, 4), (1.0, 2), (10.0, 1), (100.0, 1), (0.02, 4), (2.13, 3), (8.1, 2)] {
         for start in [0.0, 0.1, 1000.0, -3.3, -2.0 * length, length, -0.37 * length] {
-            for (open, close) in
-                (0..=100).step_by(7).flat_map(|i| (i..=100).step_by(9).map(move |k| (i, k)))
-            {
+            for (open, close) in (0..=100).step_by(7).flat_map(|i| (i..=100).step_by(9).map(move |k| (i, k))) {
                 let parts = [open, close].map(|part| f64::from(part) / 100.0);
                 let [s, ms] = [1.0, 1000.0].map(|unit| {
                     let typed = |t: f64| read(unit * t, if unit == 1.0 { decimals + 2 } else { 1 });
@@ -525,18 +473,12 @@ fn inner_points_at_ends_and_joins_are_accepted() {
     println!("{curves} curves");
     assert!(curves > 10_000, "{curves}");
     // What was refused by versions before, once the closing ramp is as long as it has to be.
-    for times in
-        [[-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-7], [-1e19, -1e19, 1000.0, 1e15]]
-    {
-        for inner in
-            [[0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0]]
-        {
+    for times in [[-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-7], [-1e19, -1e19, 1000.0, 1e15]] {
+        for inner in [[0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0]] {
             assert_eq!(ShutterCurve::shutteropening(times, inner).map(|_| ()), Ok(()), "{times:?}");
         }
     }
-    for times in
-        [[-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-9], [-1e19, -1e19, 1000.0, 1500.0]]
-    {
+    for times in [[-1.3883804, -0.6941902, 4.2855483e-10, 1.8542775e-9], [-1e19, -1e19, 1000.0, 1500.0]] {
         let inner = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0];
         assert_eq!(ShutterCurve::shutteropening(times, inner), Err(E::TooShort(Closing)));
     }
@@ -550,42 +492,32 @@ fn judge_inner(times: [f32; 4], parts: [f64; 2]) -> bool {
         return false;
     }
     // As it is typed, and as `(join - start) / (end - start)` is computed in either precision.
-    let divided =
-        |join: f32| [(join - start) / (end - start), (span(start, join) / span(start, end)) as f32];
+    let divided = |join: f32| [(join - start) / (end - start), (span(start, join) / span(start, end)) as f32];
     let [opened, closes] = [(open, parts[0]), (close, parts[1])].map(|(join, part)| {
         let [single, double] = divided(join);
         [part as f32, single, double]
     });
     for (opened, closes) in opened.into_iter().zip(closes) {
-        for inner in
-            [[0.0, opened, closes, 1.0], [opened, opened, closes, closes], [0.0, 0.0, 1.0, 1.0]]
-        {
+        for inner in [[0.0, opened, closes, 1.0], [opened, opened, closes, closes], [0.0, 0.0, 1.0, 1.0]] {
             let [t1, t2, t5, t6] = inner;
             let inner = [t1, 0.0, t2, 1.0, t5, 1.0, t6, 0.0];
             let (opening, closing) = CubicBezier::shutteropening(times, inner);
             let curve = ShutterCurve::<0>::with_octaves(opening, closing).map(|_| ());
             assert_eq!(curve, Ok(()), "{times:?} {inner:?}");
             let points = [opening.points(), closing.points()].concat();
-            for (i, (fraction, from, to)) in [
-                (1, (t1, start, open)),
-                (2, (t2, start, open)),
-                (5, (t5, close, end)),
-                (6, (t6, close, end)),
-            ] {
+            for (i, (fraction, from, to)) in
+                [(1, (t1, start, open)), (2, (t2, start, open)), (5, (t5, close, end)), (6, (t6, close, end))]
+            {
                 let t = points[i].0;
                 assert!((from..=to).contains(&t), "{t:e} of {times:?} {inner:?}");
                 let is_end = fraction == 0.0 && t == start || fraction == 1.0 && t == end;
-                assert!(
-                    is_end || fraction != 0.0 && fraction != 1.0,
-                    "{t:e} of {times:?} {inner:?}"
-                );
+                assert!(is_end || fraction != 0.0 && fraction != 1.0, "{t:e} of {times:?} {inner:?}");
                 // In doubles, as far as rounding passes the ramp it is its end.
                 let meant = f64::from(start) + f64::from(fraction) * span(start, end);
                 let clamped = meant.clamp(f64::from(from), f64::from(to));
                 assert!(
                     (f64::from(t) - clamped).abs()
-                        <= exp2(-24) * clamped.abs()
-                            + exp2(-50) * f64::from(end.abs().max(start.abs())),
+                        <= exp2(-24) * clamped.abs() + exp2(-50) * f64::from(end.abs().max(start.abs())),
                     "{t:e} of {times:?} {inner:?}"
                 );
             }
@@ -606,11 +538,7 @@ fn shutteropening_names_what_is_wrong() {
         for beyond in [from - 1e-6, to + 1e-6] {
             let mut inner = inner;
             inner[i] = beyond;
-            assert_eq!(
-                curve(times, inner),
-                Err(E::FractionOutsideRamp { part, point }),
-                "{beyond}"
-            );
+            assert_eq!(curve(times, inner), Err(E::FractionOutsideRamp { part, point }), "{beyond}");
         }
     }
     // The ramp whose number it is.
@@ -627,8 +555,7 @@ fn shutteropening_names_what_is_wrong() {
 #[test]
 fn fractions_and_times_beyond_the_curve() {
     let curve = ShutterCurve::linear(2.0, 2.25, 2.75, 3.0).unwrap();
-    for u in [0.0, -0.0, -1e-45, -0.3, -1.0, -2.0, f32::MIN, f32::NEG_INFINITY, f32::NAN, -f32::NAN]
-    {
+    for u in [0.0, -0.0, -1e-45, -0.3, -1.0, -2.0, f32::MIN, f32::NEG_INFINITY, f32::NAN, -f32::NAN] {
         assert_eq!(curve.inverse_cdf(u), 2.0, "{u}");
     }
     for u in [1.0, 1.0f32.next_up(), 1.3, 2.0, f32::MAX, f32::INFINITY] {

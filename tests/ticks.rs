@@ -1,39 +1,30 @@
-//! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks themselves.
+//! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks
+//! themselves.
 
 mod support;
 
-use shutter_curve::{
-    CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, valid,
-};
+use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, valid};
 use support::cases::shutter;
 use support::curves::{Kind, named, random_hard, random_typical};
 use support::oracle::{Curve, Dd, Exact};
 use support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
 
-const SOFT: ShutterCurve = valid(ShutterCurve::shutteropening(
-    [0.0, 0.25, 0.75, 1.0],
-    [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
-));
+const SOFT: ShutterCurve =
+    valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
 
 #[test]
 fn a_static_curve_is_the_one_built_at_run_time() {
     static CURVE: ShutterCurve = SOFT;
-    let again = ShutterCurve::shutteropening(
-        [0.0, 0.25, 0.75, 1.0],
-        [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
-    );
+    let again = ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]);
     assert_eq!(Ok(CURVE.clone()), again);
 }
 
-/// A density dark at both ends, whose inner times cross: a search meets a slope of 0 and a NaN, whose sign differs by machine.
+/// A density dark at both ends, whose inner times cross: a search meets a slope of 0 and a NaN, whose sign differs by
+/// machine.
 #[test]
 fn a_constant_has_the_ticks_of_run_time() {
-    const DARK: ShutterCurve = valid(ShutterCurve::density(CubicBezier::new([
-        (0.0, 0.0),
-        (1.0, 1.0),
-        (0.0, 0.0),
-        (1.0799999, 0.0),
-    ])));
+    const DARK: ShutterCurve =
+        valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
     const TICKS: Result<[u32; 16], ScheduleError> = DARK.ticks(1_000_000_000, 0);
     assert_eq!(std::hint::black_box(&DARK).ticks(1_000_000_000, 0), TICKS);
 }
@@ -41,11 +32,7 @@ fn a_constant_has_the_ticks_of_run_time() {
 #[test]
 fn fractions_are_of_the_interval() {
     let a = SOFT;
-    let b = ShutterCurve::shutteropening(
-        [8.0, 9.0, 11.0, 12.0],
-        [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0],
-    )
-    .unwrap();
+    let b = ShutterCurve::shutteropening([8.0, 9.0, 11.0, 12.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]).unwrap();
     for i in 0..=64 {
         let u = i as f32 / 64.0;
         assert!((8.0 + 4.0 * a.inverse_cdf(u) - b.inverse_cdf(u)).abs() < 2e-6);
@@ -104,9 +91,8 @@ fn frames_that_are_refused() {
         assert_eq!(error, Err(S::DutyOutOfRange));
     }
     let mut pulses = [Pulse::default(); 12];
-    let mut checked = |duty, min_pulse, min_gap| {
-        SOFT.pulses_into(&mut pulses, duty, 1_000_000, PulseLimits { min_pulse, min_gap })
-    };
+    let mut checked =
+        |duty, min_pulse, min_gap| SOFT.pulses_into(&mut pulses, duty, 1_000_000, PulseLimits { min_pulse, min_gap });
     let (pulse, length, min_pulse) = (2, 31_250, 32_000);
     assert_eq!(checked(0.5, 30_000, 30_000), Ok(()));
     assert_eq!(checked(0.5, length, 0), Ok(()));
@@ -158,9 +144,7 @@ fn slices_for_a_schedule() {
     let gap = ScheduleError::GapTooSmall { trigger: 1, gap: 375, min_gap: u32::MAX };
     assert_eq!(curve.ticks_into(&mut [0; 2], 1000, u32::MAX), Err(gap));
     // More triggers than ticks.
-    let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else {
-        panic!("5000 ticks of 1000")
-    };
+    let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else { panic!("5000 ticks of 1000") };
     assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
     assert_eq!(curve.ticks_into(&mut [0; 5000], 1000, 0), Ok(()));
 }
@@ -264,8 +248,8 @@ fn direct_frames_are_large() {
     assert!(none < 200, "{none}");
 }
 
-/// Where the opening ramp has exactly half of the light and a plateau follows, ticks count 1/2 from the later end; a tent
-/// has no plateau at all.
+/// Where the opening ramp has exactly half of the light and a plateau follows, ticks count 1/2 from the later end; a
+/// tent has no plateau at all.
 #[test]
 fn a_join_at_half_or_anywhere_needs_no_search() {
     for (open, closes) in [(1.0, 2.0), (2.0, 0.0), (0.5, 3.0)] {
@@ -323,8 +307,7 @@ fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
     sorted.sort_unstable();
-    for min_gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten()
-    {
+    for min_gap in [sorted.first(), sorted.get(n as usize / 2), sorted.last()].into_iter().flatten() {
         let min_gap = min_gap + 1;
         let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
         let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
@@ -384,20 +367,11 @@ fn half_open() -> ShutterCurve {
 
 #[test]
 fn the_most_that_keep_the_gap() {
-    let keeps = |curve: &ShutterCurve, n: u32, hz, gap| {
-        curve.ticks_into(&mut vec![0; n as usize], hz, gap).is_ok()
-    };
+    let keeps = |curve: &ShutterCurve, n: u32, hz, gap| curve.ticks_into(&mut vec![0; n as usize], hz, gap).is_ok();
     for curve in [SOFT, ShutterCurve::linear(0.0, 0.0, 1.0, 1.0).unwrap(), half_open()] {
-        for (hz, gap) in [
-            (1000, 47),
-            (1000, 50),
-            (1_000_000, 33_333),
-            (1_000_000, 1_000),
-            (100, 7),
-            (10, 9),
-            (7, 100),
-            (50, 1),
-        ] {
+        for (hz, gap) in
+            [(1000, 47), (1000, 50), (1_000_000, 33_333), (1_000_000, 1_000), (100, 7), (10, 9), (7, 100), (50, 1)]
+        {
             for wanted in [2, 3, 64, 1000, 10_000] {
                 let found = curve.most_triggers(wanted, hz, gap).unwrap();
                 if keeps(&curve, wanted, hz, gap) {
@@ -405,14 +379,8 @@ fn the_most_that_keep_the_gap() {
                     continue;
                 }
                 assert!(found >= 1 && found < wanted, "{found} of {wanted}");
-                assert!(
-                    keeps(&curve, found, hz, gap),
-                    "{found} of {wanted} at {hz} Hz, {gap} ticks"
-                );
-                assert!(
-                    !keeps(&curve, found + 1, hz, gap),
-                    "{found} and one more, {hz} Hz, {gap} ticks"
-                );
+                assert!(keeps(&curve, found, hz, gap), "{found} of {wanted} at {hz} Hz, {gap} ticks");
+                assert!(!keeps(&curve, found + 1, hz, gap), "{found} and one more, {hz} Hz, {gap} ticks");
                 let sure = curve.exposure() * hz as f32 / (gap as f32 + 1.5);
                 assert!(found >= sure as u32, "{found}, and {sure} are sure");
             }
@@ -437,8 +405,8 @@ fn a_large_curve_is_a_constant_too() {
     assert_eq!(LARGE.inverse_cdf(0.5), 0.5);
 }
 
-/// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example leaves
-/// time for.
+/// The worst direct tick is one number: the README's, the measured table's, and the one that the firmware example
+/// leaves time for.
 #[test]
 fn one_figure_for_the_worst_direct_tick() {
     let number = |text: &str, before: &str, after: &str| -> u32 {
@@ -454,12 +422,11 @@ fn one_figure_for_the_worst_direct_tick() {
     assert_eq!(row.split('|').nth(4).unwrap().trim().parse(), Ok(readme));
 }
 
-/// Fractions that lie midway between two `f32`, on a curve whose ramps are steep there: half an ulp of the fraction is a
-/// quarter of a tick, and the polynomial has its own error.
+/// Fractions that lie midway between two `f32`, on a curve whose ramps are steep there: half an ulp of the fraction is
+/// a quarter of a tick, and the polynomial has its own error.
 #[test]
 fn the_worst_tick_of_a_typical_curve() {
-    let line =
-        |from: f32, to: f32, [a, b]: [(f32, f32); 2], [f, g]: [f32; 2]| [(from, f), a, b, (to, g)];
+    let line = |from: f32, to: f32, [a, b]: [(f32, f32); 2], [f, g]: [f32; 2]| [(from, f), a, b, (to, g)];
     // Each with its frame, the trigger and the rate.
     let found = [
         (
@@ -490,15 +457,15 @@ fn the_worst_tick_of_a_typical_curve() {
     }
 }
 
-/// What each pulse of a steady lamp lets through the shutter, by the oracle's cdf; a tick at either end is half of one off.
+/// What each pulse of a steady lamp lets through the shutter, by the oracle's cdf; a tick at either end is half of one
+/// off.
 #[test]
 fn doses_are_equal() {
     for one in named().into_iter().filter(|one| one.kind == Kind::Typical) {
         let (exact, curve) = (Exact::new(&one.curve), shutter::<8>(&one.curve));
         let hz = (1e6 / (one.curve.close_end() - one.curve.open_start())) as u32;
         let at = |tick: u32| {
-            let t = Dd::from(one.curve.open_start())
-                + Dd::from(f64::from(tick)) / Dd::from(f64::from(hz));
+            let t = Dd::from(one.curve.open_start()) + Dd::from(f64::from(tick)) / Dd::from(f64::from(hz));
             exact.cdf(t)
         };
         for (n, duty) in [(12, 0.3), (12, 1.0), (5, 0.01), (64, 0.5)] {
@@ -535,12 +502,6 @@ fn ends_at_one_half_are_in_order() {
     assert_eq!(touching[0].off, touching[1].on);
     let Pulse { on, off } = curve.pulse_ticks(1, 1e-30, hz).unwrap().next().unwrap();
     assert_eq!(on, off);
-    assert_eq!(
-        curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, PulseLimits::default()),
-        Ok(())
-    );
-    assert_eq!(
-        curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, PulseLimits::default()),
-        Ok(())
-    );
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 2], 1.0, hz, PulseLimits::default()), Ok(()));
+    assert_eq!(curve.pulses_into(&mut [Pulse::default(); 1], 1e-30, hz, PulseLimits::default()), Ok(()));
 }

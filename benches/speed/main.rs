@@ -114,8 +114,7 @@ fn curves(errors: fn(&Curve) -> Vec<f64>) -> Vec<Row<Curve>> {
 
 /// The largest error and the mean.
 fn spread(errors: impl Iterator<Item = f64>) -> Vec<f64> {
-    let (most, sum, count) =
-        errors.fold((0.0f64, 0.0, 0), |(most, sum, n), e| (most.max(e), sum + e, n + 1));
+    let (most, sum, count) = errors.fold((0.0f64, 0.0, 0), |(most, sum, n), e| (most.max(e), sum + e, n + 1));
     vec![most, sum / f64::from(count)]
 }
 

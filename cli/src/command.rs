@@ -41,11 +41,7 @@ enum Command {
 }
 
 /// The whole program; the answer is its exit code.
-pub fn run(
-    args: impl IntoIterator<Item = OsString>,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> u8 {
+pub fn run(args: impl IntoIterator<Item = OsString>, out: &mut dyn Write, err: &mut dyn Write) -> u8 {
     // There is no one to tell if stderr cannot be written.
     let args = match Args::try_parse_from(args) {
         Ok(args) => args,

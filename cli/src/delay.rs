@@ -6,8 +6,8 @@ use toml::Spanned;
 use crate::fault::{Fault, What};
 use crate::scene::{Optional, not_negative, seconds};
 
-/// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from the
-/// second of the two, and only the edge can be seen.
+/// The time that a camera's shutter lets pass between the edge of its sync and the start of opening. Ticks count from
+/// the second of the two, and only the edge can be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Delay {
     /// In seconds.
@@ -43,10 +43,12 @@ pub(crate) struct Sync<'a> {
 pub(crate) const LAST: f64 = (1u32 << 31) as f64;
 
 impl Delay {
-    /// The delay and the lamp's lag that a scene has in this unit, where the frame ends so many ticks after the shutter opens.
+    /// The delay and the lamp's lag that a scene has in this unit, where the frame ends so many ticks after the shutter
+    /// opens.
     ///
     /// # Errors
-    /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a delay without one.
+    /// A delay or a lag below 0, and a delay after which the frame ends too late; a spread below 0, or what goes with a
+    /// delay without one.
     pub(crate) fn new(
         &Sync { delay, spread, falls, lag, unit, timer_hz }: &Sync,
         end: f64,
@@ -61,8 +63,7 @@ impl Delay {
         let lag = lag.map(|place| not_negative(unit, "lamp_lag", place)).transpose()?;
         let count = |seconds: f64| (seconds.max(0.0) * f64::from(timer_hz)).round();
         // The cast saturates; what is so long is refused later.
-        let beyond =
-            |delay: f64| lag.map(|lag| Lag { seconds: lag, ticks: count(lag - delay) as u32 });
+        let beyond = |delay: f64| lag.map(|lag| Lag { seconds: lag, ticks: count(lag - delay) as u32 });
         let Some(place) = delay else { return Ok((None, beyond(0.0))) };
         let seconds = seconds(unit, "delay", place)?;
         if seconds < 0.0 {

@@ -43,17 +43,12 @@ pub fn emit(form: Form, name: &str, plan: &Planned, curve: bool) -> Result<Strin
     })
 }
 
-/// Several plans as one text called `name`, in this order: modules or headers with an array of them, rows or objects one
-/// after the other.
+/// Several plans as one text called `name`, in this order: modules or headers with an array of them, rows or objects
+/// one after the other.
 ///
 /// # Errors
 /// What [`emit`] refuses of any of them, and plans that do not go together.
-pub fn several(
-    form: Form,
-    name: &str,
-    plans: &[(String, Planned)],
-    curve: bool,
-) -> Result<String, String> {
+pub fn several(form: Form, name: &str, plans: &[(String, Planned)], curve: bool) -> Result<String, String> {
     for (name, plan) in plans {
         is_ready(form, plan, curve).map_err(|reason| format!("{name}: {reason}"))?;
     }
@@ -85,10 +80,7 @@ fn is_ready(form: Form, plan: &Planned, curve: bool) -> Result<(), String> {
         lacks.push("timer_hz = ...       # your timer's rate, in Hz".into());
     }
     if plan.delay.is_some() && falls(plan).is_none() {
-        lacks.push(
-            "sync_falls = ...     # true, or false if the delay counts from an edge that rises"
-                .into(),
-        );
+        lacks.push("sync_falls = ...     # true, or false if the delay counts from an edge that rises".into());
     }
     if lacks.is_empty() {
         return Ok(());
@@ -113,12 +105,12 @@ fn set_ups(planned: &Planned) -> Vec<String> {
         Lamp::Doses { .. } => vec![format!("{in_path}; duty is for that alone")],
         Lamp::FullyOpen => vec![format!("{in_path}; fully_open is for that alone")],
         Lamp::Triggered | Lamp::Equal { .. } => {
-            let [equal, dimmed] =
-                [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&doses(it, plan)));
+            let [equal, dimmed] = [SetUp::Emulated, SetUp::InPath].map(|it| facts::few(&doses(it, plan)));
             vec![
                 format!("{emulated}: the first, the middle and the last flash give {equal}"),
                 format!("{in_path}, and dims them to {dimmed}; all alike"),
-                "                     # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)".into(),
+                "                     # with `duty = 0.5` (a lamp that takes pulses) or `fully_open = true` (xenon)"
+                    .into(),
             ]
         }
     }
@@ -131,9 +123,7 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
         let [a, b] = [one.timer, plan.timer];
         for (key, a, b) in [("timer_hz", a.hz, b.hz), ("timer_bits", a.bits, b.bits)] {
             if a != b {
-                return Err(format!(
-                    "{key}: {a} in {first}, {b} in {name}; one list is for one timer"
-                ));
+                return Err(format!("{key}: {a} in {first}, {b} in {name}; one list is for one timer"));
             }
         }
         if form == Form::Csv {
@@ -142,9 +132,7 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
         let [a, b] = [one, plan];
         if a.delay.is_some() != b.delay.is_some() {
             let (has, lacks) = if a.delay.is_some() { (first, name) } else { (name, first) };
-            return Err(format!(
-                "delay: {has} has one and {lacks} has none; an array needs all or none"
-            ));
+            return Err(format!("delay: {has} has one and {lacks} has none; an array needs all or none"));
         }
         let differ = format!("{first} and {name} differ; an array is for one");
         if falls(a) != falls(b) {
@@ -154,9 +142,7 @@ fn alike(form: Form, plans: &[(String, Planned)]) -> Result<(), String> {
             return Err(format!("set_up: {differ} set-up"));
         }
         if has_pulses(a) != has_pulses(b) {
-            return Err(format!(
-                "pulses: one of {first} and {name} has them; an array needs all or none"
-            ));
+            return Err(format!("pulses: one of {first} and {name} has them; an array needs all or none"));
         }
         let called = identifier(name);
         if let Some((other, _)) = plans[..i].iter().find(|(other, _)| identifier(other) == called) {
@@ -198,9 +184,7 @@ fn delay(plan: &Planned) -> &'static str {
         Some(lag) if lag.ticks > 0 => {
             "No delay is left: the lamp's lag is longer, and the rest is taken off the ticks."
         }
-        Some(_) => {
-            "From the edge of the camera's sync to the start of opening, less the lamp's lag."
-        }
+        Some(_) => "From the edge of the camera's sync to the start of opening, less the lamp's lag.",
         None => "From the edge of the camera's sync to the start of opening.",
     }
 }

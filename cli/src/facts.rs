@@ -30,8 +30,7 @@ impl Facts {
     pub fn new(plan: &Plan) -> Self {
         let curve = &plan.curve;
         let [open_start, open_end, close_start, close_end] =
-            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
-                .map(f64::from);
+            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()].map(f64::from);
         Self {
             opening: open_end - open_start,
             open: close_start - open_end,
@@ -76,16 +75,12 @@ pub fn lines(name: &str, plan: &Planned) -> Vec<(&'static str, String)> {
 
 fn of_curve(name: &str, plan: &Plan) -> Vec<(&'static str, String)> {
     let (facts, curve, unit) = (Facts::new(plan), &plan.curve, plan.unit);
-    let [from, open, close, to] =
-        [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
-            .map(|time| short(unit.of(time), 5));
+    let [from, open, close, to] = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
+        .map(|time| short(unit.of(time), 5));
     let [t1, t2, t3] = [facts.opening, facts.open, facts.closing].map(|time| unit.show(time));
     let mut lines = vec![
         ("scene", name.to_string()),
-        (
-            "shutter",
-            format!("opens from {from} to {open}, closes from {close} to {to} {}", unit.name()),
-        ),
+        ("shutter", format!("opens from {from} to {open}, closes from {close} to {to} {}", unit.name())),
         ("times", format!("T1 {t1} opening, T2 {t2} fully open, T3 {t3} closing")),
         ("half open", format!("TE {}, between the half openings", unit.show(facts.half_open))),
         ("exposure", format!("TV {}, fully open for as much light", unit.show(curve.exposure()))),
@@ -220,8 +215,7 @@ fn delay(delay: Option<Delay>, unit: Unit) -> String {
 
 /// What is taken off each trigger.
 fn lag(lag: Option<Lag>, unit: Unit) -> Option<(&'static str, String)> {
-    let told =
-        |lag: Lag| format!("{}: the lamp is triggered so much earlier", unit.show(lag.seconds));
+    let told = |lag: Lag| format!("{}: the lamp is triggered so much earlier", unit.show(lag.seconds));
     lag.map(|lag| ("lamp lag", told(lag)))
 }
 
@@ -230,9 +224,7 @@ fn pulses(plan: &Plan) -> Option<String> {
     let unit = plan.unit;
     match plan.lamp {
         Lamp::Triggered | Lamp::FullyOpen => None,
-        Lamp::Equal { ticks } => {
-            Some(format!("{} each, around the triggers", unit.show(plan.seconds(ticks))))
-        }
+        Lamp::Equal { ticks } => Some(format!("{} each, around the triggers", unit.show(plan.seconds(ticks)))),
         Lamp::Doses { duty } => {
             let lengths = plan.triggers.iter().filter_map(|trigger| trigger.pulse);
             let lengths = lengths.map(|(on, off)| off - on);
@@ -259,12 +251,8 @@ fn set_up(plan: &Plan) -> String {
     use Lamp::{Doses, Equal, FullyOpen, Triggered};
     let dimmed = || few(&doses(SetUp::InPath, plan));
     match (plan.set_up, plan.lamp) {
-        (Some(SetUp::InPath), Doses { .. }) => {
-            "in the light's path; a lamp steady while it is on".into()
-        }
-        (Some(SetUp::InPath), FullyOpen) => {
-            "in the light's path; one dose each, while it is fully open".into()
-        }
+        (Some(SetUp::InPath), Doses { .. }) => "in the light's path; a lamp steady while it is on".into(),
+        (Some(SetUp::InPath), FullyOpen) => "in the light's path; one dose each, while it is fully open".into(),
         (Some(SetUp::InPath), _) => {
             format!("in the light's path, which dims the flashes to {}", dimmed())
         }
@@ -280,7 +268,8 @@ fn set_up(plan: &Plan) -> String {
     }
 }
 
-/// By how much the doses of a duty differ, in percent of the greatest, if it is more than one: the timer's ticks round its pulses.
+/// By how much the doses of a duty differ, in percent of the greatest, if it is more than one: the timer's ticks round
+/// its pulses.
 pub fn unequal(plan: &Plan) -> Option<String> {
     matches!(plan.lamp, Lamp::Doses { .. }).then_some(())?;
     let least = doses(SetUp::InPath, plan).into_iter().fold(1.0, f64::min);
@@ -299,8 +288,7 @@ pub fn coarse(plan: &Planned) -> Option<f64> {
 #[cfg(feature = "terminal")]
 pub fn dimmed(plan: &Plan) -> Option<String> {
     let is_equal = matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. });
-    let doses =
-        (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| doses(SetUp::InPath, plan))?;
+    let doses = (is_equal && plan.set_up == Some(SetUp::InPath)).then(|| doses(SetUp::InPath, plan))?;
     doses.iter().any(|dose| *dose < 0.99).then(|| few(&doses))
 }
 

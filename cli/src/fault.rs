@@ -121,10 +121,7 @@ impl Pair {
 #[derive(Clone, Debug, EnumDiscriminants, Error, PartialEq)]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[strum_discriminants(derive(VariantNames), name(Code), allow(missing_docs))]
-#[strum_discriminants(
-    doc = "What is wrong, without the values.",
-    strum(serialize_all = "snake_case")
-)]
+#[strum_discriminants(doc = "What is wrong, without the values.", strum(serialize_all = "snake_case"))]
 pub enum What {
     /// What only a text can have wrong.
     #[error("{0}")]
@@ -166,9 +163,7 @@ pub enum What {
         short(*.hz, 10)
     )]
     Wraps { ticks: f64, bits: u32, most: f64, by: f64, hz: f64 },
-    #[error(
-        "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses"
-    )]
+    #[error("fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses")]
     FullyOpenPulses,
     #[error("fully_open: this shutter begins to close as soon as it is open")]
     FullyOpenNever,
@@ -193,9 +188,7 @@ pub enum What {
     Falls,
     #[error("delay: 0 or more is required; an edge cannot trigger what comes before it")]
     Delay,
-    #[error(
-        "delay: the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not"
-    )]
+    #[error("delay: the frame ends more than 2^31 ticks after the edge; with up to {most} ticks of delay it does not")]
     DelayTooLong { most: f64 },
     #[error(
         "lamp_lag: the first trigger would come {} before {}; a lag of {} is the most",
@@ -234,8 +227,7 @@ pub enum What {
     TimesClose(Pair),
 }
 
-const EMULATED: &str =
-    "it is for a shutter in the light's path, and set_up is \"emulated\"; there, ";
+const EMULATED: &str = "it is for a shutter in the light's path, and set_up is \"emulated\"; there, ";
 
 /// What would help.
 fn keep(most: &Option<u32>) -> String {

@@ -36,8 +36,8 @@ const LEAST: f64 = 1.0 / (1 << 22) as f64;
 /// The digits of a time, counted from the interval's first.
 const DIGITS: i32 = 8;
 
-/// The fit as a scene, in this unit or the one that suits it; `name` tells in a comment where it came from. Where the results
-/// are the trace's own, the scene has their trigger times and no curve, unless a model was asked for.
+/// The fit as a scene, in this unit or the one that suits it; `name` tells in a comment where it came from. Where the
+/// results are the trace's own, the scene has their trigger times and no curve, unless a model was asked for.
 ///
 /// # Errors
 /// Where no scene can be made of it that can be planned.
@@ -49,12 +49,7 @@ pub fn scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Sc
 }
 
 /// The scene of the chosen model's curve, whether it explains the trace or not.
-pub fn curve_scene(
-    fit: &Fit,
-    name: &str,
-    zero: Zero,
-    unit: Option<Unit>,
-) -> Result<Scene, Refusal> {
+pub fn curve_scene(fit: &Fit, name: &str, zero: Zero, unit: Option<Unit>) -> Result<Scene, Refusal> {
     let unit = unit.unwrap_or(fit.unit());
     let curve = fit.best().signal.curve;
     let rounding = f64::from(f32::EPSILON) / 2.0 * curve.start.abs().max(curve.end().abs());
@@ -131,11 +126,7 @@ fn comments(fit: &Fit, unit: Unit) -> String {
     if let Some(switch) = fit.delay.as_ref().and_then(|delay| delay.switch) {
         text += &format!("# Sync: it {}.\n", delay::switch(&switch));
     }
-    text += &format!(
-        "# Exposure {}, efficiency {}, standard errors behind ±.\n",
-        exposure(fit),
-        efficiency(fit),
-    );
+    text += &format!("# Exposure {}, efficiency {}, standard errors behind ±.\n", exposure(fit), efficiency(fit),);
     for warning in &fit.warnings {
         text += &format!("# Warning: {warning}.\n");
     }
@@ -151,9 +142,7 @@ fn shown(text: &str) -> String {
 fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
     let nominal = fit.nominal.map(|it| format!("nominal = {}\n", short(unit.of(it), 7)));
     let in_path = match has_curve {
-        true => {
-            "\n# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes"
-        }
+        true => "\n# set_up = \"in_path\" # this shutter is in the light's path, and dims the flashes",
         false => "; in the light's path it needs a curve (--model free)",
     };
     format!(
@@ -169,12 +158,7 @@ fn asked(fit: &Fit, unit: Unit, has_curve: bool) -> String {
 fn resolved(curve: &Curve) -> Curve {
     let least = LEAST * curve.start.abs().max(curve.end().abs());
     let kept = |length: f64| if length < least { 0.0 } else { length };
-    Curve {
-        opening: kept(curve.opening),
-        plateau: kept(curve.plateau),
-        closing: kept(curve.closing),
-        ..*curve
-    }
+    Curve { opening: kept(curve.opening), plateau: kept(curve.plateau), closing: kept(curve.closing), ..*curve }
 }
 
 /// The inner control points as `shutteropening` has them.

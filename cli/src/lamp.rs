@@ -1,5 +1,5 @@
-//! What a lamp does in a frame: flashes at the triggers, equal pulses around them, pulses of equal doses, or flashes while the
-//! shutter is fully open.
+//! What a lamp does in a frame: flashes at the triggers, equal pulses around them, pulses of equal doses, or flashes
+//! while the shutter is fully open.
 
 use serde::{Deserialize, Serialize};
 use shutter_curve::{ScheduleError, ShutterCurve};
@@ -31,8 +31,8 @@ impl SetUp {
 pub enum Lamp {
     /// It is triggered, and how long it shines is its own.
     Triggered,
-    /// It shines for so many ticks around each trigger: equal pulses, for a curve that is emulated while the camera's own
-    /// shutter stays open.
+    /// It shines for so many ticks around each trigger: equal pulses, for a curve that is emulated while the camera's
+    /// own shutter stays open.
     Equal {
         /// The length of a pulse.
         ticks: u32,
@@ -43,7 +43,8 @@ pub enum Lamp {
         /// That part.
         duty: f32,
     },
-    /// It is triggered while the shutter, being in the light's path, is fully open: in equal steps, for flashes of one length.
+    /// It is triggered while the shutter, being in the light's path, is fully open: in equal steps, for flashes of one
+    /// length.
     FullyOpen,
 }
 
@@ -97,12 +98,7 @@ impl Lamp {
     }
 
     /// A frame of `n` flashes.
-    pub(crate) fn frame(
-        self,
-        curve: &ShutterCurve,
-        n: u32,
-        timer_hz: u32,
-    ) -> Result<Vec<Flash>, ScheduleError> {
+    pub(crate) fn frame(self, curve: &ShutterCurve, n: u32, timer_hz: u32) -> Result<Vec<Flash>, ScheduleError> {
         let ticks = curve.trigger_ticks(n, timer_hz)?;
         let flash = |tick: u32, on: i64, off: i64| Flash { tick, on, off };
         let at = |tick: u32| flash(tick, tick.into(), tick.into());

@@ -16,8 +16,7 @@ use crate::lamp::{FullyOpen, Lamp};
 use crate::plan::{Plan, Trigger};
 use crate::planned::Planned;
 use drawing::{
-    Drawn, MOST_MARKS, POINTS, SCALE, below, dot, draw_curve, graph, is_near, lit, pen, picture,
-    sync, time_range,
+    Drawn, MOST_MARKS, POINTS, SCALE, below, dot, draw_curve, graph, is_near, lit, pen, picture, sync, time_range,
 };
 pub use set_ups::set_ups;
 use style::{Area, BLUE, GREY, Graph, INK, SHARES, VERMILION};
@@ -84,10 +83,9 @@ fn legend(area: &Area, plan: &Plan) -> Drawn {
         match key {
             Key::Line => area.draw(&PathElement::new([(from, y), (to, y)], pen(BLUE, 2.5)))?,
             Key::Dot => area.draw(&dot((middle, y)))?,
-            Key::Lamp => area.draw(&Rectangle::new(
-                [(from + 4 * SCALE, y - 6 * SCALE), (to - 4 * SCALE, y + 6 * SCALE)],
-                lit(),
-            ))?,
+            Key::Lamp => {
+                area.draw(&Rectangle::new([(from + 4 * SCALE, y - 6 * SCALE), (to - 4 * SCALE, y + 6 * SCALE)], lit()))?
+            }
             Key::Handle => {
                 area.draw(&PathElement::new([(from, y), (to, y)], pen(GREY, 2.0)))?;
                 area.draw(&knob((to - 4 * SCALE, y)))?;
@@ -112,8 +110,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
     let at = |t: f32| (unit.of(t), f64::from(curve.openness(t)));
     let ramps = plan.shape.ramps().map(|ramps| ramps.map(|ramp| ramp.points()));
     let heights = ramps.iter().flatten().flatten().map(|(_, y)| f64::from(*y));
-    let (low, high) =
-        heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
+    let (low, high) = heights.fold((0.0, 1.0), |(low, high): (f64, f64), y| (low.min(y), high.max(y)));
     let room = 0.05 * (high - low);
     let range = if low < 0.0 { low - room } else { 0.0 }..high + room;
     let mut graph = graph(area, plan, "openness", None, range)?;
@@ -122,9 +119,7 @@ fn draw_openness(area: &Area, plan: &Plan) -> Drawn {
         Lamp::FullyOpen => FullyOpen::new(curve).time(i as f64 / n as f64) as f32,
         _ => curve.inverse_cdf(i as f32 / n as f32),
     };
-    let share = |i: usize| {
-        Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, unit, at), SHARES[i % 2])
-    };
+    let share = |i: usize| Polygon::new(below(edge(i), edge(i + 1), POINTS / n + 2, unit, at), SHARES[i % 2]);
     graph.draw_series((0..n).map(share))?;
     graph.draw_series(pulses(plan).map(|(on, off)| match plan.lamp {
         Lamp::Doses { .. } => Polygon::new(below(on, off, 16, unit, at), lit()),
@@ -163,8 +158,7 @@ fn draw_sync(graph: &mut Graph, plan: &Plan) -> Drawn {
     let head = [(start - tip, y + 0.025), (start, y), (start - tip, y - 0.025)];
     graph.draw_series([PathElement::new([(from, y), (start, y)], pen(INK, 1.2))])?;
     graph.draw_series([PathElement::new(head, pen(INK, 1.2))])?;
-    let sync =
-        if is_near { "sync".into() } else { format!("sync {} before", unit.show(delay.seconds)) };
+    let sync = if is_near { "sync".into() } else { format!("sync {} before", unit.show(delay.seconds)) };
     let words = [(sync, 0.9), (format!("delay {}", unit.show(delay.seconds)), y)];
     for (words, y) in words.into_iter().take(if is_near { 2 } else { 1 }) {
         let place = EmptyElement::at((from, y));

@@ -69,9 +69,9 @@ impl Plan {
         let timer = Timer::new(scene.timer_hz.as_ref(), scene.timer_bits.as_ref(), until + length)?;
         let timer_hz = timer.hz;
         // The rate is checked here, before anything is counted in ticks.
-        Lamp::Triggered.frame(&curve, 0, timer_hz).map_err(|error| {
-            Fault::of(scene.timer_hz.as_ref().map(|it| it.span().start), rate(error))
-        })?;
+        Lamp::Triggered
+            .frame(&curve, 0, timer_hz)
+            .map_err(|error| Fault::of(scene.timer_hz.as_ref().map(|it| it.span().start), rate(error)))?;
         let asked = Asked::new(scene, &curve, timer_hz)?;
         let end = (length * f64::from(timer_hz)).round();
         let sync = Sync {
@@ -83,10 +83,7 @@ impl Plan {
             timer_hz,
         };
         let (delay, lag) = Delay::new(&sync, end)?;
-        timer.holds(
-            delay.map_or(0.0, |delay| delay.ticks.into()) + end,
-            scene.timer_bits.as_ref(),
-        )?;
+        timer.holds(delay.map_or(0.0, |delay| delay.ticks.into()) + end, scene.timer_bits.as_ref())?;
         let frames = Frames { curve: &curve, timer, unit: scene.unit(), end: end as i64 };
         let frame = match frames.checked(&asked, n) {
             Ok(frame) => frame,
@@ -250,7 +247,8 @@ impl Frames<'_> {
 
     /// So many triggers keep what is asked for, and one more does not, where `keep` do and `fail` do not.
     fn most(&self, asked: &Asked, mut keep: u32, mut fail: u32) -> u32 {
-        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves room for.
+        // Where the openness is 1, a share of the exposure takes its own length; the answer is near what that leaves
+        // room for.
         let lit = match asked.lamp {
             Lamp::Equal { ticks } => ticks.into(),
             _ => asked.lit,
@@ -292,8 +290,7 @@ impl Problem {
     fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
         let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
         let ticks = |count| Ticks { count, timer: frames.timer, unit: frames.unit };
-        let [dark, lit] =
-            [asked.dark, asked.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
+        let [dark, lit] = [asked.dark, asked.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
         let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
         let what = match (asked.lamp, *self) {
             (Lamp::Equal { ticks: length }, problem) => {
@@ -306,12 +303,8 @@ impl Problem {
                 let what = What::Pulses { length: ticks(length.into()), pair, longest, most };
                 return Fault::of(Some(place), what);
             }
-            (Lamp::Doses { .. }, Self::Close(i, gap)) => {
-                What::DosesClose { pair: pair(i, gap), most }
-            }
-            (Lamp::Doses { .. }, Self::Short(i, lasts)) => {
-                What::DoseShort { i, lasts: ticks(lasts), least: lit, most }
-            }
+            (Lamp::Doses { .. }, Self::Close(i, gap)) => What::DosesClose { pair: pair(i, gap), most },
+            (Lamp::Doses { .. }, Self::Short(i, lasts)) => What::DoseShort { i, lasts: ticks(lasts), least: lit, most },
             (_, Self::Close(i, gap)) => What::Close { pair: pair(i, gap), most },
             _ => What::Unfit { most },
         };

@@ -25,8 +25,8 @@ pub struct Common {
     pub lag: Option<Lag>,
     /// How the flashes meet the shutter, if the scene tells.
     pub set_up: Option<SetUp>,
-    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the scene
-    /// asks.
+    /// Between two triggers, or from the end of a pulse to the start of the next: at least so many seconds, as the
+    /// scene asks.
     pub min_gap: f64,
     /// The exposure that the shutter's maker names, in seconds.
     pub nominal: Option<f64>,
@@ -141,9 +141,7 @@ impl Planned {
         };
         match self {
             Self::Curve(plan) => {
-                let of = |(i, it): (usize, &Trigger)| {
-                    row(i, Some(it.u), with_its_digits(it.time), it.ticks, it.pulse)
-                };
+                let of = |(i, it): (usize, &Trigger)| row(i, Some(it.u), with_its_digits(it.time), it.ticks, it.pulse);
                 plan.triggers.iter().enumerate().map(of).collect()
             }
             Self::Times(times) => {

@@ -66,8 +66,7 @@ fn line_of_time(times: &Times, cells: usize) -> String {
     }
     let ends = [times.open_start, times.open_start + times.length];
     let [first, last] = ends.map(|time| short(unit.of(time), 5));
-    let (name, line, width) =
-        (unit.name(), String::from_iter(line), cells.saturating_sub(first.len()));
+    let (name, line, width) = (unit.name(), String::from_iter(line), cells.saturating_sub(first.len()));
     format!("triggers over time ({name})\n{line}\n{first}{last:>width$}\n")
 }
 
@@ -110,8 +109,7 @@ fn table(out: &mut String, planned: &Planned) -> fmt::Result {
     let places = decimals(tick, 2).min(decimals(unit.of(planned.length), 7));
     let has_pulses = rows.iter().any(|row| row.on_ticks.is_some());
     let is_dimmed = planned.plan().is_some_and(|plan| {
-        plan.set_up == Some(SetUp::InPath)
-            && matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. })
+        plan.set_up == Some(SetUp::InPath) && matches!(plan.lamp, Lamp::Triggered | Lamp::Equal { .. })
     });
     // Columns that a scene need not have.
     let column = |is_there: bool, cell: &dyn Display, width: usize| match is_there {

@@ -84,9 +84,9 @@ impl Scene {
     /// So many numbers: one for each of [`KEYS`], and eight for `shutteropening`.
     pub const NUMBERS: usize = KEYS.len() + 7;
 
-    /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces or
-    /// ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. A fault's
-    /// place is that of its key.
+    /// The scene of numbers in the order of [`KEYS`]. One that may be left out is NaN where it is; a number of pieces
+    /// or ticks need not be whole yet. Of a choice it is the place: emulated before in the path, false before true. A
+    /// fault's place is that of its key.
     pub fn of_numbers(unit: Unit, numbers: &[f64; Self::NUMBERS]) -> Self {
         let number = |key: &str| {
             let place = KEYS.iter().position(|known| *known == key).expect("a key of the list");
@@ -276,9 +276,7 @@ impl Scene {
         let (inner, what) = match error {
             E::FractionOutsideRamp { part, point: at } => one(point(part, at)),
             E::OpennessOutOfRange { part, point: at } => one(point(part, at) + 1),
-            E::NotFinite(part) | E::TimesCross(part) => {
-                ((ramp(part), ramp(part) + 4), error.into())
-            }
+            E::NotFinite(part) | E::TimesCross(part) => ((ramp(part), ramp(part) + 4), error.into()),
             _ => ((0, 8), error.into()),
         };
         Fault { inner: Some(inner), ..Fault::at(place, what) }
@@ -292,10 +290,7 @@ impl Scene {
             return fault;
         }
         fault.notes.push("The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].".into());
-        let is_time = matches!(
-            *fault.what,
-            What::Inner { error: CurveError::FractionOutsideRamp { .. }, .. }
-        );
+        let is_time = matches!(*fault.what, What::Inner { error: CurveError::FractionOutsideRamp { .. }, .. });
         let shape = self.shape().ok().filter(|_| is_time);
         if let Some((convention, inner)) = shape.and_then(|it| self.misread(&it, place.get_ref())) {
             let inner = inner.join(", ");
@@ -320,10 +315,8 @@ impl Scene {
         };
         let as_times = |_, x| fraction(x);
         let as_ramps = |ramp, x| fraction(of_ramp(ramp, x));
-        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] = [
-            (format!("times in {}", self.unit().name()), &as_times),
-            ("fractions of each ramp".into(), &as_ramps),
-        ];
+        let conventions: [(_, &dyn Fn(usize, f64) -> f64); 2] =
+            [(format!("times in {}", self.unit().name()), &as_times), ("fractions of each ramp".into(), &as_ramps)];
         conventions.into_iter().find_map(|(name, convert)| {
             let inner: [f64; 8] = std::array::from_fn(|i| {
                 let x = inner[i].get();
@@ -346,22 +339,14 @@ pub(crate) fn seconds(unit: Unit, key: &'static str, time: &Spanned<Number>) -> 
 }
 
 /// A time in seconds that has to be more than 0, if there is one.
-pub(crate) fn positive(
-    unit: Unit,
-    key: &'static str,
-    time: Optional,
-) -> Result<Option<f64>, Fault> {
+pub(crate) fn positive(unit: Unit, key: &'static str, time: Optional) -> Result<Option<f64>, Fault> {
     let Some(place) = time else { return Ok(None) };
     let seconds = seconds(unit, key, place)?;
     if seconds > 0.0 { Ok(Some(seconds)) } else { Err(Fault::at(place, What::Positive { key })) }
 }
 
 /// A time in seconds that has to be 0 or more.
-pub(crate) fn not_negative(
-    unit: Unit,
-    key: &'static str,
-    time: &Spanned<Number>,
-) -> Result<f64, Fault> {
+pub(crate) fn not_negative(unit: Unit, key: &'static str, time: &Spanned<Number>) -> Result<f64, Fault> {
     let seconds = seconds(unit, key, time)?;
     if seconds < 0.0 {
         return Err(Fault::at(time, What::NotNegative { key }));

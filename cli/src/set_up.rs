@@ -11,9 +11,7 @@ pub fn doses(set_up: SetUp, plan: &Plan) -> Vec<f64> {
         (SetUp::Emulated, None) => 1.0,
         (SetUp::Emulated, Some((on, off))) => f64::from(off - on),
         (SetUp::InPath, None) => f64::from(curve.openness(time(trigger.ticks))),
-        (SetUp::InPath, Some((on, off))) => {
-            f64::from(curve.cdf(time(off))) - f64::from(curve.cdf(time(on)))
-        }
+        (SetUp::InPath, Some((on, off))) => f64::from(curve.cdf(time(off))) - f64::from(curve.cdf(time(on))),
     };
     let doses: Vec<f64> = plan.triggers.iter().map(dose).collect();
     let most = doses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);

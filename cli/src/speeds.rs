@@ -12,8 +12,7 @@ pub fn text(plans: &[(String, Planned)]) -> String {
         let unit = planned.unit;
         // Times without a curve tell of no exposure.
         let plan = planned.plan();
-        let optional =
-            |seconds: Option<f64>| seconds.map_or("-".into(), |seconds| unit.show(seconds));
+        let optional = |seconds: Option<f64>| seconds.map_or("-".into(), |seconds| unit.show(seconds));
         let delta = plan.and_then(|plan| Facts::new(plan).delta_ev);
         let percent = |plan: &Plan| short(100.0 * f64::from(plan.curve.efficiency()), 3) + " %";
         let triggers = planned.rows().len();
@@ -40,10 +39,7 @@ pub fn printable(name: &str) -> String {
 }
 
 /// The rows below their header, in columns: the first from the left, the others from the right.
-pub fn columns<const N: usize>(
-    header: [&str; N],
-    rows: impl Iterator<Item = [String; N]>,
-) -> String {
+pub fn columns<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
     let rows: Vec<_> = std::iter::once(header.map(String::from)).chain(rows).collect();
     let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or_default();
     let widths: [usize; N] = std::array::from_fn(width);

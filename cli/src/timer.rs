@@ -63,11 +63,7 @@ impl Timer {
         let off = self.off(seconds);
         let rate = match exact_hz == f64::from(hz) {
             true => format!("{hz} Hz"),
-            false => format!(
-                "{} Hz, planned as {hz}: {} ticks off at the end",
-                short(exact_hz, 10),
-                short(off, 2)
-            ),
+            false => format!("{} Hz, planned as {hz}: {} ticks off at the end", short(exact_hz, 10), short(off, 2)),
         };
         if bits == 32 { rate } else { format!("{rate}; {bits} bits") }
     }

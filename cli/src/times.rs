@@ -69,9 +69,7 @@ fn of_a_curve(key: &str) -> Option<&'static str> {
         }
         "triggers" => "their number is that of trigger_times",
         "fully_open" => "when the shutter is fully open is a curve's, and this scene has none",
-        "pulse" | "duty" | "min_pulse" => {
-            "pulses are checked against a curve, and a scene with trigger_times has none"
-        }
+        "pulse" | "duty" | "min_pulse" => "pulses are checked against a curve, and a scene with trigger_times has none",
         _ => return None,
     })
 }
@@ -123,8 +121,7 @@ impl Times {
         let timer = Timer::new(scene.timer_hz.as_ref(), bits, until_end)?;
         let min_gap = scene::not_negative(unit, "min_gap", &scene.min_gap)?;
         let nominal = scene::positive(unit, "nominal", scene.nominal.as_ref())?;
-        let triggers =
-            triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
+        let triggers = triggers(scene, unit, open_start, timer, whole_ticks(min_gap, timer.hz).max(1))?;
         let end = triggers.last().map_or(0.0, |last| last.ticks.into());
         let sync = Sync {
             delay: scene.delay.as_ref(),
@@ -154,13 +151,7 @@ impl Times {
 }
 
 /// The times in ticks, known to be in order and at least so many apart.
-fn triggers(
-    scene: &Scene,
-    unit: Unit,
-    start: f64,
-    timer: Timer,
-    gap: u64,
-) -> Result<Vec<Given>, Fault> {
+fn triggers(scene: &Scene, unit: Unit, start: f64, timer: Timer, gap: u64) -> Result<Vec<Given>, Fault> {
     let (hz, gap) = (f64::from(timer.hz), i64::try_from(gap).unwrap_or(i64::MAX));
     let times = scene.trigger_times.get_ref();
     if times.is_empty() || times.len() > MOST_TRIGGERS as usize {

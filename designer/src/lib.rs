@@ -1,7 +1,7 @@
 //! What the designer's page asks: plans, forms and fits by the code of the program `shutter`.
 //!
-//! It is built twice: what the page begins with, whose questions and answers are numbers; and with the feature `studio`, which
-//! makes it much larger, what comes later, in JSON.
+//! It is built twice: what the page begins with, whose questions and answers are numbers; and with the feature
+//! `studio`, which makes it much larger, what comes later, in JSON.
 
 #[cfg(target_family = "wasm")]
 mod abi;

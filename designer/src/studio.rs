@@ -160,12 +160,7 @@ struct Own {
 }
 
 /// Reads the trace in `bytes`, and fits it.
-fn measured(
-    name: &str,
-    bytes: Vec<u8>,
-    asked: &Asked,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Measured, String> {
+fn measured(name: &str, bytes: Vec<u8>, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Measured, String> {
     if bytes.len() > LONGEST {
         return Err(format!("{} MB: cut the trace to the pulse", bytes.len() >> 20));
     }
@@ -205,12 +200,7 @@ impl Read {
     }
 }
 
-fn fitted(
-    name: &str,
-    recording: Recording,
-    asked: &Asked,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Fitted, Refusal> {
+fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Fitted, Refusal> {
     let options = Options {
         full: asked.full,
         frame: asked.frame,
@@ -253,12 +243,7 @@ fn fitted(
         json: shutter_fit::json(name, &fit, &[]),
         exposure: report::exposure(&fit),
         efficiency: report::efficiency(&fit),
-        tester: report
-            .iter()
-            .find_map(|line| line.strip_prefix("tester"))
-            .unwrap_or_default()
-            .trim()
-            .into(),
+        tester: report.iter().find_map(|line| line.strip_prefix("tester")).unwrap_or_default().trim().into(),
         delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),

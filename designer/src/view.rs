@@ -1,7 +1,7 @@
 //! All that the page shows of a scene.
 //!
-//! The answer is numbers, in parts that each begin with their length: the page reads them as they are in memory, which is faster
-//! than any text, and its first load has nothing that writes one. Times are in seconds; NaN is none.
+//! The answer is numbers, in parts that each begin with their length: the page reads them as they are in memory, which
+//! is faster than any text, and its first load has nothing that writes one. Times are in seconds; NaN is none.
 
 use shutter::facts::{Facts, coarse, drift, ends};
 use shutter::fault::{Code, Fault, Pair, What};
@@ -33,8 +33,8 @@ impl Parts {
         self.0[length] = (self.0.len() - length - 1) as f64;
     }
 
-    /// What is wrong, as code, key, place among the inner control points and the values; and what would help: each remedy with a
-    /// number.
+    /// What is wrong, as code, key, place among the inner control points and the values; and what would help: each
+    /// remedy with a number.
     fn put_wrong(&mut self, fault: &Fault, question: &Question) {
         let place = |i: Option<usize>| i.map_or(f64::NAN, |i| i as f64);
         let inner = [fault.inner.map(|inner| inner.0), fault.inner.map(|inner| inner.1)].map(place);
@@ -54,8 +54,7 @@ struct Question {
 impl Question {
     /// Of the bytes of `f64`: the unit's place among all, the scene's numbers, the measured times.
     fn read(bytes: &[u8]) -> Option<Self> {
-        let numbers: Vec<_> =
-            bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+        let numbers: Vec<_> = bytes.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
         let (unit, numbers) = numbers.split_first()?;
         let (numbers, measured) = numbers.split_first_chunk()?;
         let unit = Unit::ALL.get(*unit as usize).copied()?;
@@ -104,8 +103,8 @@ impl Question {
     }
 }
 
-/// All that is shown of the scene in the question. Two parts are what is wrong and what would help; a scene with a curve has six
-/// before them, and in their place four where it can be planned.
+/// All that is shown of the scene in the question. Two parts are what is wrong and what would help; a scene with a
+/// curve has six before them, and in their place four where it can be planned.
 pub fn view(question: &[u8]) -> Vec<f64> {
     let mut parts = Parts::default();
     if let Some(question) = Question::read(question)
@@ -135,7 +134,8 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
     let plan = question.plan();
     let n = scene.triggers().min(MOST_TRIGGERS);
     let u = |i: f32| i / n as f32;
-    // Flashes while the shutter is fully open share out the time, not the exposure; measured ones have no curve that does.
+    // Flashes while the shutter is fully open share out the time, not the exposure; measured ones have no curve that
+    // does.
     let is_shared = matches!(&plan, Ok(Planned::Curve(plan)) if plan.lamp != Lamp::FullyOpen);
     // Where the equal shares of the exposure begin and end.
     parts.put((0..=n).filter(|_| is_shared).map(|i| curve.inverse_cdf(u(i as f32))));
@@ -149,9 +149,7 @@ fn show(question: &Question, parts: &mut Parts) -> Result<(), Fault> {
                 [t, curve.openness(t as f32).into(), u]
             })
             .collect(),
-        Ok(Planned::Curve(plan)) => {
-            plan.triggers.iter().flat_map(|it| mark(it.time, it.u)).collect::<Vec<_>>()
-        }
+        Ok(Planned::Curve(plan)) => plan.triggers.iter().flat_map(|it| mark(it.time, it.u)).collect::<Vec<_>>(),
         _ => {
             let middles = (0..n).map(|i| u(i as f32 + 0.5));
             middles.flat_map(|u| mark(curve.inverse_cdf(u), u)).collect()

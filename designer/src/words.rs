@@ -48,10 +48,7 @@ pub fn warning(warning: &Warning) -> Told {
         _ => None,
     };
     let about = match warning {
-        W::SyncBounced { .. }
-        | W::SyncMissing { .. }
-        | W::SyncOthers { .. }
-        | W::SyncLate { .. } => "delay",
+        W::SyncBounced { .. } | W::SyncMissing { .. } | W::SyncOthers { .. } | W::SyncLate { .. } => "delay",
         W::NoiseHidesRamps { .. } | W::SharpEdges { .. } => "times",
         _ => ALL,
     };

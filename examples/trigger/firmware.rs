@@ -34,7 +34,8 @@ const _: () = assert!(measured::DELAY_TICKS == 106_175);
 /// From one edge of the sync to the next: 20 ms.
 const PERIOD: u32 = TICK_HZ / 50;
 
-// The handler computes a tick between two pulses, so none may be searched for: a curve that needs that does not compile.
+// The handler computes a tick between two pulses, so none may be searched for: a curve that needs that does not
+// compile.
 const _: () = assert!(SHUTTER.direct_triggers() >= CAPACITY as u32);
 /// The most cycles of a direct tick, by the crate's README; the timer counts cycles.
 const DIRECT_TICK: u32 = 181;
@@ -59,8 +60,7 @@ impl Fault {
     /// ends the program.
     fn planted() -> Self {
         let mut line = [MaybeUninit::uninit(); 256];
-        let line =
-            sys_get_cmdline_uninit(&mut line).ok().and_then(|line| str::from_utf8(line).ok());
+        let line = sys_get_cmdline_uninit(&mut line).ok().and_then(|line| str::from_utf8(line).ok());
         // Without the runner there is another command line.
         match line.map(|line| line.trim_end_matches('\0').strip_prefix("TRIGGER_FAULT=")) {
             Some(None | Some("")) => Self::None,
@@ -92,14 +92,8 @@ struct Frame {
     fired: Vec<u32, { CAPACITY + 1 }>,
 }
 
-static FRAME: Mutex<RefCell<Frame>> = Mutex::new(RefCell::new(Frame {
-    fault: Fault::None,
-    ticks: None,
-    base: 0,
-    due: None,
-    next: 0,
-    fired: Vec::new(),
-}));
+static FRAME: Mutex<RefCell<Frame>> =
+    Mutex::new(RefCell::new(Frame { fault: Fault::None, ticks: None, base: 0, due: None, next: 0, fired: Vec::new() }));
 
 impl Frame {
     /// Arms the timer for the next pulse, if there is one.
@@ -264,8 +258,7 @@ fn main() -> ! {
         let across = fired.last() < fired.first();
         wrapped |= across;
         let n = plan.len();
-        let [first, last] =
-            [plan.clone().next(), plan.clone().next_back()].map(Option::unwrap_or_default);
+        let [first, last] = [plan.clone().next(), plan.clone().next_back()].map(Option::unwrap_or_default);
         match check(edge, plan, &fired) {
             Ok(late) => info!(
                 "frame {}: {} of {} triggers, first {}, last {}, {} ticks late at most, planned in {} ticks{}",

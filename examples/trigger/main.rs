@@ -18,7 +18,8 @@
 mod board;
 #[cfg(target_os = "none")]
 mod firmware;
-/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv --sync 0`, then `shutter plan --emit rust` for this board's timer.
+/// A measured leaf shutter: `shutter fit cli/traces/leaf.csv --sync 0`, then `shutter plan --emit rust` for this
+/// board's timer.
 #[cfg(target_os = "none")]
 mod measured;
 

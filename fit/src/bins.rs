@@ -1,5 +1,5 @@
-//! A frame's samples as means over intervals: each sample owns the time to its neighbours' midpoints, and where there are
-//! many of them, several share an interval, fewer on the ramps than elsewhere.
+//! A frame's samples as means over intervals: each sample owns the time to its neighbours' midpoints, and where there
+//! are many of them, several share an interval, fewer on the ramps than elsewhere.
 
 use crate::trace::{Crossings, Trace, sampling_interval};
 
@@ -88,8 +88,8 @@ pub fn shared(each: &[Bin], crossings: &Crossings, step: f64) -> Vec<Bin> {
     bins
 }
 
-/// Where intervals are to be short: from a ramp's first quarter to its third and as much again on both sides, and the far
-/// tail that a slow end may have.
+/// Where intervals are to be short: from a ramp's first quarter to its third and as much again on both sides, and the
+/// far tail that a slow end may have.
 fn ramps(crossings: &Crossings, step: f64) -> [(f64, f64); 2] {
     let [up25, _, up75, down75, _, down25] = *crossings;
     let wide = |a: f64, b: f64| 1.5 * (b - a) + 10.0 * step;

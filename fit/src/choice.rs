@@ -1,5 +1,5 @@
-//! The models compared: a frame's fits, with a flicker where that explains what they do not, and with the dark's noise where nothing
-//! does; what each kind's curve comes to, and which kind is the simplest that serves.
+//! The models compared: a frame's fits, with a flicker where that explains what they do not, and with the dark's noise
+//! where nothing does; what each kind's curve comes to, and which kind is the simplest that serves.
 
 use std::cmp::max_by_key;
 
@@ -12,20 +12,13 @@ use crate::structure::structure;
 use crate::trace::{Frame, Pulses};
 
 /// The fits of a frame; `progress` is told the share that is done, as far as that is known.
-pub fn fits(
-    pulses: &Pulses,
-    frame: &Frame,
-    mains: Option<f64>,
-    progress: &mut dyn FnMut(f64),
-) -> FrameFits {
+pub fn fits(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> FrameFits {
     let mut fits = FrameFits::new(pulses, frame, mains, progress);
     if structure(&fits, Kind::Free).test.explained {
         return fits;
     }
     // A lamp's flicker is looked for where there is something to explain, and taken where it explains that.
-    if let Some(others) =
-        fits.flickering().filter(|others| structure(others, Kind::Free).test.explained)
-    {
+    if let Some(others) = fits.flickering().filter(|others| structure(others, Kind::Free).test.explained) {
         return others;
     }
     // What the freest curve misses is no noise, and counts for none of it.
@@ -54,8 +47,8 @@ pub fn candidates(fits: &FrameFits, n: u32) -> Vec<Candidate> {
     Kind::ALL.into_iter().map(candidate).collect()
 }
 
-/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the one of least criterion, and
-/// where that does not explain the trace, the simplest freer one that does.
+/// The kind that is asked for, or else the simplest within the tolerance that is asked for, or else the one of least
+/// criterion, and where that does not explain the trace, the simplest freer one that does.
 pub fn choose(options: &Options, candidates: &[Candidate], fits: &FrameFits) -> (Kind, Reason) {
     let simplest = |good: &dyn Fn(&Candidate) -> bool| {
         let found = candidates.iter().find(|candidate| good(candidate));

@@ -16,7 +16,8 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 2.0;
 
-/// The freest fit with a drift and a hum, if they are worth it and a tail does not explain as much; none where neither is.
+/// The freest fit with a drift and a hum, if they are worth it and a tail does not explain as much; none where neither
+/// is.
 pub fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     let plain = fits.of(Kind::Free);
     let is_tail = |KindFit { solution, .. }: &KindFit| {

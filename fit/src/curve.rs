@@ -1,5 +1,5 @@
-//! A shutter's openness over time in `f64`: a ramp, a plateau and a ramp that mirrors the first kind, with the integral and how
-//! it moves with every parameter.
+//! A shutter's openness over time in `f64`: a ramp, a plateau and a ramp that mirrors the first kind, with the integral
+//! and how it moves with every parameter.
 
 use crate::ramp::{At, Controls, STRAIGHT, UnitRamp};
 
@@ -24,7 +24,8 @@ pub struct Curve {
     pub plateau: f64,
     /// How long it closes.
     pub closing: f64,
-    /// The control numbers `x1, y1, x2, y2` of the opening ramp, and of the closing one seen backwards in time, so that both open.
+    /// The control numbers `x1, y1, x2, y2` of the opening ramp, and of the closing one seen backwards in time, so that
+    /// both open.
     pub controls: [Controls; 2],
 }
 
@@ -74,8 +75,7 @@ impl Curve {
 
     /// The curve with time counted in other units from another zero: `t` becomes `t * scale + shift`.
     pub fn mapped(&self, scale: f64, shift: f64) -> Self {
-        let [opening, plateau, closing] =
-            [self.opening, self.plateau, self.closing].map(|time| time * scale);
+        let [opening, plateau, closing] = [self.opening, self.plateau, self.closing].map(|time| time * scale);
         Self { start: self.start * scale + shift, opening, plateau, closing, ..*self }
     }
 }
@@ -136,8 +136,9 @@ impl Exposure {
         [opening * self.ramps[0].reaches(openness), closing * self.ramps[1].reaches(openness)]
     }
 
-    /// Does it come to a point, or nearly, by how much of the time above half it is above 95 % of its peak? A tenth of a triangle's,
-    /// three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau of a tenth of the whole.
+    /// Does it come to a point, or nearly, by how much of the time above half it is above 95 % of its peak? A tenth of
+    /// a triangle's, three tenths of a half sine's or a parabola's, and more than a quarter of ramps' beside a plateau
+    /// of a tenth of the whole.
     pub fn is_peak(&self) -> bool {
         self.is_narrower(3.0)
     }
@@ -148,8 +149,7 @@ impl Exposure {
     }
 
     fn is_narrower(&self, times: f64) -> bool {
-        let [top, half] =
-            [0.95, 0.5].map(|openness| self.between(openness)).map(|[from, to]| to - from);
+        let [top, half] = [0.95, 0.5].map(|openness| self.between(openness)).map(|[from, to]| to - from);
         let curve = self.curve;
         top < 0.25 * half || times * top < half && curve.plateau < 0.1 * curve.length()
     }
@@ -224,8 +224,8 @@ impl Exposure {
         Collected { amount, moves }
     }
 
-    /// The time by which the fraction `u` of the exposure is collected, and how it moves with each parameter: `u A = F(t)`
-    /// moved with `t`, so `dt = (u dA - dF)/f`.
+    /// The time by which the fraction `u` of the exposure is collected, and how it moves with each parameter: `u A =
+    /// F(t)` moved with `t`, so `dt = (u dA - dF)/f`.
     pub fn trigger(&self, u: f64) -> (f64, [f64; PARAMETERS]) {
         let target = u * self.area();
         let [mut low, _, _, mut high] = self.curve.times();
@@ -273,8 +273,7 @@ mod tests {
             let (n, mut sum) = (20_000, 0.0);
             let at = |i: f64| curve.start + curve.length() * (1.2 * i / f64::from(n) - 0.1);
             for i in 0..n {
-                sum +=
-                    exposure.openness(at(f64::from(i) + 0.5)) * curve.length() * 1.2 / f64::from(n);
+                sum += exposure.openness(at(f64::from(i) + 0.5)) * curve.length() * 1.2 / f64::from(n);
                 let here = exposure.collected(at(f64::from(i + 1))).amount;
                 assert!((sum - here).abs() < 1e-4, "{curve:?} at {i}: {sum}, {here}");
             }
@@ -299,10 +298,7 @@ mod tests {
                         Exposure::new(&Curve::from_parameters(&p)).trigger(u).0
                     };
                     let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
-                    assert!(
-                        (slope - moves[k]).abs() < 1e-5,
-                        "{curve:?} {u} {k}: {slope} {moves:?}"
-                    );
+                    assert!((slope - moves[k]).abs() < 1e-5, "{curve:?} {u} {k}: {slope} {moves:?}");
                 }
             }
         }

@@ -5,9 +5,7 @@ use crate::curve::Exposure;
 use crate::errors::Measured;
 use crate::signal::Signal;
 use crate::solve::Cholesky;
-use crate::trace::{
-    Edge, Edges, Frame, Refusal, Starts, Switch, Trace, Warning, edges, sampling_interval,
-};
+use crate::trace::{Edge, Edges, Frame, Refusal, Starts, Switch, Trace, Warning, edges, sampling_interval};
 use crate::unit::{Unit, decimals, short, trimmed};
 use crate::{Record, Shot};
 
@@ -80,12 +78,11 @@ impl Delay {
     }
 }
 
-/// Takes the shots of traces of one speed and of one edge together, each counted to the opening of the trace's own fit. Each
-/// delay comes with its trace's exposure.
+/// Takes the shots of traces of one speed and of one edge together, each counted to the opening of the trace's own fit.
+/// Each delay comes with its trace's exposure.
 pub fn pool<'a>(delays: impl Iterator<Item = (f64, &'a mut Delay)>) {
     let mut delays: Vec<_> = delays.collect();
-    let all: Vec<_> =
-        delays.iter().map(|(exposure, delay)| (*exposure, (*delay).clone())).collect();
+    let all: Vec<_> = delays.iter().map(|(exposure, delay)| (*exposure, (*delay).clone())).collect();
     for (exposure, own) in &mut delays {
         let falls = own.switch.map(|it| it.falls());
         let is_same = |(other, it): &&(f64, Delay)| {
@@ -127,8 +124,8 @@ impl Synced {
     }
 }
 
-/// The delay where the shot `asked` has this signal, starts to open at `start`, and has these triggers, and what is doubtful
-/// about it; none without a sync.
+/// The delay where the shot `asked` has this signal, starts to open at `start`, and has these triggers, and what is
+/// doubtful about it; none without a sync.
 ///
 /// # Errors
 /// An edge of a given time after the start of opening, or before another frame; a channel that does not tell the edges.
@@ -141,8 +138,7 @@ pub(crate) fn measure(
     triggers: &[Measured],
 ) -> Result<Option<(Delay, Vec<Warning>)>, Refusal> {
     let refused = |reason: &str| Err(Refusal::NoDelay { reason: reason.into() });
-    let syncs =
-        records.iter().filter_map(|record| Some((record.sync.as_ref()?, &record.pulses.frames)));
+    let syncs = records.iter().filter_map(|record| Some((record.sync.as_ref()?, &record.pulses.frames)));
     let synced: Result<Vec<_>, _> = syncs.map(|(sync, frames)| Synced::new(sync, frames)).collect();
     let synced = synced.map_err(|reason| Refusal::NoDelay { reason })?;
     if synced.is_empty() {
@@ -159,9 +155,7 @@ pub(crate) fn measure(
     if is_given && edges[asked].is_none() {
         let is_own = |k: &usize| shots[*k].record == fitted.record && edges[*k].is_some();
         let first = (0..shots.len()).find(is_own).map_or(0, |k| k + 1);
-        return refused(&format!(
-            "the edge of the sync is followed by pulse {first} first: --frame {first}"
-        ));
+        return refused(&format!("the edge of the sync is followed by pulse {first} first: --frame {first}"));
     }
 
     let curve = signal.curve;
@@ -192,9 +186,7 @@ pub(crate) fn measure(
     }
     let width = 12f64.sqrt() * (edges_variance / n as f64).sqrt();
     if late == n && width > f64::max(0.2 * curve.opening, 2.5 * step) {
-        return refused(
-            "its column changes after the opening, and as slowly as light does; is it the light's?",
-        );
+        return refused("its column changes after the opening, and as slowly as light does; is it the light's?");
     }
     let starts = synced.iter().map(|it| &it.starts);
     let bounced = starts.clone().map(|it| it.bounced).sum();
@@ -219,8 +211,8 @@ pub(crate) fn measure(
     Ok(Some((delay, doubts.collect())))
 }
 
-/// By how much a frame opens later than the fitted one: by least squares, the fitted curve is shifted along the frame's opening
-/// ramp, with levels of its own. Where that leads away, the crossings tell, to half of the ramp.
+/// By how much a frame opens later than the fitted one: by least squares, the fitted curve is shifted along the frame's
+/// opening ramp, with levels of its own. Where that leads away, the crossings tell, to half of the ramp.
 fn later(fitted: &Signal, &Shot { pulses, frame, .. }: &Shot, like: &Frame) -> Measured {
     let rise = |frame: &Frame| frame.crossings[..3].iter().sum::<f64>() / 3.0;
     let first = rise(frame) - rise(like);

@@ -116,9 +116,7 @@ fn cut_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     let gain = fits.of(Kind::Free).solution.signal.gain;
     let levels = |part: &Range<usize>| -> Vec<f64> {
         let few = (part.len() / 2).max(1);
-        let level = |bins: &[Bin]| {
-            bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain)
-        };
+        let level = |bins: &[Bin]| bins.iter().map(|bin| bin.mean).sum::<f64>() / (bins.len() as f64 * gain);
         fits.samples[part.clone()].chunks_exact(few).map(level).collect()
     };
     let [before, after] = [&parts.before, &parts.after].map(levels);
@@ -154,8 +152,8 @@ fn slow_tail(fit: &Fit, fits: &FrameFits) -> Option<Warning> {
     }
     let dark = mean(before.clone());
     let drift = (mean(before.start..before.start + few) - mean(before.end - few..before.end)).abs();
-    let [first, second, third, last] = [0, 1, 2, 3]
-        .map(|k| mean(after.start + k * quarter..after.start + (k + 1) * quarter) - dark);
+    let [first, second, third, last] =
+        [0, 1, 2, 3].map(|k| mean(after.start + k * quarter..after.start + (k + 1) * quarter) - dark);
     let flat = Parts { before, pulse, after: 0..0 };
     let walk = Walk::new(&missed(fits, fit.chosen), &flat, fits.step)?;
     let error = (walk.power / (fits.step * few.min(quarter) as f64)).sqrt().hypot(fits.rounding);
@@ -210,8 +208,7 @@ fn no_plateau(fit: &Fit) -> Option<Warning> {
 
 fn unseen(fit: &Fit) -> Option<Warning> {
     let Test { tested, unseen, .. } = fit.test;
-    (tested && fit.from == From::Model && unseen > UNSEEN)
-        .then_some(Warning::Unseen { share: unseen.min(1.0) })
+    (tested && fit.from == From::Model && unseen > UNSEEN).then_some(Warning::Unseen { share: unseen.min(1.0) })
 }
 
 /// Errors beyond which a result is of no use to most.

@@ -1,5 +1,5 @@
-//! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot, a
-//! low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
+//! What the noise makes of the results: standard errors from the normal equations, and beside them what a ramp's foot,
+//! a low peak and the model's own shape leave unknown. [`results`] is the way in; all in the frame's own units.
 
 use crate::curve::{CONTROLS, Curve, Exposure, PARAMETERS, PLATEAU, START, Whole, fractions};
 use crate::frame::FrameFits;
@@ -10,8 +10,8 @@ use crate::solve::Cholesky;
 use crate::trace::Timing;
 use crate::units::Units;
 
-/// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the standard error
-/// of its end beside the noise's, and this openness for so long that of its light.
+/// Below this openness nobody knows a ramp's shape, unless it is straight: the time that it spends there is the
+/// standard error of its end beside the noise's, and this openness for so long that of its light.
 const FOOT: f64 = 0.005;
 /// A plateau that is shorter than this share of the whole is a peak, or may be.
 const PEAK: f64 = 0.1;
@@ -55,8 +55,7 @@ impl Results {
 
     /// The same in seconds, and of full light where the pulse's peak is this share of it.
     pub fn outside(self, units: &Units, peak: f64) -> Self {
-        let seconds =
-            |m: Measured| Measured { value: units.seconds(m.value), error: units.pulse * m.error };
+        let seconds = |m: Measured| Measured { value: units.seconds(m.value), error: units.pulse * m.error };
         Self {
             exposure: self.exposure.scaled(units.pulse * peak),
             efficiency: self.efficiency.scaled(peak),
@@ -65,11 +64,11 @@ impl Results {
         }
     }
 
-    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the lamp.
+    /// With what no curve knows of: the steps of the values, which may shift the dark and the light alike, and the
+    /// lamp.
     pub fn widened(mut self, fits: &FrameFits, kind: Kind) -> Self {
         let signal = fits.of(kind).solution.signal;
-        let is_short =
-            |hum: &Hum| hum.range.0 < hum.range.1 && hum::periods(fits.bins(), hum) < hum::FEWEST;
+        let is_short = |hum: &Hum| hum.range.0 < hum.range.1 && hum::periods(fits.bins(), hum) < hum::FEWEST;
         let of_hum = |hum: Hum| SHORT_HUM * hum.amplitude() / signal.gain;
         let hum = signal.hum.filter(is_short).map_or(0.0, of_hum);
         let of_lamp = |lamp: Flicker| FLICKER * lamp.amplitude() / lamp.frequency;
@@ -110,8 +109,8 @@ impl Results {
 
 /// The exposure, the efficiency and the times of `n` triggers of a kind's curve.
 ///
-/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by its
-/// Akaike weight, with its own variance and how far it lies from this one.
+/// That a freer kind might be true belongs to the error: Burnham and Anderson's variance, in which each kind counts by
+/// its Akaike weight, with its own variance and how far it lies from this one.
 pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Results {
     let mut chosen = OfKind::new(fits, kind).results(n);
     let freer = &Kind::ALL[kind as usize..];
@@ -198,8 +197,9 @@ impl<'a> OfKind<'a> {
         Measured { value, error: (light / length).hypot(value * ends / length) }
     }
 
-    /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is long. The
-    /// linear error counts as well, but where a shape makes up for a shift it is too large: the length's serves as its bound.
+    /// When it starts to open. A soft ramp hides that as it hides the length, and each ramp as much of it as it is
+    /// long. The linear error counts as well, but where a shape makes up for a shift it is too large: the length's
+    /// serves as its bound.
     fn start(&self) -> Measured {
         let Curve { start: value, opening, closing, .. } = self.integral.curve;
         let mut moves = [0.0; PARAMETERS];
@@ -227,8 +227,8 @@ impl<'a> OfKind<'a> {
 
     /// The standard error of what is not linear in the samples, by how far the sum of squares lets it go either way.
     ///
-    /// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of the shift
-    /// shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
+    /// Where a soft ramp starts is such a thing: a control number makes up for most of a shift, and only the square of
+    /// the shift shows. So the 95 % interval is looked for, and 1.96 standard errors are said to be its longer side.
     fn searched(&self, whole: Whole, linear: f64) -> f64 {
         const SIDE: f64 = 1.96;
         let value = whole.of(&self.integral.curve).0;
@@ -237,8 +237,7 @@ impl<'a> OfKind<'a> {
             // Where the linear error is unknown, not a number, `min` takes the other.
             let mut by = (SIDE * linear).min(0.1 * value).max(least);
             for _ in 0..8 {
-                let cost = self.fits.cost_of(self.kind, whole, way * by)
-                    / (SIDE * SIDE * self.covariance.variance);
+                let cost = self.fits.cost_of(self.kind, whole, way * by) / (SIDE * SIDE * self.covariance.variance);
                 if (0.8..1.25).contains(&cost) {
                     break;
                 }
@@ -278,8 +277,7 @@ impl Covariance {
         let n = fits.samples.len() as f64;
         let free = (n - packed.len() as f64 * fits.correlation).max(0.5 * n);
         let curve = solution.signal.curve;
-        let edge =
-            |ramp: f64| fits.step * fits.step / 12.0 * (1.0 - ramp / (2.0 * fits.step)).max(0.0);
+        let edge = |ramp: f64| fits.step * fits.step / 12.0 * (1.0 - ramp / (2.0 * fits.step)).max(0.0);
         Self {
             kind,
             factor: Cholesky::stiffened(&solution.normal_of(&moving)),
@@ -293,8 +291,7 @@ impl Covariance {
     fn error(&self, moves: &[f64; PARAMETERS]) -> f64 {
         let mut gathered = vec![0.0; self.kind.parameters()];
         self.kind.gather(moves, &mut gathered);
-        let row: Vec<f64> =
-            self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
+        let row: Vec<f64> = self.moving.iter().map(|k| gathered.get(*k).copied().unwrap_or(0.0)).collect();
         let noise: f64 = self.factor.solve(&row).iter().zip(&row).map(|(a, b)| a * b).sum();
         // The opening edge moves the start and leaves the end; the closing one lengthens the plateau.
         let (opening, closing) = (moves[START] - moves[PLATEAU], moves[PLATEAU]);

@@ -22,8 +22,8 @@ pub struct FrameFits {
     crossings: Crossings,
     /// Of each kind, simplest first.
     kinds: Vec<KindFit>,
-    /// How many samples stand for one that is independent of the others: by the freest kind's residuals where that explains
-    /// them, else by those in the dark.
+    /// How many samples stand for one that is independent of the others: by the freest kind's residuals where that
+    /// explains them, else by those in the dark.
     pub correlation: f64,
     /// The standard deviation that a step of the values puts into all of a plateau alike, as a share of the light.
     pub rounding: f64,
@@ -31,12 +31,7 @@ pub struct FrameFits {
 
 impl FrameFits {
     /// Fits every kind; `progress` is told the share that is done, as far as that is known.
-    pub fn new(
-        pulses: &Pulses,
-        frame: &Frame,
-        mains: Option<f64>,
-        progress: &mut dyn FnMut(f64),
-    ) -> Self {
+    pub fn new(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
         let crossings = units.crossings(frame);
         let trace = units.inside(pulses.trace.part(&frame.samples));
@@ -49,8 +44,7 @@ impl FrameFits {
         let problem = Problem { bins, prior: 4.0 * noise * noise, held: None };
         let rounding = pulses.rounding / pulses.light();
         let (kinds, correlation) = (Vec::new(), 1.0);
-        let mut fits =
-            Self { units, samples, step, problem, crossings, kinds, correlation, rounding };
+        let mut fits = Self { units, samples, step, problem, crossings, kinds, correlation, rounding };
 
         // If a column turns out to be worth it, the search comes twice, half of the way each.
         fits.search(&Signal::plain(), &mut |done| progress(0.5 * done));

@@ -27,8 +27,8 @@ pub fn periods(bins: &[Bin], hum: &Hum) -> f64 {
     hum.frequency * length(bins)
 }
 
-/// Where the frequency of a hum may lie: the mains' alone below [`FEWEST`] periods, or where they are known to have so many `hertz`. A
-/// unit of time is `second` seconds.
+/// Where the frequency of a hum may lie: the mains' alone below [`FEWEST`] periods, or where they are known to have so
+/// many `hertz`. A unit of time is `second` seconds.
 fn ranges(bins: &[Bin], hertz: Option<f64>, second: f64) -> Vec<Bounds> {
     let length = length(bins);
     let few = FEWEST / length;

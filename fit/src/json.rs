@@ -7,8 +7,8 @@ use crate::errors::Measured;
 use crate::outcome::{Fit, From};
 use crate::trace::{Clock, Reading, Warning};
 
-/// The fit of the trace `name`, with all warnings about it, as an object of JSON. What is not known is null, and all times but
-/// the delay count from the trace's time 0.
+/// The fit of the trace `name`, with all warnings about it, as an object of JSON. What is not known is null, and all
+/// times but the delay count from the trace's time 0.
 pub fn json(name: &str, fit: &Fit, warnings: &[Warning]) -> Value {
     let [_, open_s, closes_s, closed_s] = fit.best().signal.curve.times();
     let (unit, rate_hz) = match fit.reading.as_ref().map(|reading| reading.clock) {

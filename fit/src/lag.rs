@@ -1,5 +1,5 @@
-//! What a closing ramp adds that follows the fitted one with a lag: the pattern that stands for all tails; and how much of it is in the
-//! samples, with all that the signal's own parameters could explain of it left out.
+//! What a closing ramp adds that follows the fitted one with a lag: the pattern that stands for all tails; and how much
+//! of it is in the samples, with all that the signal's own parameters could explain of it left out.
 
 use crate::bins::Bin;
 use crate::curve::Exposure;
@@ -117,8 +117,7 @@ pub fn falls(solution: &Solution, bins: &[Bin], pattern: &[f64]) -> Option<(f64,
         drift.unwrap_or(0.0) * t + hum.map_or(0.0, |hum| hum.at(t))
     };
     let beside: Vec<f64> = bins.iter().map(beside).collect();
-    let missed: Vec<f64> =
-        movable.missed.iter().zip(&beside).map(|(missed, b)| missed + b).collect();
+    let missed: Vec<f64> = movable.missed.iter().zip(&beside).map(|(missed, b)| missed + b).collect();
     let falls = |pattern: &[f64]| {
         let (along, square) = score(&movable.rest(pattern), &missed, bins);
         along * along.abs() / square

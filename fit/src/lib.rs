@@ -1,13 +1,15 @@
 //! From a measured trace to the simplest shutter that serves. There is no file, terminal, thread or clock in it.
 //!
-//! [`fit`] takes a trace that [`crate::trace`] has read, [`fit_records`] several of one setting, and gives a [`Fit`]. Its stages, in the order in which they happen:
+//! [`fit`] takes a trace that [`crate::trace`] has read, [`fit_records`] several of one setting, and gives a [`Fit`].
+//! Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
-//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with the
-//!   `columns` of a drift and a `hum`, and the `noise` that is left;
+//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with
+//!   the `columns` of a drift and a `hum`, and the `noise` that is left;
 //! - `choice`: the kinds compared, and one chosen; with a flicker, where that explains more;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them, as a [`trace::Warning`];
-//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples themselves, where it does not;
+//! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples
+//!   themselves, where it does not;
 //! - `report`, `json`: the [`Fit`] as text, and for a program.
 //!
 //! What is fitted is a `signal`, made of a `curve` with two `ramp`s.
@@ -87,11 +89,11 @@ impl Record {
     }
 }
 
-/// By how much the exposures of records differ, as a share of the shortest, and is that so little that they are of one setting?
+/// By how much the exposures of records differ, as a share of the shortest, and is that so little that they are of one
+/// setting?
 pub fn setting(records: &[Record]) -> (f64, bool) {
     let exposures = records.iter().map(Record::exposure);
-    let (low, high) =
-        exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
+    let (low, high) = exposures.fold((f64::INFINITY, 0.0), |(low, high), x| (x.min(low), x.max(high)));
     let differ = high / low - 1.0;
     (differ, differ <= delay::ALIKE)
 }
@@ -100,27 +102,19 @@ pub fn setting(records: &[Record]) -> (f64, bool) {
 ///
 /// # Errors
 /// What [`Record::new`] and [`fit_records`] refuse.
-pub fn fit(
-    trace: &Trace,
-    options: &Options,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Fit, Refusal> {
+pub fn fit(trace: &Trace, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Fit, Refusal> {
     fit_records(&[Record::new(trace, options)?], options, progress)
 }
 
-/// Fits the shots of all these records, which are of one setting, as if they were in one: the curve is that of the shot of
-/// median exposure, and each shot gives a delay.
+/// Fits the shots of all these records, which are of one setting, as if they were in one: the curve is that of the shot
+/// of median exposure, and each shot gives a delay.
 ///
 /// # Errors
 /// A frame that is not there, a full light below what is seen, a sync that tells no delay.
 ///
 /// # Panics
 /// Without a record.
-pub fn fit_records(
-    records: &[Record],
-    options: &Options,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Fit, Refusal> {
+pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Fit, Refusal> {
     let n = options.triggers.unwrap_or(16).clamp(1, MOST_TRIGGERS);
     let frames: Vec<Frame> = Shot::all(records).iter().map(|shot| shot.frame.clone()).collect();
     let asked = shots::asked(&frames, options.frame)?;
@@ -160,8 +154,8 @@ pub fn fit_records(
         }
         None => model.clone(),
     };
-    let [model, results] = [model, results]
-        .map(|results| results.outside(&fits.units, peak).timed(&records[record].timing));
+    let [model, results] =
+        [model, results].map(|results| results.outside(&fits.units, peak).timed(&records[record].timing));
 
     let mut fit = Fit {
         candidates,
@@ -194,9 +188,7 @@ pub fn fit_records(
     }
     fit.warnings.extend(gap);
     let signal = fit.best().signal;
-    if let Some((delay, doubts)) =
-        delay::measure(records, &shots, asked, &signal, results.start, &fit.triggers)?
-    {
+    if let Some((delay, doubts)) = delay::measure(records, &shots, asked, &signal, results.start, &fit.triggers)? {
         fit.delay = Some(delay);
         fit.warnings.extend(doubts);
     }

@@ -1,5 +1,5 @@
-//! A frame's samples in the pulse and in the dark, and what a kind's curve misses of them; and by how much trigger times move with
-//! light that comes beside a curve.
+//! A frame's samples in the pulse and in the dark, and what a kind's curve misses of them; and by how much trigger
+//! times move with light that comes beside a curve.
 
 use std::ops::Range;
 
@@ -28,8 +28,8 @@ impl Parts {
     }
 }
 
-/// What a kind's curve misses of each sample; at its corners nothing, since a sample that shows a moment and one that gathers
-/// differ there.
+/// What a kind's curve misses of each sample; at its corners nothing, since a sample that shows a moment and one that
+/// gathers differ there.
 pub fn missed(fits: &FrameFits, kind: Kind) -> Vec<f64> {
     let fitted = fits.of(kind);
     let signal = fitted.solution.signal;
@@ -57,8 +57,8 @@ impl Beside {
         Self { curve, sums: bins.iter().zip(light).map(more).collect() }
     }
 
-    /// By how much later the curve has collected `u` with this light: `u` of all of it has to come as well, and what there is of it
-    /// up to then has come.
+    /// By how much later the curve has collected `u` with this light: `u` of all of it has to come as well, and what
+    /// there is of it up to then has come.
     fn later(&self, u: f64) -> f64 {
         let t = self.curve.trigger(u).0;
         let until = &self.sums[..self.sums.partition_point(|(to, _)| *to <= t)];

@@ -1,4 +1,5 @@
-//! How little noise counts as such, how many samples with noise stand for an independent one, and how mean squares are compared.
+//! How little noise counts as such, how many samples with noise stand for an independent one, and how mean squares are
+//! compared.
 
 /// The least standard deviation that counts, as a share of the light: below, rounding and the model's own limits rule.
 pub const LEAST: f64 = 1e-5;
@@ -8,13 +9,12 @@ const BLOCKS: usize = 16;
 
 /// How many samples stand for an independent one: the power of the residuals at frequency 0 over their variance.
 ///
-/// By an autoregressive model (Yule and Walker's equations, solved by Levinson and Durbin, the order by Akaike's criterion):
-/// the sum of the residuals' correlations itself comes out too low, because a fit takes the slowest part of the noise away.
+/// By an autoregressive model (Yule and Walker's equations, solved by Levinson and Durbin, the order by Akaike's
+/// criterion): the sum of the residuals' correlations itself comes out too low, because a fit takes the slowest part of
+/// the noise away.
 pub fn correlation(residuals: &[f64]) -> f64 {
     let n = residuals.len();
-    let lagged = |lag: usize| -> f64 {
-        residuals[lag.min(n)..].iter().zip(residuals).map(|(a, b)| a * b).sum()
-    };
+    let lagged = |lag: usize| -> f64 { residuals[lag.min(n)..].iter().zip(residuals).map(|(a, b)| a * b).sum() };
     let squares = lagged(0);
     if squares <= 0.0 {
         return 1.0;

@@ -179,8 +179,8 @@ impl Fit {
         &self.candidates[self.chosen as usize]
     }
 
-    /// The most that the efficiency may be, in 39 of 40 traces: blades may start more softly than any curve shows. None where straight
-    /// ramps, which have no soft start, are the best model and explain the trace.
+    /// The most that the efficiency may be, in 39 of 40 traces: blades may start more softly than any curve shows. None
+    /// where straight ramps, which have no soft start, are the best model and explain the trace.
     pub fn most_efficiency(&self) -> Option<f64> {
         let is_best = self.best().delta_bic <= 0.0 && self.test.explained;
         let is_straight = self.chosen <= Kind::Trapezoid && is_best;

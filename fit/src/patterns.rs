@@ -1,8 +1,9 @@
-//! What a curve may leave out of its samples, by patterns: a tail behind the closing ramp (creeping blades, a relaxing crystal, a slow
-//! sensor), full light that sinks or rises, and a dip or a bump for a fifth of the pulse, wherever that lies.
+//! What a curve may leave out of its samples, by patterns: a tail behind the closing ramp (creeping blades, a relaxing
+//! crystal, a slow sensor), full light that sinks or rises, and a dip or a bump for a fifth of the pulse, wherever that
+//! lies.
 //!
-//! How much of a pattern is in the samples, less what the signal's own parameters could make up for, is compared with what the dark's
-//! noise would put there (a score test). That finds what no block of samples shows by itself.
+//! How much of a pattern is in the samples, less what the signal's own parameters could make up for, is compared with
+//! what the dark's noise would put there (a score test). That finds what no block of samples shows by itself.
 
 use std::iter::once;
 
@@ -145,8 +146,7 @@ pub fn patterns(fits: &FrameFits, kind: Kind, shapes: impl Iterator<Item = Shape
             Beside::new(exposure, bins, amounts)
         };
         let raw = of(&light);
-        let (k, highest) =
-            light.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        let (k, highest) = light.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         Some(Pattern {
             shape,
             // Light that is missing behind a ramp is no tail.
@@ -194,8 +194,7 @@ impl Noise {
         let least = (LEAST * gain).powi(2);
         let squares = dark.iter().map(|r| r * r).sum::<f64>();
         let power = correlation * (squares / (n - correlation) + least);
-        let in_light =
-            (noise::fast(&residuals[parts.pulse]) + least) / (noise::fast(&dark) + least);
+        let in_light = (noise::fast(&residuals[parts.pulse]) + least) / (noise::fast(&dark) + least);
         // How well a correlated noise's power is known was worked out for one that goes on from one sample to the next.
         Some(Self { power, in_light: in_light.max(1.0), known: n / (2.0 * correlation - 1.0) })
     }

@@ -1,20 +1,20 @@
-//! A ramp from (0, 0) to (1, 1): a cubic Bezier in (time, openness), its integral over time, and what both lose or gain as
-//! the control numbers move, all in closed form.
+//! A ramp from (0, 0) to (1, 1): a cubic Bezier in (time, openness), its integral over time, and what both lose or gain
+//! as the control numbers move, all in closed form.
 //!
-//! With `x(p)` the time and `y(p)` the openness, the integral up to the place `p` is `G(p) = ∫₀ᵖ y x' dp`, a polynomial of
-//! degree 6. At a fixed time it moves with the control numbers as
+//! With `x(p)` the time and `y(p)` the openness, the integral up to the place `p` is `G(p) = ∫₀ᵖ y x' dp`, a polynomial
+//! of degree 6. At a fixed time it moves with the control numbers as
 //!
 //! - `∂G/∂y₁ = ∫ B₁ x' dp`, because `x` does not depend on them;
-//! - `∂G/∂x₁ = -∫ B₁ y' dp`: integrated by parts, `G = y x - ∫ x y' dp`, and at a fixed time what the move of `p` does to
-//!   both parts cancels.
+//! - `∂G/∂x₁ = -∫ B₁ y' dp`: integrated by parts, `G = y x - ∫ x y' dp`, and at a fixed time what the move of `p` does
+//!   to both parts cancels.
 //!
 //! No derivative divides by `x'`, so a ramp whose time stands still somewhere is as good as any.
 
 /// The control numbers `x1, y1, x2, y2`.
 pub type Controls = [f64; 4];
 
-/// Where each of them stays. The crate takes no first time that passes the second by more than 15/16: here it is 0.92, and
-/// the rest is for a scene's rounding.
+/// Where each of them stays. The crate takes no first time that passes the second by more than 15/16: here it is 0.92,
+/// and the rest is for a scene's rounding.
 pub const BOUNDS: [(f64, f64); 4] = [(0.0, 0.96), (0.0, 1.0), (0.04, 1.0), (0.0, 1.0)];
 
 pub const STRAIGHT: Controls = [1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
@@ -67,13 +67,8 @@ impl UnitRamp {
             return At::default();
         }
         let p = if z < 1.0 { self.place(z) } else { 1.0 };
-        let integral =
-            |c: &Integral| p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))));
-        At {
-            openness: cubic(self.y, p),
-            area: integral(&self.area),
-            moves: self.moves.each_ref().map(integral),
-        }
+        let integral = |c: &Integral| p * p * (c[0] + p * (c[1] + p * (c[2] + p * (c[3] + p * c[4]))));
+        At { openness: cubic(self.y, p), area: integral(&self.area), moves: self.moves.each_ref().map(integral) }
     }
 
     pub fn reaches(&self, openness: f64) -> f64 {
@@ -87,7 +82,8 @@ impl UnitRamp {
 
     /// The place `p` at which the time is `z`: Newton's method inside a bracket that is halved where that leaves it.
     ///
-    /// The error that is left in `p` counts for next to nothing: the integral at a fixed time is the same to first order.
+    /// The error that is left in `p` counts for next to nothing: the integral at a fixed time is the same to first
+    /// order.
     fn place(&self, z: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         let mut p = z;

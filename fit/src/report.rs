@@ -61,10 +61,7 @@ fn write_trace(out: &mut String, name: &str, fit: &Fit) -> fmt::Result {
 /// Each candidate, which was chosen, and why.
 fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
     let unit = fit.unit();
-    writeln!(
-        out,
-        "  model                   opening      open   closing   rms %    ΔBIC    shift"
-    )?;
+    writeln!(out, "  model                   opening      open   closing   rms %    ΔBIC    shift")?;
     for candidate in &fit.candidates {
         let kind = candidate.signal.kind;
         let c = &candidate.signal.curve;
@@ -75,10 +72,7 @@ fn write_models(out: &mut String, fit: &Fit) -> fmt::Result {
         let shift = time(candidate.shift, 2);
         let bic = trimmed(candidate.delta_bic, 0);
         let title = kind.title();
-        writeln!(
-            out,
-            "{mark} {title:22}  {opens:>8}  {open:>8}  {closes:>8}  {rms:>6}  {bic:>6}  {shift:>7}"
-        )?;
+        writeln!(out, "{mark} {title:22}  {opens:>8}  {open:>8}  {closes:>8}  {rms:>6}  {bic:>6}  {shift:>7}")?;
     }
     let name = unit.name();
     writeln!(out, "  in {name}; shift: the most by which a trigger lies off the free model's")?;
@@ -197,14 +191,12 @@ pub fn because(fit: &Fit) -> String {
             "the simplest whose triggers are within {} % of the exposure of the free model's",
             short(100.0 * share, 3)
         ),
-        Reason::Tolerance(Tolerance::Seconds(seconds)) => format!(
-            "the simplest whose triggers are within {} of the free model's",
-            fit.unit().show(seconds)
-        ),
+        Reason::Tolerance(Tolerance::Seconds(seconds)) => {
+            format!("the simplest whose triggers are within {} of the free model's", fit.unit().show(seconds))
+        }
         Reason::Explains => "the simplest that explains the trace".into(),
-        Reason::Criterion { effective } => format!(
-            "best for its number of parameters (BIC); {} independent samples",
-            trimmed(effective, 0)
-        ),
+        Reason::Criterion { effective } => {
+            format!("best for its number of parameters (BIC); {} independent samples", trimmed(effective, 0))
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! Exposure and triggers from the samples themselves, by a running sum: where no model explains them, and beside the model's.
+//! Exposure and triggers from the samples themselves, by a running sum: where no model explains them, and beside the
+//! model's.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -68,8 +69,8 @@ pub fn results(fits: &FrameFits, kind: Kind, n: u32) -> Option<Results> {
         Measured { value, error: amount / least_open(&integral, value) }
     };
     let triggers: Vec<Measured> = fractions(n).map(trigger).collect();
-    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the exposure; but
-    // nothing is triggered before the shutter opens.
+    // No trace shows where a ramp's foot starts, so that is the model's, as well as it meets the middle of the
+    // exposure; but nothing is triggered before the shutter opens.
     let apart = model.triggers.first().map_or(0.0, |m| m.value - running.reaches(0.5 * area));
     let earliest = triggers.first().map_or(f64::INFINITY, |first| first.value);
     let value = model.start.value.min(earliest).min(running.early.unwrap_or(f64::INFINITY));
@@ -119,8 +120,7 @@ impl Running {
         // A median is known less well than a mean; and a level that wanders more than the noise, as a drift or a hum
         // makes it, does so in the pulse as well.
         let unlit = blocks.iter().map(|b| b - base).filter(|b| b.abs() <= IS_LIGHT * usual);
-        let wanders =
-            mean_square(&unlit.collect::<Vec<_>>()) - walk.power / (length as f64 * fits.step);
+        let wanders = mean_square(&unlit.collect::<Vec<_>>()) - walk.power / (length as f64 * fits.step);
         let dark = 0.5 * PI * walk.power / (dark.len() as f64 * fits.step);
         let start = lit[0].from;
         let early = (from < parts.pulse.start).then_some(start);
@@ -150,8 +150,9 @@ impl Running {
         let count = ((1.0 - FLAT) / (0.5 * part)) as usize;
         let stretches: Vec<(f64, f64)> = (0..=count).filter_map(stretch).collect();
         let least = stretches.iter().map(|(scatter, _)| *scatter).fold(f64::INFINITY, f64::min);
-        // Which of those that are nearly as flat, or as flat as the noise lets them be, is the flattest is chance: their mean
-        // counts, and is known no better than they agree. Of the flattest one chance makes a quarter of the usual at least.
+        // Which of those that are nearly as flat, or as flat as the noise lets them be, is the flattest is chance:
+        // their mean counts, and is known no better than they agree. Of the flattest one chance makes a quarter of the
+        // usual at least.
         let usual = walk / part * (parts - 1) as f64;
         let alike = stretches.iter().filter(|s| s.0 <= ALIKE * usual.clamp(least, 4.0 * least));
         let alike: Vec<f64> = alike.map(|(_, level)| *level).collect();

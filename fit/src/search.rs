@@ -1,4 +1,5 @@
-//! The best signal of every kind: the solver from each kind's starts, which are shapes of ramps laid through a pulse's crossings.
+//! The best signal of every kind: the solver from each kind's starts, which are shapes of ramps laid through a pulse's
+//! crossings.
 
 use crate::curve::Curve;
 use crate::ramp::{Controls, STRAIGHT, UnitRamp};
@@ -18,9 +19,10 @@ const SHAPES: [Controls; 6] = [
     [0.05, 0.6, 0.4, 1.0],
 ];
 
-/// Every kind's best signal, simplest first, in pulses with these crossings and samples a `step` apart: near each kind's starts, and
-/// near the best curve of the next simpler kind. What is not the curve's starts as it is in `like`, for each kind anew: a hum's
-/// frequency, say, that the misfit of a simple kind has led astray is not handed on to the next.
+/// Every kind's best signal, simplest first, in pulses with these crossings and samples a `step` apart: near each
+/// kind's starts, and near the best curve of the next simpler kind. What is not the curve's starts as it is in `like`,
+/// for each kind anew: a hum's frequency, say, that the misfit of a simple kind has led astray is not handed on to the
+/// next.
 pub fn every_kind(
     problem: &Problem,
     crossings: &Crossings,
@@ -33,8 +35,7 @@ pub fn every_kind(
         progress(found.len() as f64 / Kind::ALL.len() as f64);
         let signal = |curve: Curve| Signal { kind, curve, ..*like };
         let cost = |curve: Curve| (problem.at(&signal(curve)).cost, curve);
-        let mut ranked: Vec<_> =
-            through_crossings(kind, crossings, step).into_iter().map(cost).collect();
+        let mut ranked: Vec<_> = through_crossings(kind, crossings, step).into_iter().map(cost).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let nested = found.last().map(|it| from_simpler(kind, &it.signal.curve, step));
         let followed = ranked.iter().map(|(_, curve)| *curve).take(FOLLOWED).chain(nested);
@@ -84,7 +85,8 @@ fn through(crossings: &Crossings, step: f64, controls: [Controls; 2]) -> Curve {
     let (back, mut closing) = ramp(&controls[1], -down25, -down75);
     let (open, close, end) = (start + opening, -back - closing, -back);
     if open > close {
-        // The ramps would cross: they meet in a peak. Of ramps that lie the wrong way round nothing but their middle is left.
+        // The ramps would cross: they meet in a peak. Of ramps that lie the wrong way round nothing but their middle is
+        // left.
         let (earliest, latest) = (start + 0.1 * opening, end - 0.1 * closing);
         let peak = (0.5 * (open + close)).max(earliest).min(latest.max(earliest));
         (opening, closing) = (peak - start, (end - peak).max(0.0));

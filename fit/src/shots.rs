@@ -1,5 +1,5 @@
-//! Several shots in a trace: which of them is fitted, whether they are of one shutter speed, and samples that are missing inside one:
-//! told, and refused where a ramp is lost with them.
+//! Several shots in a trace: which of them is fitted, whether they are of one shutter speed, and samples that are
+//! missing inside one: told, and refused where a ramp is lost with them.
 
 use crate::trace::{Frame, Pulses, Refusal, Warning, median, sampling_interval};
 
@@ -14,7 +14,8 @@ const RAMP: f64 = 0.2;
 /// What is so many pulses away does not matter.
 const AROUND: f64 = 0.5;
 
-/// By how much the exposures scatter, as a share of their mean, where that is more than one shutter speed and the noise explain.
+/// By how much the exposures scatter, as a share of their mean, where that is more than one shutter speed and the noise
+/// explain.
 pub fn differ(frames: &[Frame], scatter: f64, noise: f64) -> bool {
     let samples = frames.iter().map(|frame| frame.samples.len()).min().unwrap_or(1) as f64;
     // A fifth of the samples at least are the pulse's; each adds its noise.
@@ -44,19 +45,15 @@ pub fn gaps(pulses: &Pulses, frame: &Frame) -> Result<Option<Warning>, Refusal> 
     let (times, n) = (&trace.times, trace.times.len());
     let usual = sampling_interval(times);
     let step = |k: usize| times.get(k + 1).map_or(usual, |next| next - times[k]);
-    let is_gap =
-        |k: &usize| step(*k) > LONG * usual.max(step(k.saturating_sub(1)).min(step(k + 1)));
+    let is_gap = |k: &usize| step(*k) > LONG * usual.max(step(k.saturating_sub(1)).min(step(k + 1)));
     // Far from the pulse, a recorder may have waited for the next one.
     let near = AROUND * (frame.crossings[5] - frame.crossings[0]);
-    let is_near = |k: &usize| {
-        times[k + 1] > frame.crossings[0] - near && times[*k] < frame.crossings[5] + near
-    };
+    let is_near = |k: &usize| times[k + 1] > frame.crossings[0] - near && times[*k] < frame.crossings[5] + near;
     let gaps: Vec<usize> = (1..n.saturating_sub(2)).filter(|k| is_near(k) && is_gap(k)).collect();
     // By few samples' median on either side, against the noise.
     let level = |few: &[f64]| median(few.to_vec());
     for &k in &gaps {
-        let (before, after) =
-            (&trace.values[k.saturating_sub(4)..=k], &trace.values[k + 1..n.min(k + 6)]);
+        let (before, after) = (&trace.values[k.saturating_sub(4)..=k], &trace.values[k + 1..n.min(k + 6)]);
         if (level(after) - level(before)).abs() > (RAMP * pulses.light()).max(4.0 * pulses.noise) {
             return Err(Refusal::LostRamp { from: times[k], to: times[k + 1] });
         }

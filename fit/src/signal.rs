@@ -221,9 +221,7 @@ impl Signal {
                 let [frequency, cosine, sine] = [next(), next(), next()];
                 Hum { frequency, cosine, sine, ..hum }
             }),
-            flicker: self
-                .flicker
-                .map(|flicker| Flicker { terms: flicker.terms.map(|_| next()), ..flicker }),
+            flicker: self.flicker.map(|flicker| Flicker { terms: flicker.terms.map(|_| next()), ..flicker }),
         }
     }
 

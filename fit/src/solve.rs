@@ -1,7 +1,7 @@
 //! Least squares: the parameters of a signal that pass its bins most closely.
 //!
-//! Levenberg and Marquardt's method with bounds: a parameter that lies on its bound and would leave it stands still for a
-//! step, and a step that leaves a bound ends on it.
+//! Levenberg and Marquardt's method with bounds: a parameter that lies on its bound and would leave it stands still for
+//! a step, and a step that leaves a bound ends on it.
 
 use crate::bins::Bin;
 use crate::curve::Whole;
@@ -66,8 +66,7 @@ impl Solution {
         let (packed, bounds) = (self.signal.pack(), self.signal.bounds());
         let outward = |k: usize| {
             let (low, high) = bounds[k];
-            packed[k] <= low && self.gradient[k] > 0.0
-                || packed[k] >= high && self.gradient[k] < 0.0
+            packed[k] <= low && self.gradient[k] > 0.0 || packed[k] >= high && self.gradient[k] < 0.0
         };
         (0..packed.len()).filter(|k| !outward(*k)).collect()
     }
@@ -167,8 +166,8 @@ impl Cholesky {
         Some(Self { lower: a })
     }
 
-    /// The same where the samples do not tell the parameters apart: their diagonal is raised until they are, so that each has
-    /// a variance, however large.
+    /// The same where the samples do not tell the parameters apart: their diagonal is raised until they are, so that
+    /// each has a variance, however large.
     pub fn stiffened(a: &[Vec<f64>]) -> Self {
         let largest = a.iter().enumerate().map(|(k, row)| row[k]).fold(f64::MIN_POSITIVE, f64::max);
         let raised = |by: f64| {

@@ -1,20 +1,16 @@
-//! What a shutter tester says: the exposure beside the nearest speed of the scale, and the curve's times by their names.
+//! What a shutter tester says: the exposure beside the nearest speed of the scale, and the curve's times by their
+//! names.
 
 use crate::outcome::{Fit, From};
 use crate::unit::{decimals, short, stops};
 
 /// The full steps of the usual scale that are no powers of two, in parts of a second.
-const FRACTIONS: [f64; 13] =
-    [8000.0, 4000.0, 2000.0, 1000.0, 500.0, 250.0, 125.0, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0];
+const FRACTIONS: [f64; 13] = [8000.0, 4000.0, 2000.0, 1000.0, 500.0, 250.0, 125.0, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0];
 
 /// A speed as a dial has it, its part of a second with so many decimals.
 fn dial(seconds: f64, places: usize) -> String {
     // From a third of a second on, seconds are what a dial shows.
-    if seconds < 0.3 {
-        format!("1/{:.places$} s", 1.0 / seconds)
-    } else {
-        format!("{} s", short(seconds, 3))
-    }
+    if seconds < 0.3 { format!("1/{:.places$} s", 1.0 / seconds) } else { format!("{} s", short(seconds, 3)) }
 }
 
 /// The nearest speed of the scale, in seconds.
@@ -25,8 +21,8 @@ fn nearest(seconds: f64) -> f64 {
     scale.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(1.0)
 }
 
-/// The exposure beside what it is called, or the nearest speed of the scale; none where that is more than a step away, as of what
-/// is no camera's shutter.
+/// The exposure beside what it is called, or the nearest speed of the scale; none where that is more than a step away,
+/// as of what is no camera's shutter.
 pub fn speed(fit: &Fit) -> Option<String> {
     let seconds = fit.exposure.value;
     let (nominal, called) = match fit.nominal {

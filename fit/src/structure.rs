@@ -1,24 +1,23 @@
 //! Does a curve explain its samples? What it misses is compared with the noise that the dark shows.
 //!
-//! Means over blocks of neighbours show structure, differences of neighbours the noise alone; the ratio of the two in the pulse
-//! is compared with the same ratio in the dark (an F test), so that a noise of any colour and of any size is none. A block in the
-//! dark that stands out is structure as well, and so are [`patterns`](crate::patterns) of what shutters do.
+//! Means over blocks of neighbours show structure, differences of neighbours the noise alone; the ratio of the two in
+//! the pulse is compared with the same ratio in the dark (an F test), so that a noise of any colour and of any size is
+//! none. A block in the dark that stands out is structure as well, and so are [`patterns`](crate::patterns) of what
+//! shutters do.
 
 use std::ops::Range;
 
 use crate::frame::FrameFits;
 use crate::missed::{Parts, missed};
-use crate::noise::{
-    blocks, correlation, fast, from_mean, mean_square, normal_of, slow_correlation,
-};
+use crate::noise::{blocks, correlation, fast, from_mean, mean_square, normal_of, slow_correlation};
 use crate::outcome::Test;
 use crate::patterns::{MATTERS, Pattern, Shape, patterns};
 use crate::signal::Kind;
 
 /// So many standard deviations are beyond chance: a normal number is there once in 30 000 times.
 const BEYOND: f64 = 4.0;
-/// 1/f noise looks like structure: where so many samples of the dark stand for an independent one, on both sides of the pulse, a
-/// test has to be so many times further off.
+/// 1/f noise looks like structure: where so many samples of the dark stand for an independent one, on both sides of the
+/// pulse, a test has to be so many times further off.
 const WANDERS: f64 = 4.0;
 const STRICT: f64 = 1.35;
 /// Of blocks in the dark, by their own median: that is known less well.
@@ -88,8 +87,7 @@ impl Structure {
         self.test.unseen = self.test.unseen.max(unseen);
         if unseen > UNSEEN || self.strict > 1.0 {
             let [of_triggers, of_exposure] = self.unseen_moves;
-            self.unseen_moves =
-                [of_triggers.max(least * triggers), of_exposure.max(least * exposure.abs())];
+            self.unseen_moves = [of_triggers.max(least * triggers), of_exposure.max(least * exposure.abs())];
         }
     }
 
@@ -116,7 +114,8 @@ pub struct Walk {
 }
 
 impl Walk {
-    /// By what blocks in the dark differ by from the next, so that a drift does not count; none where there is too little dark.
+    /// By what blocks in the dark differ by from the next, so that a drift does not count; none where there is too
+    /// little dark.
     pub fn new(missed: &[f64], parts: &Parts, step: f64) -> Option<Self> {
         let dark = [&missed[parts.before.clone()], &missed[parts.after.clone()]];
         let length = (dark[0].len() + dark[1].len()) / 14;

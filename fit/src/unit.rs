@@ -26,8 +26,7 @@ pub enum Unit {
 
 impl Unit {
     /// All, the largest first.
-    pub const ALL: [Self; 4] =
-        [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
+    pub const ALL: [Self; 4] = [Self::Second, Self::Millisecond, Self::Microsecond, Self::Nanosecond];
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
@@ -129,8 +128,7 @@ pub const MOST_PLACES: usize = 12;
 
 /// A value and its standard error, to the digits that the error leaves.
 pub fn plus_minus(value: f64, error: f64, unit: &str) -> String {
-    let places =
-        if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
+    let places = if error > 0.0 && error.is_finite() { decimals(error, 2) } else { decimals(value, 5) };
     let places = places.min(MOST_PLACES);
     format!("{} ± {error:.places$} {unit}", fixed(value, places))
 }

@@ -57,9 +57,7 @@ impl Units {
                 cosine: cosine * self.light,
                 sine: sine * self.light,
             }),
-            flicker: signal
-                .flicker
-                .map(|lamp| Flicker { frequency: lamp.frequency / self.pulse, ..lamp }),
+            flicker: signal.flicker.map(|lamp| Flicker { frequency: lamp.frequency / self.pulse, ..lamp }),
         }
     }
 }

@@ -6,17 +6,8 @@ use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave};
 
 /// Chebyshev's nodes on [-1, 1]: interpolating there comes within a small factor of the best polynomial.
-pub(crate) const NODES: [f32; DEGREE + 1] = [
-    -0.984_807_7,
-    -0.8660254,
-    -0.64278764,
-    -0.34202015,
-    0.0,
-    0.34202015,
-    0.64278764,
-    0.8660254,
-    0.984_807_7,
-];
+pub(crate) const NODES: [f32; DEGREE + 1] =
+    [-0.984_807_7, -0.8660254, -0.64278764, -0.34202015, 0.0, 0.34202015, 0.64278764, 0.8660254, 0.984_807_7];
 
 /// What the eight products of `Octave::polynomial`, each rounded down, add to `P(x)`: from -1.992 to 0.664 in the unit
 /// of the coefficients (`proofs/octaves.py`). Half of that range, and its mean, for which the octave's middle makes up.

@@ -4,9 +4,7 @@
 //! over the area, the error in exposure. With what rounding adds, both are held against their limits.
 
 use crate::number::units::{exponent, floor_bits, power_of_two};
-use crate::octave::bound::{
-    FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors,
-};
+use crate::octave::bound::{FIRST_STRIDE, KINDS, POSITION_BITS, SAMPLE_OFF, TIME_BITS, count, errors};
 use crate::octave::candidate::Candidate;
 use crate::octave::path::{Stretch, View, absolute, scale, singles, value};
 use crate::octave::span::Span;
@@ -58,12 +56,7 @@ impl ErrorOverLimit {
 
 /// The errors of a candidate on its stretch.
 #[inline(never)]
-pub(crate) const fn certificate(
-    view: &View,
-    candidate: &Candidate,
-    span: &Span,
-    stretch: &Stretch,
-) -> ErrorOverLimit {
+pub(crate) const fn certificate(view: &View, candidate: &Candidate, span: &Span, stretch: &Stretch) -> ErrorOverLimit {
     let Candidate { ref octave, middle_time, step, slope_bound_steps, .. } = *candidate;
     let mut time_steps = stretch.time;
     time_steps[0] -= middle_time;
@@ -77,9 +70,7 @@ pub(crate) const fn certificate(
         return ErrorOverLimit::REFUSED;
     }
     let (mut position, mut time) = ([0; 7], [0; 4]);
-    if !(count(&stretch.position, POSITION_BITS, &mut position)
-        & count(&time_steps, TIME_BITS, &mut time))
-    {
+    if !(count(&stretch.position, POSITION_BITS, &mut position) & count(&time_steps, TIME_BITS, &mut time)) {
         return ErrorOverLimit::REFUSED;
     }
     // Rounding counts twice: a sample has its own, and so has the answer, in `bounds`. A sample's position is rounded
@@ -114,16 +105,9 @@ struct PerStep {
 
 impl PerStep {
     #[inline(never)]
-    const fn new(
-        view: &View,
-        candidate: &Candidate,
-        span: &Span,
-        stretch: &Stretch,
-        time_steps: &[f64; 4],
-    ) -> Self {
+    const fn new(view: &View, candidate: &Candidate, span: &Span, stretch: &Stretch, time_steps: &[f64; 4]) -> Self {
         let Candidate { step, slope_bound_steps, truncation_steps, .. } = *candidate;
-        let (exposure, ends) =
-            (view.exposure, [value(&stretch.time, -1.0), value(&stretch.time, 1.0)]);
+        let (exposure, ends) = (view.exposure, [value(&stretch.time, -1.0), value(&stretch.time, 1.0)]);
         let fraction_off = JOIN_OFF + FRACTION_OFF * span.to;
         // No span begins below LEAST_TOP / 2, so the limit is above 0 (proofs/certificate.py).
         let ulp = power_of_two(exponent(f32::from_bits(floor_bits(span.from))) - 23);
@@ -157,8 +141,7 @@ impl PerStep {
         // most >= t' >= slowest
         let [_, t1, t2, t3] = self.time_steps;
         let (thrice, most) = (3.0 * t3, t1.abs() + 2.0 * t2.abs() + 3.0 * t3.abs());
-        let slowest =
-            if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
+        let slowest = if thrice > t2.abs() { t1 - t2 * t2 / thrice } else { t1 + thrice - 2.0 * t2.abs() };
         let slowest = slowest - most / (1 << 20) as f32;
         // Along a way `d` of `s` time grows by `d slowest` at least. It also grows by `t3 d³ / 4`, as `t'` is a
         // parabola that is nowhere negative, and 3 t3 its highest coefficient. So along `way` it grows by `error`, or
@@ -171,12 +154,8 @@ impl PerStep {
         // |f'| <= steepest, so on the way the openness grows by `way steepest` at most.
         let [_, f1, f2, f3] = self.backward;
         let steepest = f1.abs() + 2.0 * f2.abs() + 3.0 * f3.abs();
-        let on_ramp =
-            exposure_error + rounding * absolute(&self.backward, 1.0) + error * way * steepest;
+        let on_ramp = exposure_error + rounding * absolute(&self.backward, 1.0) + error * way * steepest;
         let beyond = error * self.backward_beyond;
-        ErrorOverLimit {
-            forward: error * self.forward,
-            backward: if beyond > on_ramp { beyond } else { on_ramp },
-        }
+        ErrorOverLimit { forward: error * self.forward, backward: if beyond > on_ramp { beyond } else { on_ramp } }
     }
 }

@@ -97,8 +97,7 @@ impl Octave {
 
 /// Is this Armv6-M, which has no instruction for the upper word of a product? Stable Rust can tell it by its lack of
 /// compare-and-swap. A wrong answer costs time and changes no bits.
-const HALVES: bool =
-    cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
+const HALVES: bool = cfg!(all(target_arch = "arm", target_abi = "eabi", not(target_has_atomic = "32")));
 
 /// `floor(a x / 2³²)`
 // proofs/octaves.py

@@ -33,11 +33,7 @@ impl View<'_> {
         let shape = shapes[ramp as usize].seen_from(side);
         let until_far = exposure.join_time(side.other()) as f64 - exposure.end_time(side) as f64;
         // At p = 0: the side's end, or the far ramp's join.
-        let (t0, u0) = if ramp.is(side) {
-            (0.0, 0.0)
-        } else {
-            (until_far.abs(), exposure.join_fractions(side)[1])
-        };
+        let (t0, u0) = if ramp.is(side) { (0.0, 0.0) } else { (until_far.abs(), exposure.join_fractions(side)[1]) };
         let [t1, t2, t3] = shape.time_powers();
         let [u1, u2, u3, u4, u5, u6] = shape.exposure_powers();
         let mut fraction = [0.0, u1, u2, u3, u4, u5, u6];
@@ -52,8 +48,7 @@ impl View<'_> {
     pub(crate) const fn size_of_time(&self, since_end: f64) -> f32 {
         let [start, end] = [self.exposure.end_time(Side::Start), self.exposure.end_time(Side::End)];
         let size = if !(start < 0.0 && end > 0.0) {
-            let time =
-                if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
+            let time = if self.side.is_end() { end as f64 - since_end } else { start as f64 + since_end };
             (time as f32).abs()
         } else if end > -start {
             end
@@ -122,12 +117,7 @@ impl Path {
         recentred(&mut position, middle, half);
         position[0] -= power as f64;
         scale(&mut position, (WORD / power) as f64, 1.0);
-        Stretch {
-            openness,
-            time,
-            position,
-            is_joined: if joins_last { last == 1.0 } else { first == 0.0 },
-        }
+        Stretch { openness, time, position, is_joined: if joins_last { last == 1.0 } else { first == 0.0 } }
     }
 }
 

@@ -51,8 +51,7 @@ impl Span {
 
     /// 2³² plus the position of the middle, whose lowest bits are the shift. The lower word is `Octave::center`.
     pub(crate) const fn center(&self) -> i64 {
-        fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64)
-            | self.shift as i64
+        fixed_down(self.middle, exponent(self.power) - 32) & !(SHIFT_MASK as i64) | self.shift as i64
     }
 
     /// `(center, per_position)`: the offset, in widths, is `(position - center) per_position`.

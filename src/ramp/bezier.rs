@@ -111,11 +111,7 @@ impl CubicBezier {
 const fn snapped(start: f64, end: f64, fraction: f32, from: f32, to: f32) -> f32 {
     let (fraction, from, to) = (fraction as f64, from as f64, to as f64);
     // From the nearer end, so that 0 and 1 are exact.
-    let time = if fraction < 0.5 {
-        start + (end - start) * fraction
-    } else {
-        end - (end - start) * (1.0 - fraction)
-    };
+    let time = if fraction < 0.5 { start + (end - start) * fraction } else { end - (end - start) * (1.0 - fraction) };
     let on_ramp = if time < from { from } else { to };
     let on_ramp = if time >= from && time <= to { time } else { on_ramp };
     let rounding = 3.0 * (start.abs() + end.abs()) / (1 << 24) as f64;

@@ -11,9 +11,7 @@ use crate::fraction::Side::{self, End, Start};
 use crate::number::moment::Moment;
 use crate::number::pair::Pair;
 use crate::number::series::Series;
-use crate::number::units::{
-    LAST_PLACE, WHOLE, exponent, mass_exponent, power_of_two, power_of_two_f64, ramp_exponent,
-};
+use crate::number::units::{LAST_PLACE, WHOLE, exponent, mass_exponent, power_of_two, power_of_two_f64, ramp_exponent};
 use crate::ramp::shape::Shape;
 use crate::search::{Anchor, Found, solve};
 
@@ -72,8 +70,7 @@ impl Ramp {
             let side = Side::BOTH[i];
             let (seen, seen_end) = (shape.seen_from(side), &mut ramp.ends[i]);
             // From either side both last coefficients have the same bits, but for the sign of the mass.
-            ramp.last_of_time =
-                in_places(&seen.time_powers(), ramp_units_per_time, &mut seen_end.time_c);
+            ramp.last_of_time = in_places(&seen.time_powers(), ramp_units_per_time, &mut seen_end.time_c);
             let last = in_places(&seen.exposure_powers(), mass_per_area, &mut seen_end.mass_c);
             ramp.last_of_mass = last.flipped(side.sign());
             i += 1;

@@ -22,11 +22,7 @@ impl Shape {
     /// Seen from the end that faces a side; `self` is seen from the earlier one.
     pub(crate) const fn seen_from(self, side: Side) -> Self {
         let Self { openness: [f0, f1, f2, f3], differences: [d0, d1, d2] } = self;
-        if side.is_end() {
-            Self { openness: [f3, f2, f1, f0], differences: [d2, d1, d0] }
-        } else {
-            self
-        }
+        if side.is_end() { Self { openness: [f3, f2, f1, f0], differences: [d2, d1, d0] } } else { self }
     }
 
     /// `f(p)` by powers of `p`, the constant first.

@@ -81,8 +81,7 @@ impl<const N: usize> Anchor<N> {
             let local = Taylor::new(&self.c, x);
             evaluations += 1;
             let missing = self.sought - local.value;
-            if missing.abs().to_bits() as i32 <= stop_below_bits || evaluations >= FREE_EVALUATIONS
-            {
+            if missing.abs().to_bits() as i32 <= stop_below_bits || evaluations >= FREE_EVALUATIONS {
                 return (local, evaluations);
             }
             // In bits, so that the limits stop a NaN, too. That may have either sign, by machine: as 0 it is the least
@@ -197,12 +196,7 @@ pub(crate) const fn left<const N: usize>(
 /// The place where `series` reaches `target`, within `error`. The last step leaves at most 3/4 of that; the last
 /// quarter is for measuring. At the limit of evaluations there is no bound.
 #[inline(always)]
-pub(crate) const fn solve<const N: usize>(
-    series: Series,
-    target: Pair,
-    anchor: &Anchor<N>,
-    error: f32,
-) -> Found {
+pub(crate) const fn solve<const N: usize>(series: Series, target: Pair, anchor: &Anchor<N>, error: f32) -> Found {
     let Anchor { place, ref c, sought } = *anchor;
     // The anchor itself.
     if sought <= 0.5 * error {

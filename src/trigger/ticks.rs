@@ -20,11 +20,7 @@ pub(crate) struct Ticks<'a, const OCTAVES: usize> {
 }
 
 impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
-    pub(crate) const fn new(
-        inverse: &'a Inverse<OCTAVES>,
-        n: u32,
-        timer_hz: u32,
-    ) -> Result<Self, ScheduleError> {
+    pub(crate) const fn new(inverse: &'a Inverse<OCTAVES>, n: u32, timer_hz: u32) -> Result<Self, ScheduleError> {
         if timer_hz == 0 {
             return Err(ScheduleError::TickRateZero);
         }
@@ -79,11 +75,7 @@ impl<'a, const OCTAVES: usize> Ticks<'a, OCTAVES> {
     }
 
     /// The ticks of all triggers, as many as the slice has places; an error at the first gap that is too small.
-    pub(crate) const fn ticks_into(
-        &self,
-        ticks: &mut [u32],
-        min_gap: u32,
-    ) -> Result<(), ScheduleError> {
+    pub(crate) const fn ticks_into(&self, ticks: &mut [u32], min_gap: u32) -> Result<(), ScheduleError> {
         let (mut i, mut last) = (0, 0);
         while i < ticks.len() {
             let tick = self.at(i as u32);

@@ -14,8 +14,7 @@ fn a_sample_is_by_words_what_it_is_by_more_bits() {
             1 => -(1 << 30),
             _ => rng.bits() as i32 >> 1,
         };
-        let wide =
-            c.iter().rev().fold(0, |value: i128, c| ((value * place as i128) >> 30) + *c as i128);
+        let wide = c.iter().rev().fold(0, |value: i128, c| ((value * place as i128) >> 30) + *c as i128);
         assert_eq!(i128::from(at(&c, place)), wide, "{c:?} at {place}");
     }
 }

@@ -5,9 +5,7 @@ use crate::fraction::Side;
 use crate::number::units::{WORD, fixed_down, power_of_two_f64, time_exponent};
 use crate::octave::build::{build, range};
 use crate::octave::candidate::{Candidate, NODES, candidate};
-use crate::octave::certificate::{
-    ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate,
-};
+use crate::octave::certificate::{ErrorOverLimit, FORWARD_ERROR, FRACTION_OFF, JOIN_OFF, ULP_ERROR, certificate};
 use crate::octave::path::{Path, Stretch, View, value};
 use crate::octave::span::Span;
 use crate::octave::{DEGREE, Octave, below, top};
@@ -47,16 +45,13 @@ impl Truth {
         let Ok((exposure, shapes)) = Exposure::new(&ramps[0], &ramps[1]) else {
             return;
         };
-        let (exact, unit) = (
-            Exact::new(curve),
-            time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End)),
-        );
+        let (exact, unit) =
+            (Exact::new(curve), time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End)));
         for side in Side::BOTH {
             let mut octaves = [Octave::NONE; OCTAVES];
             let tops = build(&exposure, &shapes, unit, side, &mut octaves);
             for (ramp, steps) in Side::BOTH.into_iter().zip(tops) {
-                let this =
-                    View { exposure: &exposure, shapes: &shapes, side, ramp, unit_exponent: unit };
+                let this = View { exposure: &exposure, shapes: &shapes, side, ramp, unit_exponent: unit };
                 let (range, path) = (range(&exposure, side, ramp), this.path());
                 for (index, octave) in octaves.iter().enumerate().filter(|(_, o)| o.exists()) {
                     if let Some(span) = Span::new(range, below(top(steps), index)) {
@@ -77,15 +72,7 @@ impl View<'_> {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn judge(
-        &self,
-        octave: &Octave,
-        path: &Path,
-        span: &Span,
-        exact: &Exact,
-        samples: u32,
-        greatest: &mut [f64; 2],
-    ) {
+    fn judge(&self, octave: &Octave, path: &Path, span: &Span, exact: &Exact, samples: u32, greatest: &mut [f64; 2]) {
         let (candidate, stretch) = self.built(span, path);
         assert_eq!(candidate.octave, *octave);
         let bounds = certificate(self, &candidate, span, &stretch);
@@ -107,8 +94,7 @@ impl View<'_> {
                 let position = position.floor() as i64 as i32;
                 let time = octave.time(octave.offset(position)) - start;
                 let time = time as f64 * power_of_two_f64(self.unit_exponent);
-                let served =
-                    Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
+                let served = Dd::from(f64::from(self.exposure.end_time(self.side))) + Dd::from(time);
                 let u = if self.side == Side::Start { Dd::from(a) } else { Dd::ONE - Dd::from(a) };
                 // Next to a dark stretch a trace of the fraction takes long, and no more than that is known of joins.
                 let [early, late] = [u - trace, u + trace].map(|u| exact.inverse_cdf_dd(u));
@@ -157,13 +143,11 @@ fn a_certificate_is_never_below_the_truth() {
     // Joins so near to time 0 that a share of nearly all has too few bits to tell them.
     let least = |i| {
         let mut rng = Rng::new(31, i);
-        let [open, close, end] =
-            [-9.0, -9.0, 1.0].map(|most| rng.power_of_ten(most - 3.0, most) as f32);
+        let [open, close, end] = [-9.0, -9.0, 1.0].map(|most| rng.power_of_ten(most - 3.0, most) as f32);
         let dim = rng.unit() as f32;
         let [opening, closing] = [(open, [0.0, 0.0, dim, dim]), (end, [1.0, dim, 0.0, 0.0])];
-        let thirds = |start: f32, (length, f): (f32, [f32; 4])| {
-            std::array::from_fn(|k| (start + length * k as f32 / 3.0, f[k]))
-        };
+        let thirds =
+            |start: f32, (length, f): (f32, [f32; 4])| std::array::from_fn(|k| (start + length * k as f32 / 3.0, f[k]));
         Curve::shutter(thirds(-open, opening).map(|(t, f)| (t.min(0.0), f)), thirds(close, closing))
     };
     judge("least shares", &mut (0..25 * times).map(least));
@@ -173,7 +157,8 @@ fn a_certificate_is_never_below_the_truth() {
     assert!(all > 10_000, "only {all} octaves");
 }
 
-/// A stretch on which an offset would leave its word is refused, whichever way it leaves: its samples would be those of another polynomial.
+/// A stretch on which an offset would leave its word is refused, whichever way it leaves: its samples would be those of
+/// another polynomial.
 #[test]
 fn an_offset_beyond_its_word_is_refused() {
     let thirds = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
@@ -184,14 +169,11 @@ fn an_offset_beyond_its_word_is_refused() {
     let unit = time_exponent(exposure.end_time(Side::Start), exposure.end_time(Side::End));
     let mut judged = 0;
     for side in Side::BOTH {
-        let this =
-            View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit_exponent: unit };
+        let this = View { exposure: &exposure, shapes: &shapes, side, ramp: side, unit_exponent: unit };
         let mut octaves = [Octave::NONE; 8];
         let tops = build(&exposure, &shapes, unit, side, &mut octaves);
         for (index, _) in octaves.iter().enumerate().filter(|(_, octave)| octave.exists()) {
-            let Some(span) =
-                Span::new(range(&exposure, side, side), below(top(tops[side as usize]), index))
-            else {
+            let Some(span) = Span::new(range(&exposure, side, side), below(top(tops[side as usize]), index)) else {
                 continue;
             };
             let path = this.path();

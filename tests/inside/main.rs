@@ -1,4 +1,5 @@
-//! Tests of what is not public: the crate's modules, compiled once more into this test, so that the crate holds none of it.
+//! Tests of what is not public: the crate's modules, compiled once more into this test, so that the crate holds none of
+//! it.
 #![allow(dead_code, unused_imports)] // Each test needs a part.
 
 extern crate self as shutter_curve;

@@ -1,10 +1,10 @@
-//! Curves and inputs that meet difficulties exactly, where a random search comes near them at best: handles that cross by
-//! as much as they may, joins next to 1/2 and at time 0, the least sections, intervals and exposures. All are accepted,
-//! and fixed seeds draw them, as in `curves`.
+//! Curves and inputs that meet difficulties exactly, where a random search comes near them at best: handles that cross
+//! by as much as they may, joins next to 1/2 and at time 0, the least sections, intervals and exposures. All are
+//! accepted, and fixed seeds draw them, as in `curves`.
 
 use super::curves::{
-    LEAST_SECTION, MOST_CROSSED, Rng, Shape, accepted, around, hard_openness, hard_times, instant,
-    is_valid, neighbours, placed, random_density, random_hard, settled, shape,
+    LEAST_SECTION, MOST_CROSSED, Rng, Shape, accepted, around, hard_openness, hard_times, instant, is_valid,
+    neighbours, placed, random_density, random_hard, settled, shape,
 };
 use super::oracle::{Curve, Dd, Exact, exp2};
 
@@ -18,13 +18,8 @@ pub const FAMILIES: [Family; 9] = [
             let dim = rng.power_of_ten(-6.0, -1.0);
             // Nearly open an octave just takes the kink; its error may be greatest anywhere.
             let open = [0; 4].map(|_| 1.0 - dim * rng.unit());
-            let f =
-                if rng.chance(0.5) { hard_openness(rng) } else { [open[0], open[1], open[2], 1.0] };
-            let t = if rng.chance(0.8) {
-                [0.0, first, first - MOST_CROSSED, 1.0]
-            } else {
-                hard_times(rng)
-            };
+            let f = if rng.chance(0.5) { hard_openness(rng) } else { [open[0], open[1], open[2], 1.0] };
+            let t = if rng.chance(0.8) { [0.0, first, first - MOST_CROSSED, 1.0] } else { hard_times(rng) };
             shape(t, f)
         });
         let ramps = [0, 1].map(|_| exp2(rng.below(7) as i32));
@@ -90,8 +85,7 @@ pub const FAMILIES: [Family; 9] = [
         let [first, last] = [[1.0, least], [least, 1.0], [1.0, 1.0]][rng.below(3) as usize];
         let plateau = [0.0, least, 1.0][rng.below(3) as usize];
         // Time 0 at a join, or inside a section.
-        let zero =
-            [0.0, -plateau, -plateau * rng.unit(), -first * rng.unit()][rng.below(4) as usize];
+        let zero = [0.0, -plateau, -plateau * rng.unit(), -first * rng.unit()][rng.below(4) as usize];
         settled(Curve::shutter(
             placed(shapes[0], false, zero - first, first),
             placed(shapes[1], true, zero + plateau + last, last),
@@ -105,18 +99,13 @@ pub const FAMILIES: [Family; 9] = [
         let light = share[rng.below(2) as usize] * after;
         let near = light * [1.0, 1.0, 0.5, exp2(-10), 0.0][rng.below(5) as usize];
         let shapes = [0, 1].map(|_| shape([0.0, 0.25, 0.75, 1.0], [0.0, 0.0, 1.0, 1.0]));
-        let last =
-            if rng.chance(0.5) { shape(hard_times(rng), hard_openness(rng)) } else { shapes[1] };
+        let last = if rng.chance(0.5) { shape(hard_times(rng), hard_openness(rng)) } else { shapes[1] };
         let end = light - near + 2.0 * after;
-        settled(Curve::shutter(
-            placed(shapes[0], false, -2.0 * near, 2.0 * near),
-            placed(last, true, end, 2.0 * after),
-        ))
+        settled(Curve::shutter(placed(shapes[0], false, -2.0 * near, 2.0 * near), placed(last, true, end, 2.0 * after)))
     }),
     ("least intervals", |rng| {
         // In 256ths of the interval, which are ulps where it ends.
-        let mut cuts =
-            [0, 1].map(|_| [0.0, 1.0, 255.0, 256.0, rng.below(257) as f64][rng.below(5) as usize]);
+        let mut cuts = [0, 1].map(|_| [0.0, 1.0, 255.0, 256.0, rng.below(257) as f64][rng.below(5) as usize]);
         cuts.sort_by(f64::total_cmp);
         let shapes = [0, 1].map(|_| shape(hard_times(rng), hard_openness(rng)));
         let start = 256.0 * 65_535.0;
@@ -182,8 +171,7 @@ fn hitting(curve: &Curve, rng: &mut Rng) -> Curve {
 /// The u at which the curve is difficult, in order.
 pub fn aimed_us(exact: &Exact, rng: &mut Rng) -> Vec<f32> {
     let landmarks = exact.landmarks().into_iter().map(Dd::to_f32);
-    let mut us: Vec<f32> =
-        landmarks.chain([0.25, 0.5, 0.75]).flat_map(|u| neighbours(u, 3)).collect();
+    let mut us: Vec<f32> = landmarks.chain([0.25, 0.5, 0.75]).flat_map(|u| neighbours(u, 3)).collect();
     // And where a search from there starts out.
     for _ in 0..6 {
         let landmark = us[rng.below(us.len() as u64) as usize];

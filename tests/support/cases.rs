@@ -45,32 +45,18 @@ const LEAST: f32 = 1.0 / 18446744073709551616.0;
 
 pub const CASES: &[Case] = &[
     Case::new("box: ramps without length", instant(0.0), instant(1.0)),
-    Case::new(
-        "triangle: plateau without length",
-        line((0.0, 0.0), (0.5, 1.0)),
-        line((0.5, 1.0), (1.0, 0.0)),
-    ),
+    Case::new("triangle: plateau without length", line((0.0, 0.0), (0.5, 1.0)), line((0.5, 1.0), (1.0, 0.0))),
     Case::new("area in the opening ramp only", SOFT, instant(0.25)),
-    Case::new(
-        "area in the closing ramp only",
-        instant(0.75),
-        [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)],
-    ),
+    Case::new("area in the closing ramp only", instant(0.75), [(0.75, 1.0), (0.85, 1.0), (0.9, 0.0), (1.0, 0.0)]),
     Case::mirrored("ends of order p^2", line((0.0, 0.0), (0.25, 1.0))),
     Case::mirrored("ends of order p^3", [(0.0, 0.0), (0.0833, 0.0), (0.1667, 0.6), (0.25, 1.0)]),
     Case::mirrored("ends of order p^4", [(0.0, 0.0), (0.0833, 0.0), (0.1667, 0.0), (0.25, 1.0)]),
     Case::mirrored("ends of order p^5", [(0.0, 0.0), (0.0, 0.0), (0.125, 0.0), (0.25, 1.0)]),
     Case::mirrored("ends of order p^6", [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.25, 1.0)]),
-    Case::mirrored(
-        "handles cross by 15/16",
-        [(0.0, 0.0), (0.234375, 0.0), (0.0, 1.0), (0.25, 1.0)],
-    ),
+    Case::mirrored("handles cross by 15/16", [(0.0, 0.0), (0.234375, 0.0), (0.0, 1.0), (0.25, 1.0)]),
     Case::mirrored("a vertical step", [(0.0, 0.0), (0.25, 0.0), (0.25, 1.0), (0.25, 1.0)]),
     Case::mirrored("pedestals: jumps at the outer ends", line((0.0, 0.2), (0.25, 1.0))),
-    Case::mirrored(
-        "ramps of 1e-6 beside a plateau of 1",
-        [(0.0, 0.0), (4e-7, 0.0), (6e-7, 1.0), (1e-6, 1.0)],
-    ),
+    Case::mirrored("ramps of 1e-6 beside a plateau of 1", [(0.0, 0.0), (4e-7, 0.0), (6e-7, 1.0), (1e-6, 1.0)]),
     Case::new(
         "plateau of 1e-6 beside ramps of 1/2",
         [(0.0, 0.0), (0.2, 0.0), (0.3, 1.0), (0.5, 1.0)],
@@ -97,11 +83,7 @@ pub const CASES: &[Case] = &[
         [(-3.42, 0.0), (-1.89, 0.0), (-1.89, 1.0), (-0.36, 1.0)],
         [(-0.36, 1.0), (1.395, 1.0), (1.395, 0.0), (3.15, 0.0)],
     ),
-    Case::new(
-        "an interval of 2^-64",
-        line((0.0, 0.0), (0.25 * LEAST, 1.0)),
-        line((0.75 * LEAST, 1.0), (LEAST, 0.0)),
-    ),
+    Case::new("an interval of 2^-64", line((0.0, 0.0), (0.25 * LEAST, 1.0)), line((0.75 * LEAST, 1.0), (LEAST, 0.0))),
     Case::new(
         "an interval of 2^64",
         line((0.0, 0.0), (0.25 / LEAST, 1.0)),
@@ -113,11 +95,7 @@ pub const CASES: &[Case] = &[
         [(0.15286648, 0.0), (0.1592916, 0.8779125), (0.21177958, 0.5751004), (0.23325795, 1.0)],
         [(0.31231624, 1.0), (0.51022613, 0.7041771), (0.90155965, 0.80757725), (0.9148479, 0.0)],
     ),
-    Case::new(
-        "a renderer leaves the plain S ramp",
-        [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (1.0, 1.0)],
-        instant(1.0),
-    ),
+    Case::new("a renderer leaves the plain S ramp", [(0.0, 0.0), (0.5, 0.0), (0.5, 1.0), (1.0, 1.0)], instant(1.0)),
     Case::new(
         "control times next to each other, times of 1e-16",
         [(0.0, 0.0), (2.6676002e-25, 0.20454158), (0.0, 0.17062843), (4.1691618e-16, 1.0)],

@@ -22,11 +22,8 @@ pub struct Named {
 
 /// All curves of `tests/data/curves.csv`.
 pub fn named() -> Vec<Named> {
-    let rows: Vec<Vec<&str>> = include_str!("../data/curves.csv")
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').collect())
-        .collect();
+    let rows: Vec<Vec<&str>> =
+        include_str!("../data/curves.csv").lines().skip(1).map(|line| line.split(',').collect()).collect();
     let point = |row: &Vec<&str>| (row[4].parse().unwrap(), row[5].parse().unwrap());
     rows.chunks(8)
         .map(|rows| {
@@ -36,8 +33,7 @@ pub fn named() -> Vec<Named> {
                 assert_eq!([row[0], row[2], row[3]], [rows[0][0], ramp, &index]);
             }
             let points: [(f32, f32); 8] = std::array::from_fn(|i| point(&rows[i]));
-            let [opening, closing]: [Points; 2] =
-                [points[..4].try_into().unwrap(), points[4..].try_into().unwrap()];
+            let [opening, closing]: [Points; 2] = [points[..4].try_into().unwrap(), points[4..].try_into().unwrap()];
             let kind = match rows[0][1] {
                 "typical" => Kind::Typical,
                 "hard" => Kind::Hard,
@@ -253,8 +249,8 @@ fn hard(shapes: [Shape; 2], lengths: [f64; 3], rng: &mut Rng) -> Curve {
     settled(curve)
 }
 
-/// The curve, where rounding has taken it over an edge of what is accepted: sections that became too short have no length,
-/// what is no ramp is fully open, and inner times move in, or nearer to each other.
+/// The curve, where rounding has taken it over an edge of what is accepted: sections that became too short have no
+/// length, what is no ramp is fully open, and inner times move in, or nearer to each other.
 pub fn settled(curve: Curve) -> Curve {
     let Curve { mut opening, mut closing } = curve;
     let greatest = f64::from(opening[0].0.abs().max(closing[3].0.abs()));
@@ -271,8 +267,7 @@ pub fn settled(curve: Curve) -> Curve {
     if is_short(opening[3].0, closing[0].0) {
         // The longer ramp takes it in.
         let opens = opening[3].0 - opening[0].0 > closing[3].0 - closing[0].0;
-        *(if opens { &mut opening[3].0 } else { &mut closing[0].0 }) =
-            if opens { closing[0].0 } else { opening[3].0 };
+        *(if opens { &mut opening[3].0 } else { &mut closing[0].0 }) = if opens { closing[0].0 } else { opening[3].0 };
     }
     for ramp in [&mut opening, &mut closing] {
         let [from, to] = [ramp[0].0, ramp[3].0];
@@ -312,8 +307,7 @@ pub fn hard_times(rng: &mut Rng) -> [f64; 4] {
         }
         // The first point passes the second by as much as it may, at either end or between.
         7 | 8 => {
-            let first =
-                [MOST_CROSSED, 1.0, MOST_CROSSED + a * (1.0 - MOST_CROSSED)][rng.below(3) as usize];
+            let first = [MOST_CROSSED, 1.0, MOST_CROSSED + a * (1.0 - MOST_CROSSED)][rng.below(3) as usize];
             [0.0, first, first - MOST_CROSSED, 1.0]
         }
         // By less.
@@ -356,8 +350,7 @@ pub const LEAST_EXPOSURE: f64 = 1.0 / 1_048_576.0;
 
 /// Is this a curve that the library promises to accept?
 pub fn is_valid(curve: &Curve) -> bool {
-    let [start, open, close, end] =
-        [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
+    let [start, open, close, end] = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()];
     let span = |from: f32, to: f32| f64::from(to) - f64::from(from);
     let (length, greatest) = (span(start, end), f64::from(start.abs().max(end.abs())));
     let numbers = curve.opening.into_iter().chain(curve.closing).flat_map(|(t, f)| [t, f]);
@@ -374,9 +367,7 @@ pub fn is_valid(curve: &Curve) -> bool {
         && [start, open, close, end].is_sorted()
         && length >= LEAST_INTERVAL * greatest
         && (exp2(-64)..=exp2(64)).contains(&length)
-        && [(start, open), (open, close), (close, end)]
-            .iter()
-            .all(|(a, b)| a == b || has_length(*a, *b))
+        && [(start, open), (open, close), (close, end)].iter().all(|(a, b)| a == b || has_length(*a, *b))
         && in_box(curve.opening)
         && in_box(curve.closing)
         && is_open(start, open, curve.opening[3].1)

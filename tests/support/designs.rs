@@ -8,8 +8,8 @@ use super::curves::{Rng, Shape, accepted, placed, settled, shape};
 use super::oracle::{Curve, Points, exp2};
 use super::promise::Reach;
 
-/// Designs of one kind: their name, how many are tried, what is asked of them, with every number of octaves or with few,
-/// and how one is drawn.
+/// Designs of one kind: their name, how many are tried, what is asked of them, with every number of octaves or with
+/// few, and how one is drawn.
 pub struct Family {
     pub name: &'static str,
     pub designs: u64,
@@ -130,12 +130,7 @@ fn symmetric(rng: &mut Rng, length: f64) -> Shape {
 }
 
 /// A shutter whose four times are whole numbers of ms, or so many in s.
-fn shutter_of(
-    rng: &mut Rng,
-    [opens, open, closes]: [f64; 3],
-    drawn: fn(&mut Rng, f64) -> Shape,
-    units: f64,
-) -> Curve {
+fn shutter_of(rng: &mut Rng, [opens, open, closes]: [f64; 3], drawn: fn(&mut Rng, f64) -> Shape, units: f64) -> Curve {
     let start = match rng.below(8) {
         0 => -opens,
         1 => -(opens + open),
@@ -218,9 +213,7 @@ fn decimal(rng: &mut Rng) -> Curve {
     let [y1, y2, y5, y6] = [level(rng, 0.0), level(rng, 1.0), level(rng, 1.0), level(rng, 0.0)];
     let length = [1.0, 8.0, 10.0, 0.01, 1.0 / 60.0, 0.02][rng.below(6) as usize];
     let at = |part: f64| (length * part / parts) as f32;
-    let (opening, closing) = CubicBezier::shutteropening(
-        [0.0, at(inner[0]), at(inner[1]), length as f32],
-        [t1, y1, t2, y2, t5, y5, t6, y6],
-    );
+    let (opening, closing) =
+        CubicBezier::shutteropening([0.0, at(inner[0]), at(inner[1]), length as f32], [t1, y1, t2, y2, t5, y5, t6, y6]);
     settled(Curve::shutter(opening.points(), closing.points()))
 }

@@ -36,8 +36,8 @@ pub const TYPICAL_TICKS: f64 = (1 << 24) as f64;
 pub const MOST_TRIGGERS: u32 = 1 << 22;
 /// The rates of timers that a design is asked for, in ticks per unit of its time: plain ones, and primes.
 pub const RATES: [u32; 8] = [1, 1000, 48_000, 1_000_000, 7, 1009, 65_537, 999_983];
-/// Of the mass, for one u: as many as any search on a shutter is known to take. On a density that is dim at its later end
-/// only the limit holds.
+/// Of the mass, for one u: as many as any search on a shutter is known to take. On a density that is dim at its later
+/// end only the limit holds.
 pub const EVALUATIONS: u32 = 12;
 /// Of an octave's polynomial, in ulp of u.
 pub const DIRECT: f64 = 0.43;
@@ -112,22 +112,13 @@ impl Figures {
     }
 
     /// Error, range, order, length of the search.
-    fn fractions<const OCTAVES: usize>(
-        &mut self,
-        exact: &Exact,
-        ours: &ShutterCurve<OCTAVES>,
-        questions: &Questions,
-    ) {
+    fn fractions<const OCTAVES: usize>(&mut self, exact: &Exact, ours: &ShutterCurve<OCTAVES>, questions: &Questions) {
         let curve = exact.curve();
         let mut last = curve.open_start();
         for &(u, time) in &questions.us {
             let (t, evaluations) = (ours.inverse_cdf(u), ours.evaluations(u));
             let errors = exact.judge_for(u, t, time);
-            let at = || {
-                format!(
-                    "u = {u:e}: {t:e}, {OCTAVES} octaves, {evaluations} evaluations, {errors:?}"
-                )
-            };
+            let at = || format!("u = {u:e}: {t:e}, {OCTAVES} octaves, {evaluations} evaluations, {errors:?}");
             self.samples += 1;
             self.backward = self.backward.max(errors.backward);
             self.evaluations = self.evaluations.max(evaluations);
@@ -160,8 +151,7 @@ impl Figures {
         for &(t, ref near) in ts {
             let values @ [value, pdf, openness] = ours_values(ours, t);
             let cdf = near.cdf_ulp(value, CDF_FLOOR);
-            let [pdf, openness] =
-                [near.pdf_ulp(pdf, DENSITY_FLOOR), near.openness_ulp(openness, DENSITY_FLOOR)];
+            let [pdf, openness] = [near.pdf_ulp(pdf, DENSITY_FLOOR), near.openness_ulp(openness, DENSITY_FLOOR)];
             let density = [pdf, openness];
             let at = || format!("t = {t:e}: {values:?}, {cdf:.2} {density:.2?} ulp");
             self.samples += 3;
@@ -229,9 +219,10 @@ impl Figures {
                 .trigger_ticks(n, hz)
                 .ok()
                 .map(|ticks| ticks.skip(skipped).take(count).map(|tick| [tick; 2]).collect()),
-            Some(duty) => ours.pulse_ticks(n, duty, hz).ok().map(|pulses| {
-                pulses.skip(skipped).take(count).map(|pulse| [pulse.on, pulse.off]).collect()
-            }),
+            Some(duty) => ours
+                .pulse_ticks(n, duty, hz)
+                .ok()
+                .map(|pulses| pulses.skip(skipped).take(count).map(|pulse| [pulse.on, pulse.off]).collect()),
         };
         let Some(ticks) = ticks else {
             self.expect("tick rate", false, || format!("{n} at {hz} Hz"), exact);
@@ -242,8 +233,7 @@ impl Figures {
         let is_promised = is_typical && duty.is_none() && length * f64::from(hz) <= TYPICAL_TICKS;
         let mut last = 0;
         for ((i, on_off), ends) in (first..).zip(&ticks).zip(&frame.exact) {
-            let which =
-                || format!("{i} of {n}, duty {duty:?}, {hz} Hz, {OCTAVES} octaves: {on_off:?}");
+            let which = || format!("{i} of {n}, duty {duty:?}, {hz} Hz, {OCTAVES} octaves: {on_off:?}");
             for (tick, (u, delay)) in on_off.iter().zip(ends) {
                 let near = (*delay * f64::from(hz) - Dd::from(f64::from(*tick))).hi.abs();
                 let ulp = if duty.is_some() { EDGE_ULP } else { TRIGGER_ULP };
@@ -267,8 +257,8 @@ impl Figures {
         let curve = exact.curve();
         let ours = shutter::<8>(curve);
         let mirrored = shutter::<8>(&curve.mirrored());
-        // Where the exact time is a tie, or nearly, only to what is promised of u: what one curve answers is an answer on the
-        // other.
+        // Where the exact time is a tie, or nearly, only to what is promised of u: what one curve answers is an answer
+        // on the other.
         for &(u, time) in questions.us.iter().filter(|(u, _)| 1.0 - (1.0 - *u) == *u) {
             let [t, back] = [ours.inverse_cdf(u), -mirrored.inverse_cdf(1.0 - u)];
             let at = || format!("u = {u:e}: {t:e} and {back:e}");
@@ -289,16 +279,8 @@ impl Figures {
             let signed = |ramp: [(f32, f32); 4]| ramp.map(|(t, f)| (signed(t), signed(f)));
             let [opening, closing] = [curve.opening, curve.closing].map(signed);
             let other = shutter::<8>(&Curve { opening, closing });
-            let same = questions
-                .us
-                .iter()
-                .step_by(5)
-                .all(|(u, _)| ours.inverse_cdf(*u) == other.inverse_cdf(*u))
-                && questions
-                    .ts
-                    .iter()
-                    .step_by(5)
-                    .all(|(t, _)| ours_values(&ours, *t) == ours_values(&other, *t))
+            let same = questions.us.iter().step_by(5).all(|(u, _)| ours.inverse_cdf(*u) == other.inverse_cdf(*u))
+                && questions.ts.iter().step_by(5).all(|(t, _)| ours_values(&ours, *t) == ours_values(&other, *t))
                 && ours_values(&ours, -0.0) == ours_values(&ours, 0.0);
             self.expect("-0.0", same, String::new, exact);
         }
@@ -309,8 +291,7 @@ impl Figures {
         let curve = exact.curve();
         let (direct, searched) = (shutter::<8>(curve), shutter::<0>(curve));
         // What changes on the curve, the end of the line, and where octaves may end.
-        let octaves =
-            (1..10).flat_map(|k| (8..16).map(move |eighths| f64::from(eighths) * exp2(-k - 3)));
+        let octaves = (1..10).flat_map(|k| (8..16).map(move |eighths| f64::from(eighths) * exp2(-k - 3)));
         let octaves: Vec<f64> = octaves.flat_map(|u| [u, 1.0 - u]).collect();
         let places = exact.landmarks().into_iter().map(|u| u.hi).chain([0.0, 1.0]);
         let mut of_u = |place: f64, inverse: &dyn Fn(f32) -> f32, what| {
@@ -348,12 +329,7 @@ impl Figures {
             for t in around(place, count as usize) {
                 let cdf = direct.cdf(t);
                 let at = || format!("{cdf:e} after {last:e} at {t:e}");
-                self.expect(
-                    "cdf's step back between neighbours",
-                    cdf >= last && cdf <= 1.0,
-                    at,
-                    exact,
-                );
+                self.expect("cdf's step back between neighbours", cdf >= last && cdf <= 1.0, at, exact);
                 (last, self.pairs) = (cdf, self.pairs + 1);
             }
         }
@@ -432,8 +408,7 @@ impl<'a> Questions<'a> {
         // What is allowed: up to 2^31 ticks.
         let allowed = |hz: &u32| *hz > 0 && f64::from(*hz) * length <= exp2(31);
         // A trace less, since f64 need not hold the length.
-        let greatest =
-            [TYPICAL_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
+        let greatest = [TYPICAL_TICKS, exp2(31)].map(|ticks| (ticks * (1.0 - 1e-9) / length) as u32);
         Self {
             us: us.into_iter().map(|u| (u, exact.inverse_cdf(u))).collect(),
             ts: ts.into_iter().map(|t| (t, exact.near(t))).collect(),
@@ -478,14 +453,7 @@ impl<'a> Questions<'a> {
     }
 
     /// A part of a frame alone, at one rate.
-    pub fn frame(
-        exact: &'a Exact,
-        n: u32,
-        duty: Option<f32>,
-        first: u32,
-        count: u32,
-        hz: u32,
-    ) -> Self {
+    pub fn frame(exact: &'a Exact, n: u32, duty: Option<f32>, first: u32, count: u32, hz: u32) -> Self {
         let frames = vec![Frame::new(exact, n, duty, first, count)];
         let greatest = vec![hz];
         Self { greatest, walk: 0, ..Self::of(exact, Vec::new(), Vec::new(), frames) }
@@ -518,8 +486,7 @@ impl<'a> Questions<'a> {
         }
         us.sort_by(f32::total_cmp);
         us.dedup();
-        let mut frames: Vec<_> =
-            (1..=reach.frame).map(|n| Frame::new(exact, n, None, 0, n)).collect();
+        let mut frames: Vec<_> = (1..=reach.frame).map(|n| Frame::new(exact, n, None, 0, n)).collect();
         for duty in [0.1, 0.25, 0.5, 0.75, 1.0] {
             let n = 1 + (reach.turn as u32 * 7 + (duty * 20.0) as u32) % reach.frame.max(1);
             frames.push(Frame::new(exact, n, Some(duty), 0, n));

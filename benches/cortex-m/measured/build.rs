@@ -1,4 +1,5 @@
-//! The curves, as Rust; and the folder of the board's `memory.x`: the crate's, or this one for the board with a Cortex-M33.
+//! The curves, as Rust; and the folder of the board's `memory.x`: the crate's, or this one for the board with a
+//! Cortex-M33.
 
 use std::{env, fs, path::PathBuf};
 

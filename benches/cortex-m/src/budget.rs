@@ -13,7 +13,8 @@ const SOFT: usize = 0;
 const ALL_RAMP: usize = 1;
 const BOX: usize = 3;
 
-/// Mean cycles of a Cortex-M4F, by the curve and the octaves. A `static` is as firmware has it: the compiler sees the curve.
+/// Mean cycles of a Cortex-M4F, by the curve and the octaves. A `static` is as firmware has it: the compiler sees the
+/// curve.
 const CYCLES: [(Function, usize, usize, f64); 14] = [
     (InverseCdf, SOFT, DEFAULT, 76.0),
     (InverseCdf, ALL_RAMP, DEFAULT, 112.0),
@@ -59,8 +60,7 @@ pub fn run() -> Result {
 
     let mut budgets = Vec::new();
     let mut check = |what: String, value, target: f64| budgets.push((what, value, target));
-    let octaves =
-        |octaves| if octaves == DEFAULT { String::new() } else { format!(", OCTAVES = {octaves}") };
+    let octaves = |octaves| if octaves == DEFAULT { String::new() } else { format!(", OCTAVES = {octaves}") };
     for (function, row, count, target) in CYCLES {
         let what = format!("mean cycles of {function:?} on {}{}", ROWS[row], octaves(count));
         check(what, m4f.on(function, row, count).map(|ran| ran.cycles().mean), target);
@@ -80,8 +80,7 @@ pub fn run() -> Result {
         let what = format!("worst cycles of a direct {function:?} ({})", place.unwrap_or_default());
         check(what, worst.map(f64::from), target);
     }
-    let instructions =
-        |function, row, octaves| Some(m0.on(function, row, octaves)?.instructions().mean);
+    let instructions = |function, row, octaves| Some(m0.on(function, row, octaves)?.instructions().mean);
     for (function, count, target) in SOFT_FLOAT {
         let what = format!("mean instructions of {function:?} on all ramp{}", octaves(count));
         check(format!("Cortex-M0+: {what}"), instructions(function, ALL_RAMP, count), target);

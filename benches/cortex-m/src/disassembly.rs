@@ -44,11 +44,8 @@ impl Disassembly {
             functions.insert(symbol.address() as u32 & !1, function);
         }
         // Pairs of an address and a size.
-        let mut sizes =
-            Bytes(file.section_by_name(".stack_sizes").map_or(Ok(&[][..]), |s| s.data())?);
-        while let (Ok(address), Ok(size)) =
-            (sizes.read::<U32<LittleEndian>>(), sizes.read_uleb128())
-        {
+        let mut sizes = Bytes(file.section_by_name(".stack_sizes").map_or(Ok(&[][..]), |s| s.data())?);
+        while let (Ok(address), Ok(size)) = (sizes.read::<U32<LittleEndian>>(), sizes.read_uleb128()) {
             let function = functions.get_mut(&(address.get(LittleEndian) & !1));
             if let Some(function) = function {
                 function.stack = Some(size as u32);
@@ -213,8 +210,7 @@ fn number(text: &str) -> Option<i32> {
 /// The registers in `{r4, r5, r7, lr}` or `{d8-d10}`.
 pub fn registers(operands: &str) -> u32 {
     let list = operands.split('{').nth(1).and_then(|rest| rest.split('}').next()).unwrap_or("");
-    let number =
-        |name: &str| name.trim().trim_start_matches(['r', 'd', 's']).parse::<u32>().unwrap_or(0);
+    let number = |name: &str| name.trim().trim_start_matches(['r', 'd', 's']).parse::<u32>().unwrap_or(0);
     let parts = list.split(',').filter(|part| !part.trim().is_empty());
     parts.map(|part| part.split_once('-').map_or(1, |(a, b)| number(b) - number(a) + 1)).sum()
 }

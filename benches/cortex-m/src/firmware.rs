@@ -36,16 +36,15 @@ pub const M0: Core = core("Cortex-M0+", "thumbv6m-none-eabi", Board("mps2-an385"
 pub const M4F: Core = core("Cortex-M4F", "thumbv7em-none-eabihf", Board("mps2-an386"));
 pub const M33: Core = core("Cortex-M33", "thumbv8m.main-none-eabihf", Board("mps2-an505"));
 pub const IMC: Core = core("riscv32imc", "riscv32imc-unknown-none-elf", Linux("qemu-riscv32"));
-pub const IMAFC: Core =
-    core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
+pub const IMAFC: Core = core("riscv32imafc", "riscv32imafc-unknown-none-elf", Linux("qemu-riscv32"));
 const RISCV64: Core = core("riscv64gc", "riscv64gc-unknown-none-elf", Linux("qemu-riscv64"));
 const I686: Core = core("i686", "i686-unknown-linux-gnu", Linux("qemu-i386"));
 pub const S390X: Core = core("s390x", "s390x-unknown-linux-gnu", Linux("qemu-s390x"));
 const POWERPC: Core = core("powerpc", "powerpc-unknown-linux-gnu", Linux("qemu-ppc"));
 const WASM: Core = core("wasm32", "wasm32-unknown-unknown", Node);
 
-/// All of them, the slowest first: floats in software, both orders of bytes, 32 bits and 64, and two compilers' back ends
-/// without a common ancestor of Arm's.
+/// All of them, the slowest first: floats in software, both orders of bytes, 32 bits and 64, and two compilers' back
+/// ends without a common ancestor of Arm's.
 pub const CORES: [Core; 10] = [M0, IMC, I686, S390X, WASM, M4F, M33, IMAFC, RISCV64, POWERPC];
 
 impl Core {
@@ -88,8 +87,7 @@ pub fn build(core: Core, program: &str, level: &str) -> Result<PathBuf> {
 /// Where a program is that has been built.
 pub fn program(core: Core, program: &str) -> PathBuf {
     let suffix = if core.runs_in == Node { ".wasm" } else { "" };
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| folder().join("target"), PathBuf::from);
     target.join(core.target).join("release").join(format!("{program}{suffix}"))
 }
 
@@ -99,8 +97,7 @@ pub fn host_rustc() -> Option<OsString> {
 }
 
 fn has_target(rustc: &OsStr, target: &str) -> bool {
-    let folder =
-        Command::new(rustc).args(["--print", "target-libdir", "--target", target]).output();
+    let folder = Command::new(rustc).args(["--print", "target-libdir", "--target", target]).output();
     folder.is_ok_and(|folder| Path::new(String::from_utf8_lossy(&folder.stdout).trim()).is_dir())
 }
 
@@ -112,14 +109,13 @@ pub fn cargo(core: Core, program: &str, level: &str) -> Command {
     if program == "cost" {
         cargo.args(["--features", "cost"]);
     }
-    // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not stable. On a board
-    // each function begins at a word, since the fetch counts: else its cycles would change with what lies before it.
+    // These replace the flags that the crate's example needs. The compiler's stack figures need a flag that is not
+    // stable. On a board each function begins at a word, since the fetch counts: else its cycles would change with what
+    // lies before it.
     let flags = match core.runs_in {
         Board(_) => "-C link-arg=-Tlink.x -Z emit-stack-sizes -C llvm-args=-align-all-functions=2",
         // No library of Linux's is linked, so none of its linkers is needed.
-        Linux(_) => {
-            "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static -Z emit-stack-sizes"
-        }
+        Linux(_) => "-C linker=rust-lld -C linker-flavor=ld.lld -C relocation-model=static -Z emit-stack-sizes",
         Node => "",
     };
     cargo.env("RUSTFLAGS", flags).env("RUSTC_BOOTSTRAP", "1");
@@ -139,9 +135,7 @@ pub fn cargo(core: Core, program: &str, level: &str) -> Command {
 pub fn made_with() -> Result<String> {
     let version = |program: &str| {
         let text = succeeded(program, Command::new(program).arg("--version").output())?.stdout;
-        Ok::<_, crate::Error>(
-            String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned(),
-        )
+        Ok::<_, crate::Error>(String::from_utf8_lossy(&text).lines().next().unwrap_or("").to_owned())
     };
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
     Ok(format!("{}, opt-level {OPT_LEVEL}; {}", version(&rustc)?, version(QEMU)?))

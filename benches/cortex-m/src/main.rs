@@ -8,8 +8,8 @@
 //! cargo run --release -- --links   # a firmware that links only if nothing can panic, at every optimisation level
 //! ```
 //!
-//! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that script
-//! sets up, and Node.js.
+//! It needs the targets of `.ci/matrix.sh`, qemu-system-arm, QEMU's user mode and llvm-objdump, all of which that
+//! script sets up, and Node.js.
 
 mod answers;
 mod budget;

@@ -2,9 +2,7 @@
 
 use std::fs::{File, write};
 
-use measured::{
-    CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TRAPEZOID, TYPICAL,
-};
+use measured::{CURVE_BYTES, CURVES, Function, Inputs, ROWS, SCALES, Series, TICK_HZ, TRAPEZOID, TYPICAL};
 use shutter_curve::ShutterCurve;
 
 use crate::Result;
@@ -119,16 +117,9 @@ impl Measured {
     }
 
     /// A function's series over some inputs.
-    pub fn over(
-        &self,
-        function: Function,
-        inputs: Inputs,
-        octaves: usize,
-    ) -> impl Iterator<Item = &Ran> {
+    pub fn over(&self, function: Function, inputs: Inputs, octaves: usize) -> impl Iterator<Item = &Ran> {
         let key = (function, inputs, octaves);
-        self.ran
-            .iter()
-            .filter(move |Ran { series: s, .. }| (s.function, s.inputs, s.octaves) == key)
+        self.ran.iter().filter(move |Ran { series: s, .. }| (s.function, s.inputs, s.octaves) == key)
     }
 
     /// The one over uniform inputs on one of the curves.
@@ -137,24 +128,17 @@ impl Measured {
     }
 
     /// The mean over all typical curves, if it is measured on them.
-    pub fn typical(
-        &self,
-        function: Function,
-        octaves: usize,
-        of: fn(&Ran) -> Spread,
-    ) -> Option<f64> {
+    pub fn typical(&self, function: Function, octaves: usize, of: fn(&Ran) -> Spread) -> Option<f64> {
         let means = self.over(function, Inputs::Uniform, octaves).map(|ran| of(ran).mean);
         let (count, sum) = means.fold((0, 0.0), |(count, sum), mean| (count + 1, sum + mean));
         (count == TYPICAL as u32).then(|| sum / f64::from(count))
     }
 
-    /// The most cycles of a call that was not searched for, over all curves with hard inputs, if they were measured, and the
-    /// typical ones with uniform ones; with its curve and its fraction.
+    /// The most cycles of a call that was not searched for, over all curves with hard inputs, if they were measured,
+    /// and the typical ones with uniform ones; with its curve and its fraction.
     pub fn worst_direct(&self, function: Function, octaves: usize) -> Option<(u32, String)> {
         self.over(function, Inputs::Hard, octaves).next()?;
-        let ran = [Inputs::Uniform, Inputs::Hard]
-            .into_iter()
-            .flat_map(|i| self.over(function, i, octaves));
+        let ran = [Inputs::Uniform, Inputs::Hard].into_iter().flat_map(|i| self.over(function, i, octaves));
         let calls = ran.flat_map(|ran| {
             let calls = asked(ran.series).into_iter().zip(&ran.calls);
             calls.map(|((u, is_direct), call)| (is_direct, call.cycles, ran.name(), u))
@@ -183,9 +167,9 @@ impl Measured {
     }
 }
 
-/// The calls of a series, in order, as the host tells, whose answers have the same bits: each the fraction of the exposure that
-/// it asked for, and whether a polynomial or the plateau's line answered it; none for functions other than the
-/// inverse and the step of a frame's triggers.
+/// The calls of a series, in order, as the host tells, whose answers have the same bits: each the fraction of the
+/// exposure that it asked for, and whether a polynomial or the plateau's line answered it; none for functions other
+/// than the inverse and the step of a frame's triggers.
 fn asked(series: Series) -> Vec<(f64, bool)> {
     match series.octaves {
         0 => with::<0>(series),

@@ -1,12 +1,13 @@
 //! The one table of what an instruction costs on a Cortex-M4F, in cycles.
 //!
-//! Sources: Arm, *Cortex-M4 Technical Reference Manual* r0p1, table 3-1 (instruction set), section 3.3.1
-//! and following (pairing of loads and stores), table 7-1 (floating point). Where it gives a range: an integer division takes
-//! 7 of its 2 to 12, and for `P`, the refill of the pipeline, holds a note of the *Cortex-M3 Technical Reference Manual*
-//! r1p1, table 18-1: 1 behind a branch to an address in the instruction, 2 behind one to an address in a register, and one more
-//! where the target is a 32-bit instruction across two words. Boards bear that out, and show what no manual tells of the
-//! fetch: <https://compendium.i-0.nl/docs/instruction-alignment/rules> has one cycle for three or more such instructions
-//! in a row; that it is one for every three is what longer programs show. Flash and RAM answer without wait states.
+//! Sources: Arm, *Cortex-M4 Technical Reference Manual* r0p1, table 3-1 (instruction set), section 3.3.1 and following
+//! (pairing of loads and stores), table 7-1 (floating point). Where it gives a range: an integer division takes 7 of
+//! its 2 to 12, and for `P`, the refill of the pipeline, holds a note of the *Cortex-M3 Technical Reference Manual*
+//! r1p1, table 18-1: 1 behind a branch to an address in the instruction, 2 behind one to an address in a register, and
+//! one more where the target is a 32-bit instruction across two words. Boards bear that out, and show what no manual
+//! tells of the fetch: <https://compendium.i-0.nl/docs/instruction-alignment/rules> has one cycle for three or more
+//! such instructions in a row; that it is one for every three is what longer programs show. Flash and RAM answer
+//! without wait states.
 //!
 //! `docs/internals/tried.md` holds this against cycles that others have measured.
 

@@ -8,8 +8,8 @@ use crate::firmware::{IMAFC, IMC, M0, M4F, M33, OPT_LEVEL, folder, made_with};
 use crate::measure::{Measured, On, series};
 
 use Function::{
-    Cdf, Construct, InverseCdf, NearerEnd, Newton, Openness, Schedule, SqrtFpu, SqrtLibm,
-    SqrtMicromath, Static, Table, TickStep,
+    Cdf, Construct, InverseCdf, NearerEnd, Newton, Openness, Schedule, SqrtFpu, SqrtLibm, SqrtMicromath, Static, Table,
+    TickStep,
 };
 
 const METHOD: &str = "## How it is measured
@@ -147,10 +147,7 @@ fn overview(cores: &[&Measured]) -> [String; 2] {
         let means = means.map(|mean| Some(format!("{:.0}", mean?)));
         format!("{name} | {} | {}", figures(means), figures(counts))
     });
-    let header = format!(
-        "call | {} | worst | direct | code, bytes | data, bytes",
-        ROWS[..=TRAPEZOID].join(" | ")
-    );
+    let header = format!("call | {} | worst | direct | code, bytes | data, bytes", ROWS[..=TRAPEZOID].join(" | "));
     let calls = table(&header, 1, rows);
 
     let told = CALLS.into_iter().filter(|(.., octaves)| TOLD.contains(octaves));
@@ -192,22 +189,18 @@ Mean instructions on other cores, of square roots on *trapezoid*:
 
 /// What every call takes beside time, on each core, and what building a curve does.
 fn bytes(cores: &[&Measured], for_size: Option<u32>) -> String {
-    let building =
-        TOLD.map(|octaves| (format!("building, `OCTAVES = {octaves}`"), Construct, octaves));
+    let building = TOLD.map(|octaves| (format!("building, `OCTAVES = {octaves}`"), Construct, octaves));
     let calls = [Static, Cdf, Openness, TickStep, Schedule];
     let calls = CALLS.iter().filter(|(_, function, _)| calls.contains(function));
     let calls = calls.map(|(name, function, octaves)| (name.to_string(), *function, *octaves));
     let mut rows = Vec::new();
     for (name, function, octaves) in building.into_iter().chain(calls) {
         if function == Construct {
-            let counts = cores
-                .iter()
-                .map(|core| Some(grouped(core.on(function, 0, octaves)?.instructions().mean)));
+            let counts = cores.iter().map(|core| Some(grouped(core.on(function, 0, octaves)?.instructions().mean)));
             rows.push(format!("{name}: instructions | {}", figures(counts)));
         }
         let bytes = cores.iter().map(|core| {
-            let [code, stack] =
-                [core.code_bytes(function, octaves)?, core.stack_bytes(function, octaves)?];
+            let [code, stack] = [core.code_bytes(function, octaves)?, core.stack_bytes(function, octaves)?];
             Some([code, stack].map(|bytes| grouped(f64::from(bytes))).join("; "))
         });
         rows.push(format!("{name} | {}", figures(bytes)));

@@ -24,12 +24,7 @@ pub struct Call {
 }
 
 /// Runs a program and tells of each call of its functions `the_call`, in order, and what it printed.
-pub fn replay(
-    core: Core,
-    elf: &Path,
-    code: &Disassembly,
-    input: Option<File>,
-) -> Result<(Vec<Call>, String)> {
+pub fn replay(core: Core, elf: &Path, code: &Disassembly, input: Option<File>) -> Result<(Vec<Call>, String)> {
     let mut child = start(core, elf, input, &["-d", "in_asm,exec,nochain"])?;
     let steps = steps(code);
     let mut replay = Replay::default();

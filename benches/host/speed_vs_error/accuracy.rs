@@ -31,7 +31,8 @@ pub fn curves(random: u64) -> Vec<Curve> {
 /// What an inverse does on a curve.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verdict {
-    /// The greatest error beyond the rounding of the exact time to an `f32`: as a fraction of the interval, and in ulp(u).
+    /// The greatest error beyond the rounding of the exact time to an `f32`: as a fraction of the interval, and in
+    /// ulp(u).
     pub of_interval: f64,
     pub backward: f64,
     /// The `u` with the greatest backward error.
@@ -135,7 +136,8 @@ pub fn measure(curves: &[Curve], samples: usize) -> Vec<Figures> {
     all
 }
 
-/// The greatest error of what firmware asks, frames of up to 64 triggers of a leaf shutter, as a fraction of the interval.
+/// The greatest error of what firmware asks, frames of up to 64 triggers of a leaf shutter, as a fraction of the
+/// interval.
 pub fn of_triggers(method: Method) -> Option<f64> {
     let curve = leaf();
     let (inverse, exact) = (method.build(&curve)?, Exact::new(&curve));

@@ -1,5 +1,5 @@
-//! Every `f32`: the inverse at all of them in [0, 1], and the cdf and the openness at all in a curve's interval, held against
-//! a second formulation in doubles. A billion of them take a minute or two a curve.
+//! Every `f32`: the inverse at all of them in [0, 1], and the cdf and the openness at all in a curve's interval, held
+//! against a second formulation in doubles. A billion of them take a minute or two a curve.
 
 use std::time::Instant;
 

@@ -1,6 +1,6 @@
-//! A second formulation of a curve in doubles, for arguments that move slowly: the `p` of one is the guess for the next, so
-//! that a Newton step or two give the exact answer. Fast enough for every `f32`, and judged by the oracle where it finds
-//! the greatest errors.
+//! A second formulation of a curve in doubles, for arguments that move slowly: the `p` of one is the guess for the
+//! next, so that a Newton step or two give the exact answer. Fast enough for every `f32`, and judged by the oracle
+//! where it finds the greatest errors.
 
 use crate::support::oracle::{Curve, Points, ulp_f32};
 
@@ -18,8 +18,7 @@ pub struct Follower {
 impl Follower {
     pub fn new(curve: &Curve) -> Self {
         let ramps = [Ramp::new(curve.opening, false), Ramp::new(curve.closing, true)];
-        let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
-            .map(f64::from);
+        let joins = [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()].map(f64::from);
         let [start, open, close, end] = joins;
         let area = ramps[0].mass + ramps[1].mass + (close - open);
         let across = (start < 0.0 && end > 0.0).then(|| ulp_f32(end.max(-start)));
@@ -135,9 +134,7 @@ struct End {
 
 impl End {
     fn new(points: Points, sign: f64) -> Self {
-        let powers = |first: f64, d: [f64; 3]| {
-            [first, 3.0 * d[0], 3.0 * (d[1] - d[0]), d[2] - 2.0 * d[1] + d[0]]
-        };
+        let powers = |first: f64, d: [f64; 3]| [first, 3.0 * d[0], 3.0 * (d[1] - d[0]), d[2] - 2.0 * d[1] + d[0]];
         let steps = |x: [f64; 4]| [x[1] - x[0], x[2] - x[1], x[3] - x[2]];
         let (t, f) = (points.map(|p| f64::from(p.0)), points.map(|p| f64::from(p.1)));
         let way = powers(0.0, steps(t).map(|d| sign * d));

@@ -1,8 +1,9 @@
 //! Speed against error: a report and its pictures, from one run.
 //!
-//! `cargo bench -p benches` leaves rough figures in `target/speed-vs-error`, after seconds. With `-- --write-docs` it takes
-//! minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md`. `--search N` looks for the
-//! worst of N curves, `--every-f32` tries every `f32` on a dozen: with `--write-docs` they leave tables for the next report.
+//! `cargo bench -p benches` leaves rough figures in `target/speed-vs-error`, after seconds. With `-- --write-docs` it
+//! takes minutes, on a machine that does nothing else, and writes `docs/internals/speed-vs-error.md`. `--search N`
+//! looks for the worst of N curves, `--every-f32` tries every `f32` on a dozen: with `--write-docs` they leave tables
+//! for the next report.
 
 mod accuracy;
 mod every_f32;

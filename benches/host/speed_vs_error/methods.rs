@@ -114,18 +114,8 @@ pub enum Method {
 use Method::*;
 
 /// This crate's, those for every curve, and those for straight ramps alone.
-pub const METHODS: [Method; 10] = [
-    Octaves0,
-    Octaves4,
-    Octaves8,
-    Octaves16,
-    Nearer,
-    Textbook,
-    Table256,
-    RootLibm,
-    RootMicromath,
-    RootFpu,
-];
+pub const METHODS: [Method; 10] =
+    [Octaves0, Octaves4, Octaves8, Octaves16, Nearer, Textbook, Table256, RootLibm, RootMicromath, RootFpu];
 
 impl Method {
     pub const fn is_ours(self) -> bool {
@@ -165,8 +155,8 @@ impl Method {
         }
     }
 
-    /// Does something with the inverse of a curve, if it has one. Tables are made from exact entries, so that only their
-    /// own error is seen.
+    /// Does something with the inverse of a curve, if it has one. Tables are made from exact entries, so that only
+    /// their own error is seen.
     pub fn on<T: Task>(self, c: &Curve, task: T) -> Option<T::Answer> {
         let exact = || {
             let exact = shutter::<16>(c);

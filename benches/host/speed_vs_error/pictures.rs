@@ -74,11 +74,7 @@ fn graph<'a, 'b>(area: &Area<'b>, x: &Axis, y: &Axis) -> Graph<'a, 'b> {
 }
 
 /// Names colours and signs: a series without points for each, and the legend, in a corner.
-fn legend<'a, 'b: 'a>(
-    graph: &mut Graph<'a, 'b>,
-    keys: &[(&str, ShapeStyle)],
-    position: SeriesLabelPosition,
-) {
+fn legend<'a, 'b: 'a>(graph: &mut Graph<'a, 'b>, keys: &[(&str, ShapeStyle)], position: SeriesLabelPosition) {
     for (name, style) in keys {
         let none = std::iter::empty::<Circle<(f64, f64), i32>>();
         let (series, style) = (graph.draw_series(none).expect("drawn"), *style);
@@ -105,8 +101,8 @@ fn superscript(n: i32) -> String {
     format!("{sign}{}", digits.collect::<String>())
 }
 
-/// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a sample
-/// costs.
+/// Error against time and against cycles: the greatest (full) and the mean error (ring) of each method, over what a
+/// sample costs.
 pub fn frontier(path: &str, measured: &Measured) {
     let on = |method: Method| if method.is_root() { TRAPEZOID } else { SOFT };
     let times = METHODS.map(|method| time(&measured.times[on(method)], method));
@@ -195,18 +191,10 @@ pub fn worst_cases(path: &str, curves: u64) {
     picture(path, (1240, 420), title, |root| {
         // Octaves from the earlier end, then from the later one.
         let place = |u: f32| {
-            if u < 0.5 {
-                32.0 + f64::from(u).log2().max(-32.0)
-            } else {
-                30.0 - (1.0 - f64::from(u)).log2().max(-30.0)
-            }
+            if u < 0.5 { 32.0 + f64::from(u).log2().max(-32.0) } else { 30.0 - (1.0 - f64::from(u)).log2().max(-30.0) }
         };
-        let y = Axis {
-            name: "greatest backward error, ulp(u)",
-            range: 0.0..0.55,
-            label: |y| format!("{y:.1}"),
-            labels: 6,
-        };
+        let y =
+            Axis { name: "greatest backward error, ulp(u)", range: 0.0..0.55, label: |y| format!("{y:.1}"), labels: 6 };
         let x = Axis {
             name: "u where it occurs",
             range: 0.0..56.0,
@@ -234,10 +222,7 @@ pub fn worst_cases(path: &str, curves: u64) {
             points.retain(|(x, y)| seen.insert((*x as u32, (75.0 * y) as u32)));
             draw(&mut graph, points.into_iter().map(|at| Circle::new(at, 4, color.filled())));
         }
-        draw(
-            &mut graph,
-            [PathElement::new([(0.0, BACKWARD), (56.0, BACKWARD)], INK.stroke_width(2))],
-        );
+        draw(&mut graph, [PathElement::new([(0.0, BACKWARD), (56.0, BACKWARD)], INK.stroke_width(2))]);
         let keys = [
             ("hard curves", VERMILION.filled()),
             ("typical curves", BLUE.filled()),

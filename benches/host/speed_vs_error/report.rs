@@ -68,8 +68,7 @@ fn methods(measured: &Measured) -> String {
         let head = [method.name().to_owned(), time];
         head.into_iter().chain(errors.map(number)).chain([triggers]).collect()
     });
-    let header =
-        "method | ns | ulp(t) | of the interval | steps back | failures | a leaf's triggers";
+    let header = "method | ns | ulp(t) | of the interval | steps back | failures | a leaf's triggers";
     let table = table(header, 1, rows);
     format!(
         "# Speed against error
@@ -111,7 +110,8 @@ Each random curve's worst `u` of about 1000 that are likely to be bad. Of those 
     )
 }
 
-/// A row for each case that is hard for another method, one for the others, and one for curves that meet difficulties exactly.
+/// A row for each case that is hard for another method, one for the others, and one for curves that meet difficulties
+/// exactly.
 fn hard_cases() -> String {
     let judged = |curve: &Curve, us: &[f32]| {
         let exact = Exact::new(curve);
@@ -129,12 +129,8 @@ fn hard_cases() -> String {
     });
     let (told, others): (Vec<_>, Vec<_>) =
         cases.partition(|(_, figures)| figures[..2].iter().any(|error| *error > 0.01));
-    let row = |name: String, figures: [f64; 3]| {
-        [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>()
-    };
-    let most = |all: Vec<[f64; 3]>| {
-        std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max))
-    };
+    let row = |name: String, figures: [f64; 3]| [name].into_iter().chain(figures.map(number)).collect::<Vec<_>>();
+    let most = |all: Vec<[f64; 3]>| std::array::from_fn(|i| all.iter().map(|figures| figures[i]).fold(0.0, f64::max));
     let name = format!("{} others, the worst of each column", others.len());
     let others = row(name, most(others.into_iter().map(|(_, figures)| figures).collect()));
     let aimed = (0..FAMILIES.len() as u64 * AIMED).into_par_iter().map(|i| {
@@ -158,8 +154,7 @@ Newton errs by more than 1 %. *Aimed* curves meet difficulties exactly (`tests/s
 }
 
 fn search(measured: &Measured) -> String {
-    let (bred, aimed): (Vec<_>, Vec<_>) =
-        measured.search.iter().partition(|row| row["is_bred"] == "true");
+    let (bred, aimed): (Vec<_>, Vec<_>) = measured.search.iter().partition(|row| row["is_bred"] == "true");
     let [tried, each] = [&bred, &aimed].map(|rows| rows.first().map_or("0", |row| &row["curves"]));
     let bred = bred.iter().map(|row| shown(row, "what worst").join(": "));
     let bred = bred.collect::<Vec<_>>().join("\n- ");
@@ -186,10 +181,9 @@ fn sum(rows: &[&Row], column: &str) -> f64 {
 /// The greatest figure of a column, and a dash where there is none.
 fn most(rows: &[&Row], column: &str) -> String {
     let figures = rows.iter().flat_map(|row| row[column].parse::<f64>());
-    figures.reduce(f64::max).map_or_else(
-        || "-".into(),
-        |most| if most.fract() == 0.0 { most.to_string() } else { number(most) },
-    )
+    figures
+        .reduce(f64::max)
+        .map_or_else(|| "-".into(), |most| if most.fract() == 0.0 { most.to_string() } else { number(most) })
 }
 
 fn every_f32(measured: &Measured) -> String {
@@ -201,11 +195,10 @@ fn every_f32(measured: &Measured) -> String {
     let rows = functions.into_iter().map(|function| {
         let of = |row: &&&Row| &row["function"] == function;
         let rows: Vec<_> = all.iter().filter(of).copied().collect();
-        let sums =
-            ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
-                "" => "-".into(),
-                _ => sum(&rows, column).to_string(),
-            });
+        let sums = ["count", "out_of_range", "steps_back"].map(|column| match rows[0][column].as_str() {
+            "" => "-".into(),
+            _ => sum(&rows, column).to_string(),
+        });
         let worst = ["error", "judged"].map(|column| most(&rows, column));
         let head = [format!("`{function}`"), rows.len().to_string()];
         head.into_iter().chain(sums).chain(worst).collect()

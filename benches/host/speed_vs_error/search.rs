@@ -1,5 +1,5 @@
-//! A search for the worst curves: random ones, then uphill from the worst of them; and families of curves that meet difficulties
-//! exactly.
+//! A search for the worst curves: random ones, then uphill from the worst of them; and families of curves that meet
+//! difficulties exactly.
 
 use rayon::prelude::*;
 
@@ -17,8 +17,8 @@ const STARTS: usize = 4;
 /// The share of random curves in all that are tried; the rest are steps uphill.
 const RANDOM_SHARE: f64 = 0.6;
 
-/// What is searched for. Forward errors count where an ulp of u moves the time by no more than one, backward ones once half
-/// an ulp(t) is forgiven.
+/// What is searched for. Forward errors count where an ulp of u moves the time by no more than one, backward ones once
+/// half an ulp(t) is forgiven.
 const AIMS: [&str; 5] = [
     "error in ulp(t), where an ulp of u moves the time by at most one",
     "error in ulp(u)",
@@ -27,9 +27,10 @@ const AIMS: [&str; 5] = [
     "cdf(inverse_cdf(u)) - u, over what one ulp of t and three of the cdf explain",
 ];
 
-/// The columns of `docs/internals/search.csv`. Of curves that were bred for an aim there is the worst in it alone, and where. Of an aimed
-/// family there is the worst in all that is promised: steps back of the inverse between fractions, of the cdf between times,
-/// and of the ticks of a frame; errors in ulp, and in ticks; how often any promise was broken, and the first breach of each.
+/// The columns of `docs/internals/search.csv`. Of curves that were bred for an aim there is the worst in it alone, and
+/// where. Of an aimed family there is the worst in all that is promised: steps back of the inverse between fractions,
+/// of the cdf between times, and of the ticks of a frame; errors in ulp, and in ticks; how often any promise was
+/// broken, and the first breach of each.
 const COLUMNS: &str = "what is_bred curves worst backward evaluations steps_back cdf_steps_back tick_steps_back cdf density \
                        ticks breaches at";
 
@@ -49,7 +50,8 @@ fn score(curve: &Curve) -> [f64; 5] {
         if conditioned && u > 0.0 && u < 1.0 {
             forward = forward.max(exact.judge(u, t).forward);
         }
-        // What the fraction gains from an ulp before t to one after it, and three ulp of the cdf, which count from 2⁻²⁴ on.
+        // What the fraction gains from an ulp before t to one after it, and three ulp of the cdf, which count from 2⁻²⁴
+        // on.
         let ulp = Dd::from(exact.ulp_of_time(Dd::from(t)));
         let [low, high] = [Dd::from(t) - ulp, Dd::from(t) + ulp].map(|t| exact.cdf(t).hi);
         let explained = (high - low) + 3.0 * ulp_f32(f64::from(u).max(6e-8));
@@ -81,8 +83,7 @@ fn step(curve: &Curve, rng: &mut Rng) -> Curve {
 pub fn search(curves: u64) -> Vec<Vec<String>> {
     let columns = COLUMNS.split(' ').map(String::from).collect();
     let families = (0..FAMILIES.len()).into_par_iter();
-    let aimed: Vec<_> =
-        families.map(|family| aim(family, curves / FAMILIES.len() as u64)).collect();
+    let aimed: Vec<_> = families.map(|family| aim(family, curves / FAMILIES.len() as u64)).collect();
     [vec![columns], breed(curves), aimed].concat()
 }
 
@@ -92,8 +93,7 @@ fn breed(curves: u64) -> Vec<Vec<String>> {
     let mut tried = 0;
     let mut worst: [Vec<(f64, Curve)>; 5] = Default::default();
     for index in 0..random {
-        let curve =
-            if index % 4 == 3 { random_typical(SEED, index) } else { random_hard(SEED, index) };
+        let curve = if index % 4 == 3 { random_typical(SEED, index) } else { random_hard(SEED, index) };
         for (worst, score) in worst.iter_mut().zip(score(&curve)) {
             worst.push((score, curve));
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -122,8 +122,7 @@ fn breed(curves: u64) -> Vec<Vec<String>> {
     let text = |points: Points| points.map(|(t, f)| format!("({t:?}, {f:?})")).join(", ");
     let finds = worst.iter().enumerate().map(|(aim, worst)| {
         let (worst, curve) = worst[0];
-        let mut find =
-            vec![AIMS[aim].into(), "true".into(), tried.to_string(), format!("{worst:?}")];
+        let mut find = vec![AIMS[aim].into(), "true".into(), tried.to_string(), format!("{worst:?}")];
         find.resize(13, String::new());
         find.push(format!("{}; {}", text(curve.opening), text(curve.closing)));
         find
@@ -131,8 +130,8 @@ fn breed(curves: u64) -> Vec<Vec<String>> {
     finds.collect()
 }
 
-/// Judges all that is promised on so many curves of a family that meets difficulties exactly. The tests do the same with fewer
-/// curves and another seed.
+/// Judges all that is promised on so many curves of a family that meets difficulties exactly. The tests do the same
+/// with fewer curves and another seed.
 fn aim(family: usize, curves: u64) -> Vec<String> {
     let mut figures = Figures::default();
     for index in 0..curves {
@@ -141,8 +140,7 @@ fn aim(family: usize, curves: u64) -> Vec<String> {
     let count = |what| figures.breaches.get(what).map_or(0, |(count, _)| *count).to_string();
     let first = figures.breaches.iter().map(|(what, (n, at))| format!("{what}, {n} times: {at}"));
     let breaches: u64 = figures.breaches.values().map(|(count, _)| count).sum();
-    let [cdf, density, ticks] =
-        [figures.cdf, figures.density, figures.ticks].map(|f| format!("{f:?}"));
+    let [cdf, density, ticks] = [figures.cdf, figures.density, figures.ticks].map(|f| format!("{f:?}"));
     vec![
         FAMILIES[family].0.into(),
         "false".into(),

@@ -7,8 +7,8 @@ pub const CHUNK: i64 = 1 << 22;
 /// Every so many answers are judged by the double-double oracle too.
 pub const SAMPLED: i64 = 1 << 18;
 
-/// What a sweep of one function found, as a line of `docs/internals/every-f32.csv`; the parts of one add up. What a function has no figure
-/// for stays empty.
+/// What a sweep of one function found, as a line of `docs/internals/every-f32.csv`; the parts of one add up. What a
+/// function has no figure for stays empty.
 #[derive(Clone, Copy, Default, serde::Serialize)]
 pub struct Sweep {
     pub function: &'static str,
@@ -54,11 +54,7 @@ impl Sweep {
 }
 
 /// Sweeps the numbers from `first` to `last` in parts, side by side; each sweeps so many functions at once.
-pub fn in_parts<const N: usize>(
-    first: i64,
-    last: i64,
-    part: impl Fn(i64, i64) -> [Sweep; N] + Sync,
-) -> [Sweep; N] {
+pub fn in_parts<const N: usize>(first: i64, last: i64, part: impl Fn(i64, i64) -> [Sweep; N] + Sync) -> [Sweep; N] {
     let parts = (0..=(last - first) / CHUNK).into_par_iter().map(|i| first + i * CHUNK);
     let parts = parts.map(|from| part(from, (from + CHUNK - 1).min(last)));
     let both = |a: [Sweep; N], b: [Sweep; N]| std::array::from_fn(|i| a[i].and(b[i]));

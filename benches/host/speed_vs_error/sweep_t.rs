@@ -8,8 +8,8 @@ use crate::support::oracle::{Curve, Exact, ulp_f32};
 use crate::support::promise::{CDF_FLOOR, DENSITY_FLOOR};
 use crate::sweep::{CHUNK, SAMPLED, Sweep, in_parts};
 
-/// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of so
-/// many is taken, in stretches of neighbours.
+/// Nearer to time 0 than this part of a curve that runs across it, nothing moves by 2⁻⁴⁰ of an ulp: there one `f32` of
+/// so many is taken, in stretches of neighbours.
 const NEXT_TO_0: f64 = 1.0 / (1u128 << 64) as f64;
 const TAKEN_NEXT_TO_0: i64 = 16;
 

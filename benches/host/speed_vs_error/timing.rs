@@ -10,11 +10,7 @@ use crate::support::oracle::Curve;
 const RUN: usize = 1 << 11;
 
 /// A call's time for a sample, by the medians of its runs; each call is told which samples to take.
-fn medians(
-    calls: &mut [Box<dyn FnMut(Range<usize>) + '_>],
-    samples: usize,
-    repeats: usize,
-) -> Vec<f64> {
+fn medians(calls: &mut [Box<dyn FnMut(Range<usize>) + '_>], samples: usize, repeats: usize) -> Vec<f64> {
     let mut times = vec![vec![Vec::new(); samples / RUN]; calls.len()];
     for run in (0..repeats).flat_map(|_| 0..samples / RUN) {
         for (call, times) in calls.iter_mut().zip(&mut times) {

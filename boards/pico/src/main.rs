@@ -27,19 +27,13 @@ const N: usize = leaf::COUNT;
 
 /// A frame as `pulses.pio` reads it. Differences are counted from the edge on, so nothing wraps.
 const FRAME: [u32; 1 + 2 * N] = {
-    assert!(
-        leaf::TIMER_HZ == TICK_HZ,
-        "leaf.rs is of another timer: plan it with timer_hz = 125_000_000"
-    );
+    assert!(leaf::TIMER_HZ == TICK_HZ, "leaf.rs is of another timer: plan it with timer_hz = 125_000_000");
     assert!(0 < N && N <= 8_192, "the memory has room for 1 to 8192 flashes");
     let mut frame = [N as u32 - 1; 1 + 2 * N];
     let (mut ready, mut i) = (LATE, 0);
     while i < N {
         let (on, off) = leaf::on_off(i, PULSE);
-        assert!(
-            i > 0 || on >= ready,
-            "the first flash comes too soon after the sync's edge: see LATE"
-        );
+        assert!(i > 0 || on >= ready, "the first flash comes too soon after the sync's edge: see LATE");
         assert!(on >= ready, "a flash comes too soon after the one before it: see MIN_LOW");
         assert!(off >= on + MIN_PULSE, "a flash is too short: see MIN_PULSE");
         frame[1 + 2 * i] = off - on - MIN_PULSE;

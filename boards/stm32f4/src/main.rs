@@ -26,18 +26,12 @@ const ARMING: u32 = 2_000;
 
 const N: usize = leaf::COUNT;
 const _: () = {
-    assert!(
-        leaf::TIMER_HZ == TICK_HZ,
-        "leaf.rs is of another timer: plan it with timer_hz = 100_000_000"
-    );
+    assert!(leaf::TIMER_HZ == TICK_HZ, "leaf.rs is of another timer: plan it with timer_hz = 100_000_000");
     assert!(0 < N && N <= 8_192, "the memory has room for 1 to 8192 flashes");
     let (mut i, mut ready) = (0, COUNTING + ARMING);
     while i < N {
         let (on, off) = leaf::on_off(i, PULSE);
-        assert!(
-            i > 0 || on >= ready,
-            "the first flash comes too soon after the sync's edge: see ARMING"
-        );
+        assert!(i > 0 || on >= ready, "the first flash comes too soon after the sync's edge: see ARMING");
         assert!(on >= ready, "a flash comes too soon after the one before it: see DMA_TIME");
         assert!(off >= on + DMA_TIME, "a flash is too short: see DMA_TIME");
         ready = off + DMA_TIME;
@@ -52,8 +46,7 @@ fn main() -> ! {
 
     let chip = pac::Peripherals::take().unwrap();
     // The crystal of 25 MHz that a Black Pill has: the chip's own oscillator is off by 1 %.
-    let mut rcc =
-        chip.RCC.freeze(Config::hse(25.MHz()).sysclk(TICK_HZ.Hz()).pclk1((TICK_HZ / 2).Hz()));
+    let mut rcc = chip.RCC.freeze(Config::hse(25.MHz()).sysclk(TICK_HZ.Hz()).pclk1((TICK_HZ / 2).Hz()));
     assert!(rcc.clocks.timclk1().raw() == TICK_HZ);
     let pins = chip.GPIOA.split(&mut rcc);
     let pull = if leaf::SYNC_FALLS { Pull::Up } else { Pull::Down };

@@ -126,8 +126,8 @@ fn add(files: &mut Files, folder: &Path, at: &str, levels: u8) -> io::Result<()>
     Ok(())
 }
 
-/// Does the name by which a browser asks mean this machine? Any other may be a page's that is made to point here, which then
-/// could read what it is not meant to.
+/// Does the name by which a browser asks mean this machine? Any other may be a page's that is made to point here, which
+/// then could read what it is not meant to.
 fn is_here(host: &str) -> bool {
     let host = host.to_ascii_lowercase();
     let is_port = |port: &str| port.bytes().all(|c| c.is_ascii_digit());

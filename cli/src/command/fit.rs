@@ -31,21 +31,22 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Fit the simplest shutter to a measured trace, and write it as a scene
 ///
-/// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers export it, or
-/// a WAV. The report goes to standard output, warnings to standard error. If the trace is refused, the exit code is 2, and
-/// nothing is written.
+/// The trace is a CSV with a time and a signal in each row, as oscilloscopes, logic analysers and shutter testers
+/// export it, or a WAV. The report goes to standard output, warnings to standard error. If the trace is refused, the
+/// exit code is 2, and nothing is written.
 #[derive(Clone, clap::Args)]
 pub struct Args {
     /// The trace; `-` is standard input
     trace: PathBuf,
-    /// More traces: shots whose exposures agree to 10 % make one scene; other speeds, or a --nominal for each, make a table
+    /// More traces: shots whose exposures agree to 10 % make one scene; other speeds, or a --nominal for each, make a
+    /// table
     #[arg(value_name = "TRACE")]
     others: Vec<PathBuf>,
     /// The nominal speed of each trace, in order, or one for a single setting: 1/250, 4ms
     #[arg(long, value_name = "TIME,...", value_delimiter = ',', value_parser = speed)]
     nominal: Vec<f64>,
-    /// Write the scene to this file, for `shutter plan`, keeping your changes to one that a fit wrote; for several speeds, a
-    /// folder of scenes; `-` is standard output, in place of the report
+    /// Write the scene to this file, for `shutter plan`, keeping your changes to one that a fit wrote; for several
+    /// speeds, a folder of scenes; `-` is standard output, in place of the report
     #[arg(long, value_name = "SCENE.toml")]
     out: Option<PathBuf>,
     /// Write the picture to this file: trace, curve, residual, triggers
@@ -57,8 +58,8 @@ pub struct Args {
     /// The unit of the times, if the file does not say
     #[arg(long)]
     unit: Option<Unit>,
-    /// The columns of time and signal, or of the signal alone, by number from 1 or by name; the signals of several sensors make
-    /// a table of exposures and curtain travel
+    /// The columns of time and signal, or of the signal alone, by number from 1 or by name; the signals of several
+    /// sensors make a table of exposures and curtain travel
     #[arg(long, value_name = "TIME,SIGNAL,...", value_delimiter = ',', num_args = 1)]
     columns: Vec<String>,
     /// Samples per second, if the rows hold no time: 48000, 250kHz
@@ -91,8 +92,9 @@ pub struct Args {
     /// The mains frequency in hertz, if there is hum in the trace
     #[arg(long, value_name = "50|60", value_parser = mains)]
     mains: Option<f64>,
-    /// The camera's sync: its column by name or number (CH2, 3), the time of its edge in the trace (0, 1.5ms), or a file of the
-    /// same record (F0001CH2.CSV); the scene gets the delay from the edge to the opening, and its spread between shots
+    /// The camera's sync: its column by name or number (CH2, 3), the time of its edge in the trace (0, 1.5ms), or a
+    /// file of the same record (F0001CH2.CSV); the scene gets the delay from the edge to the opening, and its spread
+    /// between shots
     #[arg(long, value_name = "COLUMN|TIME|FILE", value_parser = read::sync, allow_hyphen_values = true)]
     sync: Vec<Asked>,
     /// The report's form; `json` is an object, or for several speeds an array; later versions keep its names
@@ -145,9 +147,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let sync = |i: usize| args.sync.get(i).or(args.sync.first());
     let files: Vec<&Path> = args.sync.iter().filter_map(Asked::file).collect();
     if files.len() == 1 && traces.len() > 1 {
-        return Err(
-            "--sync: each trace has a file of its own for its sync; give one for each".into()
-        );
+        return Err("--sync: each trace has a file of its own for its sync; give one for each".into());
     }
     for paths in [&traces, &files] {
         let is_twice = |i: &usize| paths[..*i].iter().any(|other| is_same(other, paths[*i]));
@@ -158,7 +158,9 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let clock = usize::from(args.rate.is_none() && args.columns.len() > 1);
     if args.columns.len() > clock + 1 {
         if traces.len() > 1 || args.out.is_some() || args.picture.is_some() {
-            return Err("--columns: several sensors have no scene, no picture and no other trace; name one of them".into());
+            return Err(
+                "--columns: several sensors have no scene, no picture and no other trace; name one of them".into()
+            );
         }
         return sensors(args, clock, sync(0), out, err);
     }
@@ -188,8 +190,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let size = if is_one { read.len() } else { 1 };
     let mut speeds = Vec::new();
     for (i, (read, records)) in read.chunks(size).zip(records.chunks(size)).enumerate() {
-        let triggers =
-            args.triggers.or(olds.get(i).and_then(Option::as_ref).and_then(Old::triggers));
+        let triggers = args.triggers.or(olds.get(i).and_then(Option::as_ref).and_then(Old::triggers));
         let mut speed = measure(read, records, triggers)?;
         speed.fit.nominal = args.nominal.get(i).copied();
         speeds.push(speed);
@@ -247,8 +248,7 @@ fn sensors(
         let read = Read::new(&args.trace, &how, &options, sync)?;
         let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
         let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
-        let Speed { fit, warnings, .. } =
-            measure(&[read], &[record], args.triggers).map_err(refused)?;
+        let Speed { fit, warnings, .. } = measure(&[read], &[record], args.triggers).map_err(refused)?;
         let here = fit.frames.count;
         let first = all.first().map_or(here, |first| first.fit.frames.count);
         if first != here && args.frame.is_none() {
@@ -282,13 +282,9 @@ fn scenes(out: &Path, traces: &[&Path]) -> Vec<PathBuf> {
     }
 }
 
-/// Are these the shots of one setting, which make one scene? If so, they are read alike; if not, each trace makes its own.
-fn is_one_setting(
-    args: &Args,
-    read: &[Read],
-    records: &[Record],
-    scenes: usize,
-) -> Result<bool, String> {
+/// Are these the shots of one setting, which make one scene? If so, they are read alike; if not, each trace makes its
+/// own.
+fn is_one_setting(args: &Args, read: &[Read], records: &[Record], scenes: usize) -> Result<bool, String> {
     let (differ, is_one) = shutter_fit::setting(records);
     let (n, differ) = (read.len(), short(100.0 * differ, 2));
     if n == 1 {
@@ -403,9 +399,9 @@ fn next(scenes: &[PathBuf], lacks: &[&str]) -> String {
 fn old(outputs: &mut Outputs, file: &Path) -> Result<Option<Old>, String> {
     let Some(text) = outputs.old(file)? else { return Ok(None) };
     let text = std::str::from_utf8(&text).ok().and_then(|it| mark::below(mark::TOML, it));
-    text.and_then(|(text, _)| Old::parse(text.as_bytes())).map(Some).ok_or_else(|| {
-        format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display())
-    })
+    text.and_then(|(text, _)| Old::parse(text.as_bytes()))
+        .map(Some)
+        .ok_or_else(|| format!("{}: it holds no scene that a fit wrote; --force replaces it", file.display()))
 }
 
 /// The new scene with what is kept of the old one, if it can be planned.

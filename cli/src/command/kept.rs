@@ -10,8 +10,7 @@ use crate::scene::{KEYS, TRIGGER_TIMES};
 
 /// How a fit's comments begin: the first one, those that follow it, and those above a key.
 const FIRST: [&str; 2] = ["# Fitted to ", "# Measured in "];
-const NEXT: [&str; 6] =
-    ["# This curve does not", "# `--model ", "# Read: ", "# Sync: ", "# Exposure ", "# Warning: "];
+const NEXT: [&str; 6] = ["# This curve does not", "# `--model ", "# Read: ", "# Sync: ", "# Exposure ", "# Warning: "];
 const ABOVE: [&str; 2] = ["# The ramps' inner control points ", NO_DELAY];
 /// The lines of what no fit measures, which stand there until their user writes the key.
 const ASKED: [(&str, &str); 4] = [
@@ -70,15 +69,12 @@ impl Old {
                 let lines = prefix(key.leaf_decor()).split_inclusive('\n');
                 let is_answered = |line: &&str| {
                     keeps_delay && line.starts_with(NO_DELAY)
-                        || ASKED
-                            .iter()
-                            .any(|(key, start)| line.starts_with(start) && self.0.contains_key(key))
+                        || ASKED.iter().any(|(key, start)| line.starts_with(start) && self.0.contains_key(key))
                 };
                 above.extend(lines.filter(|line| !is_answered(line)));
             }
             let behind = old.as_value().map_or("", |value| suffix(value.decor()));
-            let is_asked = ["delay", "delay_spread", "sync_falls", "nominal"].contains(&name)
-                && fresh.is_some();
+            let is_asked = ["delay", "delay_spread", "sync_falls", "nominal"].contains(&name) && fresh.is_some();
             let is_measured = is_measured(name) || is_asked;
             if is_measured {
                 above += &inside(old);

@@ -1,4 +1,5 @@
-//! The first line of a file that the program wrote: a checksum of the lines below, which tells whether anyone has changed them.
+//! The first line of a file that the program wrote: a checksum of the lines below, which tells whether anyone has
+//! changed them.
 
 use crate::emit::fnv;
 
@@ -44,8 +45,7 @@ mod tests {
         for comment in [TOML, RUST, C, SVG] {
             let text = marked(comment, "one\ntwo\n");
             assert!(text.starts_with(comment[0]), "{text}");
-            let below =
-                |text: &str| below(comment, text).map(|(text, holds)| (text.to_string(), holds));
+            let below = |text: &str| below(comment, text).map(|(text, holds)| (text.to_string(), holds));
             let found = |text: &str, holds| Some((text.to_string(), holds));
             assert_eq!(below(&text), found("one\ntwo\n", true));
             assert_eq!(below(&format!("\u{feff}{text}")), found("one\ntwo\n", true));

@@ -1,10 +1,10 @@
 //! All that the commands write. Nothing that a user has is lost:
 //!
 //! - An output that is an input or another output is refused before anything is read.
-//! - A file is replaced without `--force` only where it is empty, or as a run wrote it: by its [`mark`], or by the same bytes
-//!   where it can have none. One that is read-only is always refused.
-//! - All files of a run are written beside their places first, and take these when they are whole. What fails leaves the
-//!   old ones, and no other.
+//! - A file is replaced without `--force` only where it is empty, or as a run wrote it: by its [`mark`], or by the same
+//!   bytes where it can have none. One that is read-only is always refused.
+//! - All files of a run are written beside their places first, and take these when they are whole. What fails leaves
+//!   the old ones, and no other.
 //! - Links are followed. What is no regular file (a device, a pipe) is written to as it is.
 
 use std::fs::{self, File, OpenOptions};
@@ -54,9 +54,7 @@ pub struct Outputs {
 impl Outputs {
     /// Those of a run, of which none is an input or another one.
     pub fn new(inputs: &[&Path], outputs: &[&Path], force: bool) -> Result<Self, String> {
-        for (paths, takes) in
-            [(inputs, "standard input: it is read"), (outputs, "standard output: it takes a text")]
-        {
+        for (paths, takes) in [(inputs, "standard input: it is read"), (outputs, "standard output: it takes a text")] {
             if paths.iter().filter(|path| is_std(path)).count() > 1 {
                 return Err(format!("{takes} once"));
             }
@@ -67,10 +65,7 @@ impl Outputs {
                 return Err(format!("{name}: it is a folder"));
             }
             if let Some(input) = inputs.iter().find(|input| is_same(input, output)) {
-                return Err(format!(
-                    "{name}: it is the input {}, which would be lost",
-                    input.display()
-                ));
+                return Err(format!("{name}: it is the input {}, which would be lost", input.display()));
             }
             if outputs[..i].iter().any(|other| is_same(other, output)) {
                 return Err(format!("{name}: two outputs would be written to it"));
@@ -91,8 +86,8 @@ impl Outputs {
         self.folder = Some(folder.into());
     }
 
-    /// What an older file holds that is to be written to; nothing where that counts for nothing. What cannot be written is
-    /// refused.
+    /// What an older file holds that is to be written to; nothing where that counts for nothing. What cannot be written
+    /// is refused.
     pub fn old(&mut self, path: &Path) -> Result<Option<Vec<u8>>, String> {
         if is_stream(path) {
             return Ok(None);
@@ -168,8 +163,7 @@ impl Outputs {
     /// Writes to what is no file. The files can be placed then, unless one has changed since it was looked at.
     pub fn ready(self) -> Result<Ready, String> {
         for (path, text) in &self.streams {
-            let mut stream =
-                OpenOptions::new().write(true).open(path).map_err(|e| told(path, &e))?;
+            let mut stream = OpenOptions::new().write(true).open(path).map_err(|e| told(path, &e))?;
             stream.write_all(text.as_bytes()).map_err(|e| told(path, &e))?;
         }
         if let Some((path, _)) = self.seen.iter().find(|(path, old)| fs::read(path).ok() != *old) {
@@ -183,7 +177,8 @@ impl Outputs {
 pub struct Ready(Outputs);
 
 impl Ready {
-    /// Prints the report, unless something else is to go to standard output, then puts all files in their places; tells which.
+    /// Prints the report, unless something else is to go to standard output, then puts all files in their places; tells
+    /// which.
     pub fn finish(self, out: &mut dyn Write, report: &str) -> Result<String, String> {
         let Self(Outputs { seen, files, text, .. }) = self;
         print(out, text.as_deref().unwrap_or(report))?;
@@ -213,9 +208,7 @@ pub fn print(out: &mut dyn Write, text: &str) -> Result<(), String> {
 fn writable(path: &Path) -> Result<PathBuf, String> {
     let place = place(path).map_err(|e| told(path, &e))?;
     match fs::metadata(&place) {
-        Ok(it) if it.permissions().readonly() => {
-            Err(format!("{}: it is read-only", path.display()))
-        }
+        Ok(it) if it.permissions().readonly() => Err(format!("{}: it is read-only", path.display())),
         _ => Ok(place),
     }
 }

@@ -19,7 +19,8 @@ const DEFAULT: (&str, &str) = ("soft", include_str!("../../scenes/soft.toml"));
 
 /// Plan a shutter's triggers, each in the middle of an equal share of the exposure
 ///
-/// Several scenes are taken as the speeds of one shutter: they make a table or, with --emit, one text with an array of all.
+/// Several scenes are taken as the speeds of one shutter: they make a table or, with --emit, one text with an array of
+/// all.
 #[derive(clap::Args, Default)]
 pub struct Args {
     /// The scenes, such as those in cli/scenes; if left out, a soft shutter; `-` is standard input
@@ -64,22 +65,17 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut told = String::new();
     let plans = match scenes.as_slice() {
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
-        paths => paths
-            .iter()
-            .map(|path| read(args, path, &mut told))
-            .collect::<Result<Vec<_>, String>>()?,
+        paths => paths.iter().map(|path| read(args, path, &mut told)).collect::<Result<Vec<_>, String>>()?,
     };
     if matches!(form, Some(Form::Rust | Form::C)) {
-        let dimmed =
-            plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
+        let dimmed = plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
         told.extend(dimmed.map(|(name, doses)| {
             format!(
                 "warning: {name}: the shutter is in the light's path, and dims the flashes to {doses}; \
                  --duty 0.5 (pulses) or --fully-open (xenon) makes doses equal\n"
             )
         }));
-        let unequal =
-            plans.iter().filter_map(|(name, plan)| Some((name, facts::unequal(plan.plan()?)?)));
+        let unequal = plans.iter().filter_map(|(name, plan)| Some((name, facts::unequal(plan.plan()?)?)));
         told.extend(unequal.map(|(name, percent)| {
             format!("warning: {name}: a tick is so long that the doses differ by up to {percent} %; a faster timer makes them equal\n")
         }));
@@ -100,15 +96,12 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
                 }
             }
             match form {
-                Some(form) => emit::emit(*form, name, plan, args.curve).map_err(|reason| {
-                    format!("{}: {reason}", scenes.first().map_or(name.clone(), |it| shown(it)))
-                })?,
+                Some(form) => emit::emit(*form, name, plan, args.curve)
+                    .map_err(|reason| format!("{}: {reason}", scenes.first().map_or(name.clone(), |it| shown(it))))?,
                 None => report::text(name, plan, report::width()),
             }
         }
-        (plans, Some(form)) => {
-            emit::several(*form, args.name.as_deref().unwrap_or("shutter"), plans, args.curve)?
-        }
+        (plans, Some(form)) => emit::several(*form, args.name.as_deref().unwrap_or("shutter"), plans, args.curve)?,
         (plans, None) => speeds::text(plans),
     };
     let printed = match to.as_ref().zip(*form) {
@@ -138,15 +131,14 @@ fn comment(form: Form) -> Option<Comment> {
 
 /// The picture of both set-ups, whose doses come from a curve.
 fn draw_set_ups(name: &str, plan: &Planned) -> Result<String, Box<dyn Error>> {
-    let curve =
-        plan.plan().ok_or("the set-ups are told apart by a curve, and the scene has none")?;
+    let curve = plan.plan().ok_or("the set-ups are told apart by a curve, and the scene has none")?;
     picture::set_ups(name, curve)
 }
 
 fn read(args: &Args, path: &Path, told: &mut String) -> Result<(String, Planned), String> {
     let file = shown(path);
-    let text = input::read(path)
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
+    let text =
+        input::read(path).and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text in UTF-8".into()));
     let text = text.map_err(|reason| format!("{file}: {reason}"))?;
     if let Some(doubt) = args.settings.doubt(&file, &text) {
         *told += &format!("warning: {doubt}\n");

@@ -34,9 +34,7 @@ pub fn time(text: &str) -> Result<f64, String> {
 /// What a speed is called: a part of a second, or a time.
 pub fn speed(text: &str) -> Result<f64, String> {
     let seconds = match text.trim().strip_prefix("1/") {
-        Some(part) => {
-            split(part).filter(|(_, unit)| matches!(*unit, "" | "s")).map(|it| 1.0 / it.0)
-        }
+        Some(part) => split(part).filter(|(_, unit)| matches!(*unit, "" | "s")).map(|it| 1.0 / it.0),
         None => seconds(text),
     };
     let is_speed = |seconds: &f64| *seconds > 0.0 && seconds.is_finite();

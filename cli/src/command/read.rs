@@ -50,13 +50,9 @@ pub struct Read<'a> {
 }
 
 impl<'a> Read<'a> {
-    /// Reads a trace so, and the channel of its sync from there or from a file of its own; `options` are those of its fit.
-    pub fn new(
-        path: &'a Path,
-        how: &trace::Options,
-        options: &Options,
-        sync: Option<&Asked>,
-    ) -> Result<Self, String> {
+    /// Reads a trace so, and the channel of its sync from there or from a file of its own; `options` are those of its
+    /// fit.
+    pub fn new(path: &'a Path, how: &trace::Options, options: &Options, sync: Option<&Asked>) -> Result<Self, String> {
         let column = match sync {
             Some(Asked::Column(column)) => Some(column.clone()),
             _ => None,
@@ -123,11 +119,7 @@ impl<'a> Read<'a> {
         if *trace != other.trace || levels.all(|value| Some(value) == second) {
             return Ok(());
         }
-        Err(format!(
-            "{}: it is the record of {} once more, and no other shot",
-            shown(self.path),
-            shown(other.path)
-        ))
+        Err(format!("{}: it is the record of {} once more, and no other shot", shown(self.path), shown(other.path)))
     }
 }
 
@@ -144,17 +136,13 @@ fn open(path: &Path, how: &trace::Options) -> Result<Recording, String> {
 
 /// Is the channel of the same record as the light, sample for sample?
 fn same_record(light: &Trace, channel: &Recording) -> Result<(), String> {
-    if let Some(choice) =
-        channel.warnings.iter().find(|it| matches!(it, Warning::SecondSignal { .. }))
-    {
+    if let Some(choice) = channel.warnings.iter().find(|it| matches!(it, Warning::SecondSignal { .. })) {
         return Err(format!("a sync's file has one signal, and here {choice}"));
     }
     let (ours, theirs) = (&light.times, &channel.trace.times);
     let [n, m] = [ours.len(), theirs.len()];
     if n != m {
-        return Err(format!(
-            "it is no channel of the same record: {m} samples, and the light has {n}"
-        ));
+        return Err(format!("it is no channel of the same record: {m} samples, and the light has {n}"));
     }
     let step = (ours[n - 1] - ours[0]) / (n - 1).max(1) as f64;
     let differs = |k: &usize| (ours[*k] - theirs[*k]).abs() > SAME * step;

@@ -1,5 +1,5 @@
-//! `shutter fit` of several sensors of one record, as behind a curtain shutter: each one's exposure, and how long the curtains travel
-//! between them.
+//! `shutter fit` of several sensors of one record, as behind a curtain shutter: each one's exposure, and how long the
+//! curtains travel between them.
 
 use shutter_fit::Measured;
 use shutter_fit::unit::{Unit, stops};
@@ -13,8 +13,7 @@ pub fn table(sensors: &[Speed]) -> String {
     let first = &sensors[0].fit;
     let row = |(k, Speed { name, fit, .. }): (usize, &Speed)| {
         let later = |place: usize| {
-            let ends =
-                [0, fit.triggers.len() - 1].map(|k| [first, fit].map(|fit| fit.triggers[k].error));
+            let ends = [0, fit.triggers.len() - 1].map(|k| [first, fit].map(|fit| fit.triggers[k].error));
             let [from, to] = [first, fit].map(|fit| fit.half_light()[place]);
             let error = ends[place][0].hypot(ends[place][1]);
             let unit = Unit::fit((to - from).abs().max(error));

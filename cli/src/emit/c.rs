@@ -21,16 +21,10 @@ pub fn header(scene: &str, plan: &Planned) -> String {
     );
     if let Some(delay) = plan.delay {
         body += &edge(&upper, plan);
-        body += &format!(
-            "/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n",
-            super::delay(plan),
-            delay.ticks
-        );
+        body += &format!("/* {} */\n#define {upper}_DELAY_TICKS UINT{bits}_C({})\n", super::delay(plan), delay.ticks);
     }
     let array = |about: &str, what: &str, ticks: String| {
-        format!(
-            "\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n"
-        )
+        format!("\n/* {about} */\nstatic const uint{bits}_t {lower}_{what}[{upper}_COUNT] = {{\n{ticks}}};\n")
     };
     let origin = origin(once(plan));
     if has_pulses(plan) {
@@ -50,11 +44,7 @@ pub fn header(scene: &str, plan: &Planned) -> String {
                 format!("{lower}_on[i]"),
                 format!("({int})({upper}_DELAY_TICKS + {lower}_off[i]);\n    (void)width;"),
             ),
-            false => (
-                "it is `width` ticks long",
-                format!("{lower}_ticks[i]"),
-                format!("({int})(*on + width);"),
-            ),
+            false => ("it is `width` ticks long", format!("{lower}_ticks[i]"), format!("({int})(*on + width);")),
         };
         body += &format!(
             "
@@ -97,9 +87,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
     for array in arrays {
         body += &format!("    const uint{bits}_t *{array};\n");
     }
-    body += &format!(
-        "}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n"
-    );
+    body += &format!("}} {lower}_speed;\n\nstatic const {lower}_speed {lower}_speeds[{upper}_SPEEDS] = {{\n");
     for (scene, plan) in plans {
         let (lower, upper) = names(scene);
         let delay = plan.delay.map_or(String::new(), |_| format!("{upper}_DELAY_TICKS, "));
@@ -107,11 +95,7 @@ pub fn headers(called: &str, plans: &[(String, Planned)]) -> String {
         body += &format!("    {{\"{lower}\", {upper}_COUNT, {delay}{}}},\n", arrays.join(", "));
     }
     body += "};\n";
-    let made = format!(
-        "/*\n * {MADE_BY}: {}, a shutter of {} speeds.\n */\n",
-        name::shown(called),
-        plans.len()
-    );
+    let made = format!("/*\n * {MADE_BY}: {}, a shutter of {} speeds.\n */\n", name::shown(called), plans.len());
     let speeds: String = plans.iter().map(|(scene, plan)| header(scene, plan) + "\n").collect();
     // A name of its own, so that a scene may be called as the whole is.
     made + "\n" + &speeds + &guarded(&format!("{upper}_SPEEDS"), &lower, &body)

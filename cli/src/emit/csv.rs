@@ -3,8 +3,7 @@
 use crate::planned::Planned;
 
 /// The scene's name, and the keys of a row.
-const NAMES: &[u8] =
-    b"scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n";
+const NAMES: &[u8] = b"scene,index,u,time_s,ticks,gap_ticks,from_edge_ticks,on_ticks,off_ticks,dose\n";
 
 /// The rows of plans; what one of them does not have is empty.
 pub fn rows<'a>(plans: impl IntoIterator<Item = (&'a str, &'a Planned)>) -> String {

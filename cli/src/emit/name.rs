@@ -13,11 +13,10 @@ pub fn identifier(name: &str) -> String {
 
 /// The words that no module can be called, of every edition; with an underscore behind them they can.
 const KEYWORDS: [&str; 51] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
 /// The name as that of a module of Rust.
@@ -30,8 +29,7 @@ pub fn module(name: &str) -> String {
 
 /// A text of any characters, so that it neither ends a comment nor turns the line around.
 pub fn shown(text: &str) -> String {
-    let is_shown =
-        |c: char| c.is_alphanumeric() || matches!(c, ' ' | '±') || c.is_ascii_graphic() && c != '/';
+    let is_shown = |c: char| c.is_alphanumeric() || matches!(c, ' ' | '±') || c.is_ascii_graphic() && c != '/';
     text.chars().map(|c| if is_shown(c) { c } else { '_' }).collect()
 }
 
@@ -50,10 +48,7 @@ mod tests {
             ("self", "self", "self_"),
             ("yield", "yield", "yield_"),
         ] {
-            assert_eq!(
-                (super::identifier(name), super::module(name)),
-                (identifier.into(), module.into())
-            );
+            assert_eq!((super::identifier(name), super::module(name)), (identifier.into(), module.into()));
         }
     }
 }

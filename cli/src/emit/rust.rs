@@ -21,8 +21,7 @@ pub fn module(scene: &str, plan: &Planned, curve: bool) -> String {
 pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String {
     let Some((_, one)) = plans.first() else { return String::new() };
     let int = int(one);
-    let mut text =
-        format!("// {MADE_BY}: {}, a shutter of {} speeds.\n\n", name::shown(called), plans.len());
+    let mut text = format!("// {MADE_BY}: {}, a shutter of {} speeds.\n\n", name::shown(called), plans.len());
     text += &common(one);
     text += &format!(
         "\n/// A speed of the shutter.\n{ALLOW}\npub struct Speed {{\n    /// The scene's name.\n    pub name: &'static str,\n"
@@ -40,15 +39,12 @@ pub fn modules(called: &str, plans: &[(String, Planned)], curve: bool) -> String
         text += "    /// The shutter, its times in seconds.\n    pub shutter: &'static shutter_curve::ShutterCurve,\n";
         "        shutter: &{}::SHUTTER,\n"
     });
-    text += &format!(
-        "}}\n\n/// The speeds.\n{ALLOW}\n#[rustfmt::skip]\npub static SPEEDS: [Speed; {}] = [\n",
-        plans.len()
-    );
+    text +=
+        &format!("}}\n\n/// The speeds.\n{ALLOW}\n#[rustfmt::skip]\npub static SPEEDS: [Speed; {}] = [\n", plans.len());
     let fields = delay.into_iter().chain([field]).chain(shutter).collect::<String>();
     for (scene, _) in plans {
         let fields = fields.replace("{}", &name::module(scene));
-        text +=
-            &format!("    Speed {{\n        name: {:?},\n{fields}    }},\n", name::shown(scene));
+        text += &format!("    Speed {{\n        name: {:?},\n{fields}    }},\n", name::shown(scene));
     }
     text += "];\n";
     for (scene, plan) in plans {
@@ -89,10 +85,7 @@ fn about<'a>(plans: impl Iterator<Item = &'a Planned> + Clone) -> String {
 fn items(plan: &Planned, curve: bool) -> String {
     let int = int(plan);
     let mut text = common(plan);
-    text += &format!(
-        "\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {};\n",
-        ticks(plan).len()
-    );
+    text += &format!("\n/// So many flashes.\n{ALLOW}\npub const COUNT: usize = {};\n", ticks(plan).len());
     if let Some(delay) = plan.delay {
         text += &format!(
             "\n/// {}\n{ALLOW}\npub const DELAY_TICKS: {int} = {};\n",
@@ -101,10 +94,9 @@ fn items(plan: &Planned, curve: bool) -> String {
         );
     }
     let (array, rows) = match has_pulses(plan) {
-        true => (
-            format!("PULSES: [({int}, {int}); COUNT]"),
-            rows(pulses(plan).map(|(on, off)| format!("({on}, {off})"))),
-        ),
+        true => {
+            (format!("PULSES: [({int}, {int}); COUNT]"), rows(pulses(plan).map(|(on, off)| format!("({on}, {off})"))))
+        }
         false => (format!("TICKS: [{int}; COUNT]"), rows(ticks(plan))),
     };
     text += &format!("\n/// {}\n{TABLE}\npub const {array} = [\n{rows}];\n", about(once(plan)));

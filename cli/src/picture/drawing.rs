@@ -21,11 +21,7 @@ pub const POINTS: usize = 800;
 pub const MOST_MARKS: usize = 50;
 
 /// An SVG of this size with what `draw` draws on it.
-pub fn picture(
-    size: (i32, i32),
-    title: &str,
-    draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<String, Box<dyn Error>> {
+pub fn picture(size: (i32, i32), title: &str, draw: impl FnOnce(&Area) -> Drawn) -> Result<String, Box<dyn Error>> {
     let mut svg = String::new();
     let shown = (size.0 as u32, size.1 as u32);
     let drawn = (shown.0 * SCALE as u32, shown.1 * SCALE as u32);
@@ -39,13 +35,7 @@ pub fn picture(
 }
 
 /// What lies below the function `at` of time between two times.
-pub fn below(
-    from: f32,
-    to: f32,
-    points: usize,
-    unit: Unit,
-    at: impl Fn(f32) -> (f64, f64),
-) -> Vec<(f64, f64)> {
+pub fn below(from: f32, to: f32, points: usize, unit: Unit, at: impl Fn(f32) -> (f64, f64)) -> Vec<(f64, f64)> {
     let top = steps(from, to, points).map(at);
     once((unit.of(from), 0.0)).chain(top).chain(once((unit.of(to), 0.0))).collect()
 }
@@ -67,12 +57,7 @@ pub struct Axis<'a> {
 }
 
 /// An empty graph, with so much room for the numbers of the axis `y`. Without a name, `x` is that of the graph below.
-pub fn axes<'a, 'b>(
-    area: &'a Area<'b>,
-    x: Axis,
-    y: Axis,
-    room: i32,
-) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
+pub fn axes<'a, 'b>(area: &'a Area<'b>, x: Axis, y: Axis, room: i32) -> Result<Graph<'a, 'b>, Box<dyn Error>> {
     let mut graph = ChartBuilder::on(area)
         .margin_left(16 * SCALE)
         .margin_right(24 * SCALE)

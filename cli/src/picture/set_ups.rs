@@ -1,4 +1,5 @@
-//! The two set-ups side by side: which doses of light the same shutter leaves of equal pulses, and of those made for it.
+//! The two set-ups side by side: which doses of light the same shutter leaves of equal pulses, and of those made for
+//! it.
 
 use std::error::Error;
 
@@ -18,13 +19,11 @@ const LEFT: i32 = 650;
 /// With more pulses than this, their doses would not be legible below their bars.
 const MOST_LABELS: usize = 12;
 
-/// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays open,
-/// the same with the shutter in the light's path, and pulses of equal doses there.
+/// The plan's pulses in both set-ups, as an SVG: equal ones around the triggers while the camera's own shutter stays
+/// open, the same with the shutter in the light's path, and pulses of equal doses there.
 pub fn set_ups(name: &str, plan: &Plan) -> Result<String, Box<dyn Error>> {
     let (n, SetUps { length, rows }) = (plan.triggers.len(), SetUps::new(plan));
-    let title = format!(
-        "The doses of {n} pulses with the shutter {name}, emulated and in the light's path"
-    );
+    let title = format!("The doses of {n} pulses with the shutter {name}, emulated and in the light's path");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let text = format!("{name}: the light of {n} pulses in the two set-ups");
@@ -46,8 +45,7 @@ fn draw_row(area: &Area, plan: &Plan, row: &Row, length: f32) -> Drawn {
     title.draw_text(row.title, &label, (24 * SCALE, 20 * SCALE))?;
     let (left, right) = rest.split_horizontally(LEFT * SCALE);
     draw_light(&left, plan, row)?;
-    let doses: Vec<_> =
-        row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
+    let doses: Vec<_> = row.pulses.iter().map(|&pulse| f64::from(row.dose(plan, length, pulse))).collect();
     draw_doses(&right, &doses)
 }
 
@@ -60,9 +58,7 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
         let openness = if row.is_shuttered { curve.openness(t) } else { 1.0 };
         (unit.of(t), f64::from(openness))
     };
-    graph.draw_series(
-        row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, unit, at), lit())),
-    )?;
+    graph.draw_series(row.pulses.iter().map(|&(on, off)| Polygon::new(below(on, off, 32, unit, at), lit())))?;
     graph.draw_series(row.pulses.iter().map(|&(on, off)| {
         let (on, off) = (unit.of(on), unit.of(off));
         PathElement::new([(on, 0.0), (on, 1.0), (off, 1.0), (off, 0.0)], pen(VERMILION, 1.0))
@@ -72,8 +68,7 @@ fn draw_light(area: &Area, plan: &Plan, row: &Row) -> Drawn {
     } else {
         // The curve as it is meant, and the camera as it is.
         let start = curve.open_start();
-        let curve = steps(start, curve.close_end(), 100)
-            .map(|t| (unit.of(t), f64::from(curve.openness(t))));
+        let curve = steps(start, curve.close_end(), 100).map(|t| (unit.of(t), f64::from(curve.openness(t))));
         let dashes = DashedLineSeries::new(curve, 6 * SCALE, 5 * SCALE, pen(BLUE, 1.5));
         graph.draw_series(dashes)?;
         Ok(())
@@ -115,8 +110,7 @@ fn draw_doses(area: &Area, doses: &[f64]) -> Drawn {
         let label = style::text(10 * SCALE, HPos::Center, VPos::Bottom);
         let labels = (0u32..).zip(doses).map(|(i, &dose)| {
             let percent = short((100.0 * dose).round(), 3);
-            EmptyElement::at((f64::from(i), dose))
-                + Text::new(percent, (0, -3 * SCALE), label.clone())
+            EmptyElement::at((f64::from(i), dose)) + Text::new(percent, (0, -3 * SCALE), label.clone())
         });
         graph.draw_series(labels)?;
     }

@@ -8,8 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// What is drawn on.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// A graph with its axes.
-pub type Graph<'a, 'b> =
-    ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+pub type Graph<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// For the curve, and for what is ours.
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
@@ -39,8 +38,8 @@ const DARK: [(RGBColor, RGBColor); 9] = [
     (FAINT, RGBColor(38, 45, 54)),
 ];
 
-/// A finished SVG as a page shows it: at the size `shown` of all that was `drawn`, with a title for those who hear it, and
-/// with the colours of the page's background.
+/// A finished SVG as a page shows it: at the size `shown` of all that was `drawn`, with a title for those who hear it,
+/// and with the colours of the page's background.
 pub fn dressed(svg: &str, drawn: (u32, u32), shown: (u32, u32), title: &str) -> String {
     let size = |(width, height)| format!(r#"width="{width}" height="{height}""#);
     let svg = svg.replacen(&size(drawn), &format!(r#"{} role="img""#, size(shown)), 1);

@@ -22,8 +22,7 @@ const POINTS: usize = 1500;
 
 /// The fit of the trace `name`, as an SVG.
 pub fn trace(name: &str, fit: &Fit) -> Result<String, Box<dyn Error>> {
-    let title =
-        format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
+    let title = format!("The trace {name} and the curve fitted to it, with its triggers; the residual");
     picture(SIZE, &title, |page| {
         let (heading, rest) = page.split_vertically(HEADING * SCALE);
         let (upper, lower) = rest.split_vertically(SIGNAL * SCALE);
@@ -50,8 +49,7 @@ fn write_heading(area: &Area, name: &str, fit: &Fit) -> Drawn {
     };
     for (k, name) in ["trace", "fitted curve", trigger].into_iter().enumerate() {
         let x = (SIZE.0 / 2 - 190 + 140 * k as i32) * SCALE;
-        let line =
-            |color, width| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen(color, width));
+        let line = |color, width| PathElement::new([(x, y), (x + 22 * SCALE, y)], pen(color, width));
         match k {
             0 => area.draw(&line(GREY, 1.2))?,
             1 => area.draw(&line(BLUE, 2.5))?,
@@ -73,8 +71,7 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
     let at = |t: f64| (unit.of(t), sign * fit.value(t));
     // A box's edges are drawn as such: a point on either side of each.
     let curve = fit.best().signal.curve;
-    let mut times: Vec<f64> =
-        (0..=POINTS).map(|i| first + (last - first) * i as f64 / POINTS as f64).collect();
+    let mut times: Vec<f64> = (0..=POINTS).map(|i| first + (last - first) * i as f64 / POINTS as f64).collect();
     let nudge = 1e-9 * curve.length();
     times.extend(curve.times().iter().flat_map(|t| [t - nudge, t + nudge]));
     times.retain(|t| (first..=last).contains(t));
@@ -88,9 +85,7 @@ fn draw_signal(area: &Area, fit: &Fit) -> Drawn {
     };
     if fit.from == From::Trace {
         let model = fit.model_triggers.iter().map(|trigger| at(trigger.value));
-        graph.draw_series(
-            model.map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(BLUE, 0.8))),
-        )?;
+        graph.draw_series(model.map(|(t, v)| PathElement::new([(t, dark), (t, v)], pen(BLUE, 0.8))))?;
     }
     let marks = fit.triggers.iter().map(|trigger| seen(trigger.value));
     draw_marks(&mut graph, marks, |(t, v)| vec![(t, dark), (t, v)])

@@ -1,5 +1,5 @@
-//! Each form that a plan is emitted in, of each scene that ships: it compiles or parses as it stands, and holds the crate's
-//! ticks and the numbers of the plan to the bit.
+//! Each form that a plan is emitted in, of each scene that ships: it compiles or parses as it stands, and holds the
+//! crate's ticks and the numbers of the plan to the bit.
 
 use std::env;
 use std::fmt::Display;
@@ -41,9 +41,7 @@ fn output(command: &mut Command) -> String {
 fn lines(planned: &Planned) -> String {
     match planned {
         Planned::Curve(plan) => plan.triggers.iter().map(line).collect(),
-        Planned::Times(times) => {
-            times.triggers.iter().map(|it| format!("{}\n", it.ticks)).collect()
-        }
+        Planned::Times(times) => times.triggers.iter().map(|it| format!("{}\n", it.ticks)).collect(),
     }
 }
 
@@ -71,8 +69,8 @@ fn ran(folder: &Folder, main: &str, args: &[&str]) -> String {
     output(&mut Command::new(folder.path("main")))
 }
 
-/// Compiles a file of modules as a library that asks for documentation, with all that Clippy could say, and checks how they are
-/// written.
+/// Compiles a file of modules as a library that asks for documentation, with all that Clippy could say, and checks how
+/// they are written.
 fn is_clean(folder: &Folder, file: &str, modules: &[impl Display], linked: &[&str]) {
     let module = |name| format!("/// .\npub mod {name};\n");
     let modules: String = modules.iter().map(module).collect();
@@ -80,8 +78,7 @@ fn is_clean(folder: &Folder, file: &str, modules: &[impl Display], linked: &[&st
     let args = ["--crate-type", "lib", "-D", "missing_docs", "-D", "clippy::pedantic", file];
     compile("clippy-driver".as_ref(), folder, &[&["-D", "warnings"], linked, &args].concat());
     let mut rustfmt = Command::new("rustfmt");
-    let with_defaults =
-        ["--check", "--edition", "2024", "--config", "use_small_heuristics=Default"];
+    let with_defaults = ["--check", "--edition", "2024", "--config", "use_small_heuristics=Default"];
     output(rustfmt.args(with_defaults).arg(file).current_dir(&folder.0));
 }
 
@@ -112,9 +109,13 @@ fn rust_compiles_alone_and_holds_the_ticks_of_the_crate() {
         folder.write(&format!("{module}_curve.rs"), curve);
         main += &format!("{{ use alone::{module} as scene; use curves::{module}_curve as curve;\n");
         main += match pulses {
-            true => "assert_eq!(scene::PULSES, curve::PULSES); for (on, off) in scene::PULSES { println!(\"{on} {off}\"); }",
-            false => "assert!(curve::SHUTTER.trigger_ticks(curve::COUNT as u32, curve::TIMER_HZ).unwrap().eq(scene::TICKS));
-                for tick in scene::TICKS { println!(\"{tick}\"); }",
+            true => {
+                "assert_eq!(scene::PULSES, curve::PULSES); for (on, off) in scene::PULSES { println!(\"{on} {off}\"); }"
+            }
+            false => {
+                "assert!(curve::SHUTTER.trigger_ticks(curve::COUNT as u32, curve::TIMER_HZ).unwrap().eq(scene::TICKS));
+                for tick in scene::TICKS { println!(\"{tick}\"); }"
+            }
         };
         if let Lamp::Doses { duty } = plan.lamp {
             main += &format!(
@@ -176,10 +177,7 @@ fn compiled(folder: &Folder, includes: &str, body: &str) -> String {
             let program = folder.path("main");
             let compiler = env::var(variable).unwrap_or(compiler.into());
             let is_there = Command::new(&compiler).arg("--version").output().is_ok();
-            assert!(
-                is_there,
-                "no compiler {compiler}: this test compiles headers with $CC, or cc, and $CXX, or c++"
-            );
+            assert!(is_there, "no compiler {compiler}: this test compiles headers with $CC, or cc, and $CXX, or c++");
             let mut compile = Command::new(compiler);
             compile.args([standard, "-pedantic", "-Wall", "-Wextra", "-Werror", "-o"]);
             output(compile.arg(&program).arg(folder.path(file)));
@@ -203,9 +201,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
         let (plan, lower) = (plan(planned), name.replace('-', "_"));
         let upper = lower.to_ascii_uppercase();
         let print = match has_pulses(plan) {
-            true => format!(
-                "\"%lu %lu\\n\", (unsigned long){lower}_on[i], (unsigned long){lower}_off[i]"
-            ),
+            true => format!("\"%lu %lu\\n\", (unsigned long){lower}_on[i], (unsigned long){lower}_off[i]"),
             false => format!("\"%lu\\n\", (unsigned long){lower}_ticks[i]"),
         };
         body += &format!(
@@ -214,9 +210,7 @@ fn c_compiles_in_one_file_and_holds_the_same_ticks() {
         );
         expected += &format!("{}\n{}", plan.timer.hz, lines(planned));
         if let Some(delay) = plan.delay {
-            body += &format!(
-                "printf(\"%lu %d\\n\", (unsigned long){upper}_DELAY_TICKS, {upper}_SYNC_FALLS);\n"
-            );
+            body += &format!("printf(\"%lu %d\\n\", (unsigned long){upper}_DELAY_TICKS, {upper}_SYNC_FALLS);\n");
             expected += &format!("{} {}\n", delay.ticks, u8::from(delay.falls.unwrap()));
         }
     }
@@ -266,8 +260,7 @@ fn speeds_are_an_array_of_c() {
         // The same scene by itself is the same text.
         let (name, slow) = &plans[plans.len() - 1];
         folder.write("slow.h", text(Form::C, name, slow));
-        let includes =
-            ["camera.h", "slow.h", "camera.h"].map(|file| format!("#include \"{file}\"\n"));
+        let includes = ["camera.h", "slow.h", "camera.h"].map(|file| format!("#include \"{file}\"\n"));
         let body = format!(
             "for (unsigned s = 0; s < CAMERA_SPEEDS; s++) {{
                 printf(\"%s %lu %lu\\n\", camera_speeds[s].name, (unsigned long)CAMERA_TIMER_HZ, (unsigned long){delay});
@@ -294,10 +287,7 @@ fn speeds_that_do_not_go_together_are_refused() {
     for (changes, reason) in [
         ("timer_hz = 999", "timer_hz: 1000000 in 1-500, 999 in box; one list is for one timer"),
         ("", "delay: 1-500 has one and box has none; an array needs all or none"),
-        (
-            "delay = 1; sync_falls = false",
-            "sync_falls: 1-500 and box differ; an array is for one edge",
-        ),
+        ("delay = 1; sync_falls = false", "sync_falls: 1-500 and box differ; an array is for one edge"),
         (
             "delay = 1; sync_falls = true; set_up = 'in_path'",
             "set_up: 1-500 and box differ; an array is for one set-up",
@@ -414,8 +404,7 @@ fn hardware_gets_nothing_that_nobody_gave() {
     };
     let head = "hardware needs what only you know; write it into the scene, or say --set-up, --timer-hz, --sync-falls:";
     let timer = "\n  timer_hz = ...       # your timer's rate, in Hz";
-    let edge =
-        "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
+    let edge = "\n  sync_falls = ...     # true, or false if the delay counts from an edge that rises";
     let set_up = "
   set_up = \"emulated\"  # the camera's own shutter stays open: the first, the middle and the last flash give 100, 100 and 100 %
   set_up = \"in_path\"   # this shutter is in the light's path, and dims them to 43.5, 100 and 51.2 %; all alike
@@ -433,7 +422,8 @@ fn hardware_gets_nothing_that_nobody_gave() {
 /// Trigger times without a curve, with a delay, and a speed that has one.
 fn measured() -> [(String, Planned); 2] {
     let times = "unit = 'ms'\nopen_start = 1\ntrigger_times = [2.0004, 2.5, 3.1]\nmin_gap = 0.1\n";
-    let curve = "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\nmin_gap = 0\n";
+    let curve =
+        "unit = 'ms'\nopen_start = 0\nopen_end = 1\nclose_start = 4\nclose_end = 5\ntriggers = 4\nmin_gap = 0\n";
     [("bounce", times, "4.247"), ("good", curve, "4")].map(|(name, scene, delay)| {
         let changes = format!("timer_hz = 1_000_000; set_up = 'emulated'; delay = {delay}");
         (name.into(), planned(scene, &format!("{changes}; sync_falls = true")))
@@ -456,8 +446,8 @@ fn times_without_a_curve_are_told_to_be_so() {
                 bounce,2,,0.0031,2100,600,6347,,,\n";
     assert_eq!(csv, format!("{HEAD}{rows}"));
     // All forms have the same keys.
-    let [json, beside] = [times, curve]
-        .map(|plan| serde_json::from_str::<Value>(&text(Form::Json, "bounce", plan)).unwrap());
+    let [json, beside] =
+        [times, curve].map(|plan| serde_json::from_str::<Value>(&text(Form::Json, "bounce", plan)).unwrap());
     let first = &json["triggers"][0];
     assert_eq!((number(first, "time_s"), number(first, "from_edge_ticks")), (0.0020004, 5247.0));
     assert_eq!(keys(&json), keys(&beside));
@@ -527,10 +517,8 @@ fn csv_and_json_parse_and_hold_the_same_numbers() {
     scenes().iter().for_each(|(name, plan)| csv_and_json_are_right(name, plan));
     // Numbers at both ends of what a scene may hold come back as they were.
     for (factor, timer_hz) in [(1e-18, u32::MAX), (1e-7, u32::MAX), (7e8, 1)] {
-        let times =
-            format!("open_start = -{factor:e}; open_end = {factor:e}; close_start = {factor:e}");
-        let frame =
-            format!("triggers = 1; timer_hz = {timer_hz}; min_gap = 0; set_up = 'emulated'");
+        let times = format!("open_start = -{factor:e}; open_end = {factor:e}; close_start = {factor:e}");
+        let frame = format!("triggers = 1; timer_hz = {timer_hz}; min_gap = 0; set_up = 'emulated'");
         let plan = planned(BOX, &format!("{times}; close_end = {:e}; {frame}", 1.7 * factor));
         csv_and_json_are_right("x", &plan);
         curve_is_right(&plan);
@@ -550,10 +538,8 @@ fn curve_is_right(planned: &Planned) {
     let (linear, cubic) = (rust.split_once("linear("), rust.split_once("shutteropening("));
     let (_, numbers) = linear.or(cubic).unwrap();
     let numbers = numbers.split(['[', ']', '(', ')', ',', ' ', '\n']);
-    let numbers: Vec<f32> = numbers
-        .map_while(|it| if it.is_empty() { Some(None) } else { it.parse().ok().map(Some) })
-        .flatten()
-        .collect();
+    let numbers: Vec<f32> =
+        numbers.map_while(|it| if it.is_empty() { Some(None) } else { it.parse().ok().map(Some) }).flatten().collect();
     let shape = plan(planned).shape;
     assert_eq!(numbers, [&shape.times[..], shape.inner.as_slice().concat().as_slice()].concat());
 }
@@ -565,11 +551,9 @@ fn no_name_breaks_a_form() {
     let name = "*/ \n#error \u{202e}\"\\";
     let [rust, c] = [Form::Rust, Form::C].map(|form| text(form, name, &plan));
     assert!(rust.contains("\n// scene        *_ _#error _\"\\\n"), "{rust}");
-    for words in [
-        "\n * scene        *_ _#error _\"\\\n",
-        "\n#ifndef ERROR_SCHEDULE_H\n",
-        " error_ticks[ERROR_COUNT] = {",
-    ] {
+    for words in
+        ["\n * scene        *_ _#error _\"\\\n", "\n#ifndef ERROR_SCHEDULE_H\n", " error_ticks[ERROR_COUNT] = {"]
+    {
         assert!(c.contains(words), "{c}");
     }
     let json: Value = serde_json::from_str(&text(Form::Json, name, &plan)).unwrap();

@@ -1,4 +1,5 @@
-//! `shutter fit`: what cannot be fitted is refused with a reason and leaves nothing behind, and what is doubtful is told.
+//! `shutter fit`: what cannot be fitted is refused with a reason and leaves nothing behind, and what is doubtful is
+//! told.
 
 use std::fmt::Write;
 use std::fs;
@@ -9,9 +10,7 @@ use shutter::plan::Plan;
 use shutter_fit::trace::{self, Light, Recording, Refusal, Trace, Warning};
 use shutter_fit::{Curve, Fit, Kind, Options, Sync, Tolerance, fit};
 
-use crate::generator::{
-    Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth,
-};
+use crate::generator::{Disturbance, Random, SHUTTERS, Shutter, Truth, bezier, each, traced, truth};
 use crate::refusals::MEASURED;
 use crate::support::{Folder, SCENES, codes, csv, keys, leaf, number, rows, sampled, trapezoid};
 
@@ -62,21 +61,15 @@ fn what_is_doubtful_is_told() {
         &with(&|t, v| v + 0.04 * (std::f64::consts::TAU * 400.0 * t).sin()),
         &|w| matches!(w, Warning::Hum { hertz, amplitude } if near(*hertz, 400.0, 4.0) && near(*amplitude, 0.02, 0.002)),
     );
-    still(
-        &with(&|t, v| v + 8.0 * t),
-        &|w| matches!(w, Warning::Drift { amount } if near(*amount, 0.048, 0.004)),
-    );
+    still(&with(&|t, v| v + 8.0 * t), &|w| matches!(w, Warning::Drift { amount } if near(*amount, 0.048, 0.004)));
     let spikes = with(&|t, v| {
         if [200, 201, 700, 1201].contains(&((t * 1.25e5).round() as u32)) { v + 1.7 } else { v }
     });
     still(&spikes, &|w| {
-        let is_first =
-            matches!(w, Warning::Spikes { count: 4, first } if near(*first, 0.0016, 1e-9));
+        let is_first = matches!(w, Warning::Spikes { count: 4, first } if near(*first, 0.0016, 1e-9));
         is_first && spikes.warnings.len() == 1
     });
-    is_told(&plainly(&sampled(trapezoid, 200, 0.2)), &|w| {
-        matches!(w, Warning::NoiseHidesRamps { .. })
-    });
+    is_told(&plainly(&sampled(trapezoid, 200, 0.2)), &|w| matches!(w, Warning::NoiseHidesRamps { .. }));
     let sharp = plainly(&sampled(|t| f64::from((0.003..0.008).contains(&t)), 600, 0.005));
     assert_eq!(sharp.chosen, Kind::Box);
     is_told(&sharp, &|w| matches!(w, Warning::SharpEdges { .. }));
@@ -153,10 +146,7 @@ fn what_cannot_be_fitted_is_refused() {
         asked(&Options { frame: Some(2), ..Options::default() }),
         Some(Refusal::NoFrame { number: 2, frames: 1 })
     );
-    assert!(matches!(
-        asked(&Options { full: Some(1.5), ..Options::default() }),
-        Some(Refusal::FullTooLow { .. })
-    ));
+    assert!(matches!(asked(&Options { full: Some(1.5), ..Options::default() }), Some(Refusal::FullTooLow { .. })));
     for broken in [(f64::NAN, 0.0), (0.0, f64::INFINITY), (7.0, 0.0)] {
         let mut trace = part(0, 1000);
         (trace.times[500], trace.values[500]) = broken;
@@ -180,8 +170,8 @@ fn what_cannot_be_fitted_is_refused() {
 #[test]
 fn full_light_scales_exposure_and_efficiency_and_leaves_the_triggers() {
     let trace = sampled(trapezoid, 1000, 0.005);
-    let [plain, dimmed] = [None, Some(0.1 + 2.0 / 0.8)]
-        .map(|full| fitted(&trace, &Options { full, ..Options::default() }).unwrap());
+    let [plain, dimmed] =
+        [None, Some(0.1 + 2.0 / 0.8)].map(|full| fitted(&trace, &Options { full, ..Options::default() }).unwrap());
     assert!((dimmed.peak - 0.8).abs() < 1e-3);
     assert!((dimmed.exposure.value - 0.004).abs() < 1e-5);
     assert!((dimmed.efficiency.value - 0.8 * plain.efficiency.value).abs() < 1e-3);
@@ -216,23 +206,13 @@ fn of_several_frames_the_median_one_is_fitted_and_the_scatter_told() {
     assert!(fourth.triggers.iter().all(|trigger| (3.0..4.0).contains(&trigger.value)));
 }
 
-/// A record of pulses `lit` ms wide at half, 12 ms apart, from a time to another; it says the exposure in ms, how many pulses are left
-/// out and whether light is said to lower it, or refuses.
-fn of_train(
-    lit: f64,
-    window: [f64; 2],
-    light: Light,
-    sign: f64,
-) -> Result<(f64, usize, bool), Refusal> {
+/// A record of pulses `lit` ms wide at half, 12 ms apart, from a time to another; it says the exposure in ms, how many
+/// pulses are left out and whether light is said to lower it, or refuses.
+fn of_train(lit: f64, window: [f64; 2], light: Light, sign: f64) -> Result<(f64, usize, bool), Refusal> {
     let mut random = Random::new(5);
-    let times: Vec<f64> =
-        (0..((window[1] - window[0]) / 0.02) as u32).map(|i| 2e-5 * f64::from(i)).collect();
-    let openness =
-        |t: f64| (t.rem_euclid(12.0).min(lit + 0.8 - t.rem_euclid(12.0)) / 0.8).clamp(0.0, 1.0);
-    let values = times
-        .iter()
-        .map(|t| sign * (openness(1e3 * t + window[0]) + 0.004 * random.normal()))
-        .collect();
+    let times: Vec<f64> = (0..((window[1] - window[0]) / 0.02) as u32).map(|i| 2e-5 * f64::from(i)).collect();
+    let openness = |t: f64| (t.rem_euclid(12.0).min(lit + 0.8 - t.rem_euclid(12.0)) / 0.8).clamp(0.0, 1.0);
+    let values = times.iter().map(|t| sign * (openness(1e3 * t + window[0]) + 0.004 * random.normal())).collect();
     let fit = fitted(&Trace { times, values }, &Options { light, ..Options::default() })?;
     let cut = fit.warnings.iter().filter(|w| matches!(w, Warning::PartialFrame { .. })).count();
     Ok((1e3 * fit.exposure.value, cut, told(&fit, |w| *w == Warning::Inverted)))
@@ -242,10 +222,7 @@ fn of_train(
 fn pulses_that_the_record_cuts_are_left_out() {
     let is = |found: Result<(f64, usize, bool), Refusal>, lit: f64, left_out: usize| {
         let (exposure, cut, inverted) = found.unwrap();
-        assert!(
-            (exposure / lit - 1.0).abs() < 2e-3 && (cut, inverted) == (left_out, false),
-            "{exposure} {cut}"
-        );
+        assert!((exposure / lit - 1.0).abs() < 2e-3 && (cut, inverted) == (left_out, false), "{exposure} {cut}");
     };
     let ways = [(Light::Auto, 1.0), (Light::Up, 1.0), (Light::Down, -1.0)];
     for (light, sign) in ways {
@@ -305,10 +282,8 @@ fn shots_an_hour_apart_are_as_good_as_shots_side_by_side() {
 #[test]
 fn a_tolerance_asks_for_the_simplest_within_it() {
     let mut random = Random::new(2);
-    let case =
-        traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
-    let within =
-        |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
+    let case = traced(truth(Shutter::Leaf, &mut random), Disturbance::White, 2000, 0.003, &mut random);
+    let within = |tolerance| case.fitted(&Options { tolerance: Some(tolerance), ..Options::default() });
     assert_eq!(within(Tolerance::Share(0.5)).chosen, Kind::Box);
     assert_eq!(within(Tolerance::Share(0.0)).chosen, Kind::Free);
     let loose = within(Tolerance::Share(0.05));
@@ -321,9 +296,7 @@ fn a_tolerance_asks_for_the_simplest_within_it() {
 #[test]
 fn correlated_samples_count_for_fewer() {
     // Of a noise that is correlated by 0.8 from one sample to the next, nine are as good as an independent one.
-    for (disturbance, least, most) in
-        [(Disturbance::White, 0.8, 1.0), (Disturbance::Coloured, 0.07, 0.18)]
-    {
+    for (disturbance, least, most) in [(Disturbance::White, 0.8, 1.0), (Disturbance::Coloured, 0.07, 0.18)] {
         for seed in 0..5 {
             let mut random = Random::new(seed);
             let truth = truth(Shutter::Trapezoid, &mut random);
@@ -357,7 +330,8 @@ fn the_light_that_noise_hides_in_a_tail_is_in_the_standard_errors() {
     assert!(stated / all < 1e-3, "stated: {}", stated / all);
 }
 
-/// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has it.
+/// The exposure counts in full light, and noise hides how high a peak without a plateau is: not as a linear model has
+/// it.
 #[test]
 fn the_exposure_is_known_without_a_plateau_too() {
     let covered = each(48, |seed| {
@@ -465,12 +439,9 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
     let options = trace::Options::default();
     let refused = |bytes: &[u8]| match trace::open(bytes, &options) {
         Err(refusal) => refusal.to_string(),
-        Ok(Recording { trace, .. }) => {
-            fitted(&trace, &Options::default()).err().expect("a refusal").to_string()
-        }
+        Ok(Recording { trace, .. }) => fitted(&trace, &Options::default()).err().expect("a refusal").to_string(),
     };
-    let timed =
-        |v: &str| (0..100).map(|i| format!("{},{v}\n", 0.3 * f64::from(i))).collect::<String>();
+    let timed = |v: &str| (0..100).map(|i| format!("{},{v}\n", 0.3 * f64::from(i))).collect::<String>();
     for (bytes, reason) in [
         (vec![], "empty"),
         (b" \n\n".into(), "empty"),
@@ -493,8 +464,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
     }
     let huge: String = (0..100).map(|i| format!("{i}e28,{}e29\n", i % 7)).collect();
     refused(huge.as_bytes());
-    let tiny: String =
-        (0..100).map(|i| format!("{i}e-300,{}e-300\n", i32::from(i > 30 && i < 70))).collect();
+    let tiny: String = (0..100).map(|i| format!("{i}e-300,{}e-300\n", i32::from(i > 30 && i < 70))).collect();
     let trace = trace::open(tiny.as_bytes(), &options).unwrap().trace;
     let _ = fitted(&trace, &Options::default());
     // Whatever a few characters of the alphabet of numbers make.
@@ -502,9 +472,7 @@ fn hostile_texts_are_refused_or_fitted_and_never_more() {
     for seed in 0..400 {
         let mut random = Random::new(seed);
         let length = random.within(1.0, 600.0) as usize;
-        let text: String = (0..length)
-            .map(|_| alphabet[random.within(0.0, alphabet.len() as f64) as usize])
-            .collect();
+        let text: String = (0..length).map(|_| alphabet[random.within(0.0, alphabet.len() as f64) as usize]).collect();
         let Ok(read) = trace::open(text.as_bytes(), &options) else { continue };
         let _ = fitted(&read.trace, &Options::default());
     }
@@ -590,18 +558,16 @@ fn what_the_program_refuses_leaves_nothing_behind() {
     }
 }
 
-/// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an RC of 30 µs,
-/// 10 bits) becomes a scene, and that the module by which the firmware's example fires.
+/// The README's way: a trace that no Bezier made (a leaf shutter whose blades swing on a spring, a photodiode with an
+/// RC of 30 µs, 10 bits) becomes a scene, and that the module by which the firmware's example fires.
 #[test]
 fn from_a_trace_to_the_firmwares_module() {
     let read = |path: &str| fs::read_to_string(format!("{SCENES}/../{path}")).unwrap();
-    let trace =
-        trace::open(read("traces/leaf.csv").as_bytes(), &trace::Options::default()).unwrap();
+    let trace = trace::open(read("traces/leaf.csv").as_bytes(), &trace::Options::default()).unwrap();
     assert!(trace.warnings.is_empty(), "{:?}", trace.warnings);
     // Its oscilloscope was triggered by the sync.
     let options = Options { sync: Some(Sync::Edge(0.0)), ..Options::default() };
-    let [fit, synced] =
-        [Options::default(), options].map(|options| fitted(&trace.trace, &options).unwrap());
+    let [fit, synced] = [Options::default(), options].map(|options| fitted(&trace.trace, &options).unwrap());
     let scene = |fit| fitted::scene(fit, "leaf.csv", Zero::Trace, None).unwrap().text;
     // The same with the timer of the board and what the lamp needs, which a user fills in.
     assert!(MEASURED.lines().take(2).eq(scene(&fit).lines().take(2)), "{}", scene(&fit));
@@ -625,9 +591,7 @@ fn the_delay_from_the_sync_is_measured() {
     let (read, _) = through(leaf(1.0), &trace::Options::default());
     let start = read.best().signal.curve.start;
     assert!(start > 0.0005 && read.delay.is_none());
-    for (sync, at, zero) in
-        [("0", 0.0, "trace"), ("0.4ms", 4e-4, "open"), ("-1e-3s", -1e-3, "open")]
-    {
+    for (sync, at, zero) in [("0", 0.0, "trace"), ("0.4ms", 4e-4, "open"), ("-1e-3s", -1e-3, "open")] {
         let run = folder.run(&format!("fit a.csv --out a.toml --sync {sync} --zero {zero}")).well();
         assert!(!run.err.contains("warning"), "{}", run.err);
         let line = run.out.lines().find(|line| line.starts_with("delay        "));
@@ -667,8 +631,7 @@ fn several_traces_are_a_table() {
         let row = both.out.lines().find(|line| line.starts_with(name)).unwrap();
         assert!(words.iter().all(|words| row.contains(words)), "{row}");
     }
-    let plans = ["slow", "fast"]
-        .map(|name| Plan::parse(&folder.text(&format!("of/speeds/{name}.toml"))).unwrap());
+    let plans = ["slow", "fast"].map(|name| Plan::parse(&folder.text(&format!("of/speeds/{name}.toml"))).unwrap());
     assert_eq!(plans[0].nominal.zip(plans[1].nominal), Some((0.010, 0.004)));
     assert!(plans.iter().all(|plan| plan.delay.is_some()));
     folder.refuses(&[
@@ -679,31 +642,26 @@ fn several_traces_are_a_table() {
         ("fit slow.csv fast.csv --nominal 1ms,2ms,3ms", "--nominal: 3 for 2 traces"),
         ("fit slow.csv fast.csv --out no.toml", "--out: name a folder for a scene of each trace"),
         ("fit slow.csv fast.csv --nominal 1/0,4ms", "write a speed as in 1/250, 4ms"),
-        (
-            "fit slow.csv fast.csv --picture no.svg",
-            "--picture: it is of one setting; the exposures",
-        ),
+        ("fit slow.csv fast.csv --picture no.svg", "--picture: it is of one setting; the exposures"),
         ("fit slow.csv slow.csv --out ./of/speeds", "slow.csv: it is given twice"),
         ("fit slow.csv missing.csv", "missing.csv: "),
     ]);
 }
 
-/// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's share.
+/// Its pulses match the trace without any curve: by each trigger, the samples themselves have gathered that trigger's
+/// share.
 #[test]
 fn the_firmwares_pulses_split_the_light_of_the_trace() {
     let leaf = include_bytes!("../../traces/leaf.csv");
     let trace = trace::open(leaf, &trace::Options::default()).unwrap().trace;
     let samples = || trace.times.iter().zip(&trace.values);
     let dark = |t: f64| !(0.004..0.0145).contains(&t);
-    let (sum, count) = samples()
-        .filter(|(t, _)| dark(**t))
-        .fold((0.0, 0.0), |(sum, n), (_, v)| (sum + v, n + 1.0));
+    let (sum, count) = samples().filter(|(t, _)| dark(**t)).fold((0.0, 0.0), |(sum, n), (_, v)| (sum + v, n + 1.0));
     let level = sum / count;
     // Each sample stands for the time around it.
     let step = trace.times[1] - trace.times[0];
-    let light = |until: f64| -> f64 {
-        samples().map(|(t, v)| ((until - t) / step + 0.5).clamp(0.0, 1.0) * (v - level)).sum()
-    };
+    let light =
+        |until: f64| -> f64 { samples().map(|(t, v)| ((until - t) / step + 0.5).clamp(0.0, 1.0) * (v - level)).sum() };
     let plan = Plan::parse(MEASURED).unwrap();
     for trigger in &plan.triggers {
         let time = f64::from(trigger.ticks) / f64::from(plan.timer.hz);
@@ -716,10 +674,9 @@ fn the_firmwares_pulses_split_the_light_of_the_trace() {
 #[test]
 fn a_program_reads_json() {
     let folder = Folder::new("json");
-    for (name, trace, from) in [
-        ("model.csv", sampled(trapezoid, 1200, 0.005), "model"),
-        ("trace.csv", sampled(bounces, 1500, 0.003), "trace"),
-    ] {
+    for (name, trace, from) in
+        [("model.csv", sampled(trapezoid, 1200, 0.005), "model"), ("trace.csv", sampled(bounces, 1500, 0.003), "trace")]
+    {
         folder.write(name, format!("time,v\n{}", rows(&trace, |t, v| format!("{t:.6},{v:.5}"))));
         let json = folder.json(&format!("{name} --triggers 5"));
         assert_eq!(json["triggers_from"], from);
@@ -751,8 +708,7 @@ fn a_program_reads_json() {
 fn a_nominal_speed_is_told_as_such() {
     let folder = Folder::new("nominal");
     folder.write("leaf.csv", leaf(1.0));
-    let [plain, named] =
-        ["", "--nominal 1/250"].map(|it| folder.run(&format!("fit leaf.csv {it}")).quietly());
+    let [plain, named] = ["", "--nominal 1/250"].map(|it| folder.run(&format!("fit leaf.csv {it}")).quietly());
     let added: Vec<_> = named.lines().filter(|line| plain.lines().all(|it| it != *line)).collect();
     let speed = "speed        1/200 s measured, 1/250 s nominal: +0.32 EV";
     assert_eq!(added, [speed, "nominal = 4"]);
@@ -766,9 +722,7 @@ fn several_sensors_tell_how_the_curtains_travel() {
     let folder = Folder::new("sensors");
     let mut random = Random::new(17);
     let sensors = [[3.0, 5.2], [4.5, 6.95], [6.0, 8.6], [7.5, 10.4]];
-    let openness = |t: f64, [opens, closes]: [f64; 2]| {
-        ((t - opens).min(closes - t) / 0.3 + 0.5).clamp(0.0, 1.0)
-    };
+    let openness = |t: f64, [opens, closes]: [f64; 2]| ((t - opens).min(closes - t) / 0.3 + 0.5).clamp(0.0, 1.0);
     let mut text = String::from("t_ms,A,B,C,D\n");
     for i in 0..3000 {
         let t = 5e-3 * f64::from(i);
@@ -779,8 +733,7 @@ fn several_sensors_tell_how_the_curtains_travel() {
     let out = folder.run("fit a.csv --columns 1,2,3,4,5").quietly();
     for (name, [opens, closes]) in ["A", "B", "C", "D"].into_iter().zip(sensors) {
         let line = out.lines().find(|line| line.starts_with(name)).unwrap();
-        let numbers: Vec<f64> =
-            line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let numbers: Vec<f64> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let more = ((closes - opens) / 2.2_f64).log2();
         let truths = [closes - opens, more, opens - 3.0, closes - 5.2];
         // Each ± but that of the stops has an error behind it.
@@ -803,9 +756,8 @@ fn a_window_and_the_zero_of_time_are_kept_to() {
     let folder = Folder::new("window");
     let two = |t: f64| trapezoid(t) + 0.5 * trapezoid(2.0 * t - 0.02);
     let mut random = Random::new(6);
-    let text: String = (0..2000)
-        .map(|i| format!("{:.5}\n", two(1e-5 * f64::from(i)) + 0.004 * random.normal()))
-        .collect();
+    let text: String =
+        (0..2000).map(|i| format!("{:.5}\n", two(1e-5 * f64::from(i)) + 0.004 * random.normal())).collect();
     folder.write("rated.csv", format!("Sample rate: 100 kHz\nA\n{text}"));
     for (window, exposure) in [("--to 10ms", 5.0), ("--from 10ms --to=1s", 2.5)] {
         let json = folder.json(&format!("rated.csv {window}"));
@@ -826,8 +778,7 @@ fn a_window_and_the_zero_of_time_are_kept_to() {
 fn tails_are_looked_at_to_their_end() {
     let sampled = |f: &dyn Fn(f64) -> f64, ends: [f64; 2], n: usize, seed: u64| {
         let mut random = Random::new(seed);
-        let times: Vec<f64> =
-            (0..n).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / n as f64).collect();
+        let times: Vec<f64> = (0..n).map(|i| ends[0] + (ends[1] - ends[0]) * i as f64 / n as f64).collect();
         let values = times.iter().map(|t| f(*t) + 0.002 * random.normal()).collect();
         plainly(&Trace { times, values })
     };
@@ -836,20 +787,14 @@ fn tails_are_looked_at_to_their_end() {
         let fit = sampled(&decay, [-0.02, 0.03], 3000, u64::from(seed));
         let off = (fit.exposure.value - 8e-4).abs();
         assert!(off < (2.5 * fit.exposure.error).min(4e-5), "{seed}: {:?}", fit.exposure);
-        assert!(
-            !told(&fit, |w| matches!(w, Warning::CutTail { .. })),
-            "{seed}: {:?}",
-            fit.warnings
-        );
+        assert!(!told(&fit, |w| matches!(w, Warning::CutTail { .. })), "{seed}: {:?}", fit.warnings);
     });
     let cut = sampled(&decay, [-0.02, 0.0015], 2000, 1);
     assert!(told(&cut, |w| matches!(w, Warning::CutTail { .. })), "{:?}", cut.warnings);
     // A third of the signal lags by 60 ms behind a shutter of 6 ms: by its step answer, worked out for each ramp.
     let lag = |t: f64| if t > 0.0 { t - 0.06 * (1.0 - (-t / 0.06).exp()) } else { 0.0 };
-    let lagging = |t: f64| {
-        [(0.0, 1.0), (5e-4, -1.0), (6e-3, -1.0), (6.5e-3, 1.0)]
-            .map(|(at, by)| by * lag(t - at) / 5e-4)
-    };
+    let lagging =
+        |t: f64| [(0.0, 1.0), (5e-4, -1.0), (6e-3, -1.0), (6.5e-3, 1.0)].map(|(at, by)| by * lag(t - at) / 5e-4);
     let shutter = |t: f64| (t.min(6.5e-3 - t) / 5e-4).clamp(0.0, 1.0);
     let slow = |t: f64| 0.7 * shutter(t) + 0.3 * lagging(t).iter().sum::<f64>();
     let fit = sampled(&slow, [-0.03, 0.4], 8600, 3);

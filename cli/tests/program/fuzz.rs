@@ -1,7 +1,7 @@
 //! `shutter fit` on files that are broken in many ways: it ends with 0 or 2, says no number that is none, and soon.
 //!
-//! Each file is a trace in a form that an instrument writes, with some bytes, fields or lines changed. The same files come every
-//! time; `SEED=7` before it makes others, and `FILES=10000` more of them.
+//! Each file is a trace in a form that an instrument writes, with some bytes, fields or lines changed. The same files
+//! come every time; `SEED=7` before it makes others, and `FILES=10000` more of them.
 
 use std::ffi::OsString;
 use std::fs;
@@ -129,8 +129,7 @@ fn judged(seed: u64, path: &Path) -> Result<u8, String> {
     let is_no_number = |word: &str| ["inf", "-inf", "nan", "-nan"].contains(&word);
     // The file's own words stand in these lines; elsewhere a number stands alone or behind a sign.
     let is_quoted = |line: &&str| {
-        ["signal ", "times ", "# Read"].iter().any(|start| line.starts_with(start))
-            || line.contains('\'')
+        ["signal ", "times ", "# Read"].iter().any(|start| line.starts_with(start)) || line.contains('\'')
     };
     let lines = text.lines().filter(|line| !is_quoted(line));
     let mut words = lines.flat_map(|line| line.split([' ', '(', ')'])).map(str::to_lowercase);
@@ -150,9 +149,8 @@ fn broken_files_end_with_0_or_2() {
     let folder = Folder::new("fuzz");
     let codes = each(files, |k| {
         let path = folder.path(&format!("{k}.csv"));
-        let code = judged(seed + u64::from(k), &path).unwrap_or_else(|wrong| {
-            panic!("{:?}: {wrong}; see {}", file(seed + u64::from(k)).1, path.display())
-        });
+        let code = judged(seed + u64::from(k), &path)
+            .unwrap_or_else(|wrong| panic!("{:?}: {wrong}; see {}", file(seed + u64::from(k)).1, path.display()));
         fs::remove_file(path).expect("it was written");
         code
     });

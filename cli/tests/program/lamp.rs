@@ -1,4 +1,5 @@
-//! Between the scene and the lamp: set-up, edge, timer, lag. What nobody gave is asked for, and what fires wrongly is refused.
+//! Between the scene and the lamp: set-up, edge, timer, lag. What nobody gave is asked for, and what fires wrongly is
+//! refused.
 
 use serde_json::{Value, json};
 use shutter::emit::{Form, emit};
@@ -22,12 +23,7 @@ fn object(plan: &Planned) -> Value {
 
 /// A column of the objects.
 fn column(plan: &Planned, key: &str) -> Vec<f64> {
-    object(plan)["triggers"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|it| it[key].as_f64().unwrap())
-        .collect()
+    object(plan)["triggers"].as_array().unwrap().iter().map(|it| it[key].as_f64().unwrap()).collect()
 }
 
 #[test]
@@ -56,11 +52,7 @@ fn fully_open_spreads_flashes_over_the_plateau() {
     let plan = hardware("fully_open = true");
     assert_eq!(column(&plan, "ticks"), [1500.0, 2500.0, 3500.0, 4500.0]);
     assert_eq!(column(&plan, "dose"), [1.0; 4]);
-    has(
-        &report(&plan),
-        &["set-up       in the light's path; one dose each, while it is fully open\n"],
-        &[],
-    );
+    has(&report(&plan), &["set-up       in the light's path; one dose each, while it is fully open\n"], &[]);
     assert_ne!(column(&hardware("fully_open = false"), "ticks"), column(&plan, "ticks"));
 }
 
@@ -86,10 +78,8 @@ fn a_lamps_lag_is_taken_off() {
     has(&report(&late), &["lamp lag     0.7 ms: the lamp is triggered so much earlier\n"], &[]);
     for form in [Form::Rust, Form::C] {
         let late = text(form, &late);
-        let told = [
-            " to the start of opening, less the lamp's lag.",
-            "When to trigger, counted from the end of the delay.",
-        ];
+        let told =
+            [" to the start of opening, less the lamp's lag.", "When to trigger, counted from the end of the delay."];
         has(&late, &told, &[]);
         has(&text(form, &longer), &["No delay is left: the lamp's lag is longer"], &[]);
     }
@@ -107,10 +97,7 @@ fn a_scene_without_a_timer_is_reported_in_times() {
     let text = report(&planned(LEAF, "delay = 2; duty = 0.5; timer_bits = 16"));
     has(&text, &["timer        none, so there are times alone; timer_hz gives ticks\n"], &[]);
     let (_, below) = text.split_once("\n    #").unwrap();
-    assert!(
-        !below.contains("ticks") && !below.contains("edge") && !text.contains("drift"),
-        "{text}"
-    );
+    assert!(!below.contains("ticks") && !below.contains("edge") && !text.contains("drift"), "{text}");
     // The first pulse, of a quarter of the first share: from 0.34375 to 1.03125 ms of full light.
     let first = &table(&text)[0];
     let row: Vec<f64> = first.iter().filter_map(|it| it.parse().ok()).collect();
@@ -131,9 +118,7 @@ fn the_command_line_answers_for_one_run() {
     folder.write("scene.toml", with(LEAF, "delay = 2; pulse = 0.1"));
     let line = "plan scene.toml --emit json --timer-hz 1MHz";
     let answers = format!("{line} --set-up in_path --sync-falls true");
-    for (more, keys) in
-        [("", "pulse = 0.1"), ("--fully-open", "fully_open = true"), ("--duty 0.5", "duty = 0.5")]
-    {
+    for (more, keys) in [("", "pulse = 0.1"), ("--fully-open", "fully_open = true"), ("--duty 0.5", "duty = 0.5")] {
         let whole = hardware(&format!("delay = 2; sync_falls = true; {keys}"));
         assert_eq!(folder.run(&format!("{answers} {more}")).quietly(), text(Form::Json, &whole));
     }

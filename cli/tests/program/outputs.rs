@@ -53,10 +53,7 @@ fn an_output_that_is_an_input_is_refused_by_any_name() {
         "plan scene.toml --emit c --to scene.toml",
         "fit a.toml b.toml --out .",
     ] {
-        refuses(
-            &folder,
-            &[(args, "it is the input"), (&format!("{args} --force"), "it is the input")],
-        );
+        refuses(&folder, &[(args, "it is the input"), (&format!("{args} --force"), "it is the input")]);
     }
     refuses(
         &folder,
@@ -231,8 +228,7 @@ fn a_full_disk_leaves_the_old_files() {
     let mut refused = 0;
     for blocks in (0..200).step_by(5) {
         let before = folder.all();
-        let run =
-            folder.shell(&format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$shutter\" {line}"));
+        let run = folder.shell(&format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$shutter\" {line}"));
         if run.code == Some(0) {
             break;
         }
@@ -287,7 +283,8 @@ fn two_runs_at_once_leave_one_of_theirs() {
     });
     for _ in 0..10 {
         let _ = fs::remove_file(folder.path("new.svg"));
-        let runs = "for n in 3 4 3 4; do $shutter plan --triggers $n --out new.svg > /dev/null 2>&1 && echo well & done; wait";
+        let runs =
+            "for n in 3 4 3 4; do $shutter plan --triggers $n --out new.svg > /dev/null 2>&1 && echo well & done; wait";
         folder.shell(runs).prints(&["well"]);
         assert!(whole.contains(&folder.text("new.svg")));
     }
@@ -305,10 +302,7 @@ fn a_file_that_changes_meanwhile_is_kept() {
              echo '# by hand' >> {out}; cat trace.csv >&3; exec 3>&-; wait $!"
         );
         let run = folder.shell(&line);
-        assert!(
-            run.code == Some(2) && run.err.contains("it has changed meanwhile"),
-            "{out}: {run:?}"
-        );
+        assert!(run.code == Some(2) && run.err.contains("it has changed meanwhile"), "{out}: {run:?}");
         assert!(folder.text(out).ends_with("# by hand\n"));
     }
     assert!(!folder.names().iter().any(|name| name.starts_with(".shutter")));
@@ -328,10 +322,7 @@ fn what_cannot_be_written_leaves_nothing() {
             ("fit trace.csv --picture ok.svg --out none/leaf.toml", "its folder is not there"),
             // A failed plan, and a form for which the scene lacks something.
             ("plan scene.toml --triggers 8 --emit c --to leaf.h --force", "triggers"),
-            (
-                "plan bare.toml --out ok.svg --emit c --to leaf.h --force",
-                "bare.toml: hardware needs",
-            ),
+            ("plan bare.toml --out ok.svg --emit c --to leaf.h --force", "bare.toml: hardware needs"),
         ],
     );
     // Whoever made it read-only does not want it replaced, and root is no exception.
@@ -369,18 +360,7 @@ fn a_new_fit_keeps_what_a_user_wrote() {
     folder.write("leaf.toml", &edited);
     folder.write("slow.csv", leaf(2.0));
     let err = fit("slow.csv --nominal 1/125");
-    has(
-        &err,
-        &[
-            "timer_hz = 84000000",
-            "min_gap = 0.1",
-            "duty = 0.3",
-            "delay = 2.0",
-            "in_path",
-            "comments",
-        ],
-        &[],
-    );
+    has(&err, &["timer_hz = 84000000", "min_gap = 0.1", "duty = 0.3", "delay = 2.0", "in_path", "comments"], &[]);
     assert!(err.ends_with("\nnext: shutter plan leaf.toml --emit rust --to leaf.rs\n"), "{err}");
     has(
         &scene(),

@@ -34,8 +34,7 @@ fn every_scene_that_ships_is_planned_and_drawn() {
         }
         assert_eq!(folder.names(), ["a.svg", "a.toml", "both.svg"], "nothing but the pictures");
         // A gap is the difference of the times that are printed.
-        for pair in table(&run.out).windows(2).filter(|pair| pair.iter().all(|row| row[0] != "..."))
-        {
+        for pair in table(&run.out).windows(2).filter(|pair| pair.iter().all(|row| row[0] != "...")) {
             let number = |text: &str| text.parse::<f64>().unwrap();
             let (apart, gap) = (number(pair[1][2]) - number(pair[0][2]), pair[1].last().unwrap());
             let places = gap.split_once('.').map_or(0, |(_, places)| places.len());
@@ -55,9 +54,7 @@ fn the_default_is_to_plan_the_soft_scene() {
 #[test]
 fn a_form_is_all_that_is_printed() {
     for (name, plan) in scenes() {
-        for (word, form) in
-            [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)]
-        {
+        for (word, form) in [("rust", Form::Rust), ("c", Form::C), ("csv", Form::Csv), ("json", Form::Json)] {
             let printed = run(&["plan", &path(&name), "--emit", word]).quietly();
             assert_eq!(printed, emit(form, &name, &plan, false).unwrap());
         }
@@ -76,8 +73,8 @@ fn the_pictures_of_the_docs_are_as_they_are_drawn() {
         assert!(folder.text(picture) == kept, "docs/{picture} is old");
     }
     let svg = folder.text("curve.svg");
-    // A share is shaded for each trigger. One dot on the openness, one on the cdf, one in the legend; eight control points and
-    // one in the legend, four handles and one.
+    // A share is shaded for each trigger. One dot on the openness, one on the cdf, one in the legend; eight control
+    // points and one in the legend, four handles and one.
     for (mark, count) in [
         ("<polygon", 12),
         (r##"r="32" opacity="1" fill="#D55E00""##, 12 + 12 + 1),
@@ -115,9 +112,10 @@ fn a_picture_has_a_title_and_colours_for_the_dark() {
     let (head, drawn) = svg.split_once("</style>").unwrap();
     assert!(head.contains("@media (prefers-color-scheme: dark)"));
     // Each colour that is drawn has another for the dark.
-    for color in drawn.split([' ', '>']).filter_map(|word| {
-        word.strip_prefix("fill=").or(word.strip_prefix("stroke=")).filter(|c| c.starts_with("\"#"))
-    }) {
+    for color in drawn
+        .split([' ', '>'])
+        .filter_map(|word| word.strip_prefix("fill=").or(word.strip_prefix("stroke=")).filter(|c| c.starts_with("\"#")))
+    {
         assert!(head.contains(&format!("[fill={color}]")), "{color}");
     }
 }
@@ -184,8 +182,7 @@ fn a_timers_rate_and_bits_are_told() {
 #[test]
 fn ticks_that_may_be_others_are_doubted() {
     let json = |plan: &Planned| emit(Form::Json, "scene", plan, false).unwrap();
-    let moved =
-        "f32 moves the curve's times by up to 58 ticks; they are nearest where open_start is 0.";
+    let moved = "f32 moves the curve's times by up to 58 ticks; they are nearest where open_start is 0.";
     for (start, hz, doubts) in [
         (0.0003, "100_000_000", vec![]),
         (10.0003, "100_000", vec![]),
@@ -220,11 +217,8 @@ fn the_report_tells_when_a_drift_matters() {
 fn a_unit_scales_all_times() {
     let curve = "duty = 0.5; set_up = 'in_path'; triggers = 7; timer_hz = 1000";
     let csv = |plan: &Planned| emit(Form::Csv, "x", plan, false).unwrap();
-    let plain =
-        planned(TRAPEZOID, &format!("min_gap = 0.05; nominal = 0.5; min_pulse = 0.01; {curve}"));
-    for (unit, factor) in
-        [("ms", 1e3), ("µs", 1e6), ("μs", 1e6), ("us", 1e6), ("ns", 1e9), ("s", 1.0)]
-    {
+    let plain = planned(TRAPEZOID, &format!("min_gap = 0.05; nominal = 0.5; min_pulse = 0.01; {curve}"));
+    for (unit, factor) in [("ms", 1e3), ("µs", 1e6), ("μs", 1e6), ("us", 1e6), ("ns", 1e9), ("s", 1.0)] {
         let times = [
             ("open_end", 0.25),
             ("close_start", 0.75),
@@ -269,9 +263,8 @@ fn what_lies_in_the_box_lies_in_it_in_every_unit() {
         let (offset, power) = (below(201 * n) - 100 * n, below(7) - 3);
         for (unit, more) in [("s", -3), ("ms", 0), ("us", 3), ("ns", 6)] {
             let keys = ["open_start", "open_end", "close_start", "close_end"].iter().zip(times);
-            let times = keys
-                .map(|(key, time)| format!("{key} = {}e{}\n", offset + time, power + more))
-                .collect::<String>();
+            let times =
+                keys.map(|(key, time)| format!("{key} = {}e{}\n", offset + time, power + more)).collect::<String>();
             let text = format!(
                 "unit = \"{unit}\"\n{times}shutteropening = [{}]\ntriggers = 1\ntimer_hz = 1\nmin_gap = 0\n",
                 inner.as_flattened().join(", ")
@@ -287,15 +280,11 @@ fn what_lies_in_the_box_lies_in_it_in_every_unit() {
 fn a_delay_is_counted_from_the_edge_of_the_sync() {
     for (unit, factor) in [("s", 1.0), ("ms", 1e3)] {
         let [open, close, end, delay] = [0.25, 0.75, 1.0, 0.125].map(|time| time * factor);
-        let times =
-            format!("open_end = {open}; close_start = {close}; close_end = {end}; delay = {delay}");
-        let changes =
-            format!("unit = \"{unit}\"; {times}; triggers = 3; min_gap = 0; sync_falls = true");
+        let times = format!("open_end = {open}; close_start = {close}; close_end = {end}; delay = {delay}");
+        let changes = format!("unit = \"{unit}\"; {times}; triggers = 3; min_gap = 0; sync_falls = true");
         let plan = planned(TRAPEZOID, &changes);
         let out = report(&plan);
-        let fact = format!(
-            "delay        {delay} {unit} from the sync's falling edge to the start of opening\n"
-        );
+        let fact = format!("delay        {delay} {unit} from the sync's falling edge to the start of opening\n");
         assert!(out.contains(&fact) && out.lines().all(|line| line.chars().count() <= 80), "{out}");
         // The third column counts from the opening, the fourth from the edge.
         let rows = table(&out);
@@ -306,8 +295,7 @@ fn a_delay_is_counted_from_the_edge_of_the_sync() {
         assert!(svg.contains(&format!("delay {delay} {unit}")), "and the delay");
     }
     // An edge far before the curve would squeeze it: it is told, not drawn to scale.
-    let svg =
-        shutter::picture::svg("late", &planned(TRAPEZOID, "min_gap = 0; delay = 100")).unwrap();
+    let svg = shutter::picture::svg("late", &planned(TRAPEZOID, "min_gap = 0; delay = 100")).unwrap();
     assert!(svg.contains("sync 100 s before"));
     let out = report(&planned(TRAPEZOID, ""));
     let none = "delay        none known: ticks count from the start of opening";
@@ -390,8 +378,7 @@ fn pulses_come_around_the_triggers_or_take_equal_shares() {
 /// On a curve that dims, each pulse lets the same dose through: the integral of the openness, here in closed form.
 #[test]
 fn doses_are_equal_through_the_curve() {
-    let triangle =
-        "open_end = 0.5; close_start = 0.5; timer_hz = 100_000_000; min_gap = 0; duty = 0.3";
+    let triangle = "open_end = 0.5; close_start = 0.5; timer_hz = 100_000_000; min_gap = 0; duty = 0.3";
     let plan = planned(TRAPEZOID, triangle);
     let collected = |ticks: u32| {
         let t = f64::from(ticks) / 1e8;

@@ -1,18 +1,22 @@
-//! What is wrong with a scene is refused at its line, in words that say what would be right; and what is just right is not.
+//! What is wrong with a scene is refused at its line, in words that say what would be right; and what is just right is
+//! not.
 
 use shutter::planned::Planned;
 
 /// At 3/4 s of exposure and a gap of 1/10 s, 7 triggers are sure.
 pub const TRAPEZOID: &str = "open_start = 0.0\nopen_end = 0.25\nclose_start = 0.75\nclose_end = 1.0\ntriggers = 7\n\
                              timer_hz = 1000\nmin_gap = 0.1\n";
-pub const BOX: &str = "open_start = 0\nopen_end = 0\nclose_start = 1\nclose_end = 1\ntriggers = 4\ntimer_hz = 1000\nmin_gap = 0.1\n";
+pub const BOX: &str =
+    "open_start = 0\nopen_end = 0\nclose_start = 1\nclose_end = 1\ntriggers = 4\ntimer_hz = 1000\nmin_gap = 0.1\n";
 /// Opens in 1 ms, is open for 4, closes in 2.
-pub const LEAF: &str = "unit = 'ms'\nopen_start = 1\nopen_end = 2\nclose_start = 6\nclose_end = 8\nmin_gap = 0\ntriggers = 4\n";
+pub const LEAF: &str =
+    "unit = 'ms'\nopen_start = 1\nopen_end = 2\nclose_start = 6\nclose_end = 8\nmin_gap = 0\ntriggers = 4\n";
 /// Its frame ends 12.9576195 ms after the edge.
 pub const MEASURED: &str = include_str!("../../scenes/measured.toml");
 pub const TIMES: &str = "unit = 'ms'\nopen_start = 4.1\ntimer_hz = 1_000_000\nmin_gap = 0.1\ntrigger_times = [\n  5.0, 5.5,\n  6.1004,\n]\n";
 
-/// A scene with changes, parted by `; `: `KEY = VALUE` in place of the key's line or below all, `KEY` without it, `A -> B`.
+/// A scene with changes, parted by `; `: `KEY = VALUE` in place of the key's line or below all, `KEY` without it, `A ->
+/// B`.
 pub fn with(scene: &str, changes: &str) -> String {
     let mut text = scene.to_string();
     for change in changes.split("; ").filter(|change| !change.is_empty()) {
@@ -43,15 +47,14 @@ fn expected(text: &str, line: &str, reason: &str) -> String {
 
 const HZ: &str = "timer_hz: a rate from 1 to 4294967295 is required";
 const COUNT: &str = "triggers: a whole number from 1 to 10000 is required";
-const ORDER: &str =
-    "times out of order: open_start <= open_end <= close_start <= close_end is required";
+const ORDER: &str = "times out of order: open_start <= open_end <= close_start <= close_end is required";
 const UNIT: &str = "unit: \"s\", \"ms\", \"us\" or \"ns\" is required";
-const FLASHES: &str =
-    "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses";
-const LATE: &str = "delay: the frame ends more than 2^31 ticks after the edge; with up to 2147482648 ticks of delay it does not";
+const FLASHES: &str = "fully_open: it is for flashes whose length is the lamp's own, and this scene makes pulses";
+const LATE: &str =
+    "delay: the frame ends more than 2^31 ticks after the edge; with up to 2147482648 ticks of delay it does not";
 
-/// The scene, what is changed, how the line begins that is at fault, and the reason; for `…` there may be any words. Without a
-/// reason it is planned.
+/// The scene, what is changed, how the line begins that is at fault, and the reason; for `…` there may be any words.
+/// Without a reason it is planned.
 #[rustfmt::skip]
 const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "", "", ""),
@@ -114,7 +117,8 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
          from a nearer origin; it lasts 1000 ms"),
     (TRAPEZOID, "= 0. -> = 1_700_000_000.; close_end = 1_700_000_001.0", "open_end",
         "open_end: f32 is off by 25 % of the interval here; count the times from nearer to open_start"),
-    // Triggers that are too close: they come at 265.625 and 359.375 ticks, and two on one tick though no gap is asked for.
+    // Triggers that are too close: they come at 265.625 and 359.375 ticks, and two on one tick though no gap is asked
+    // for.
     (TRAPEZOID, "triggers = 8", "triggers", "triggers 1 and 2 come 93 ticks apart, and 100 are required; up to 7 triggers keep that"),
     (TRAPEZOID, "timer_hz = 6; min_gap = 0", "triggers",
         "triggers 1 and 2 come 0 ticks apart, and 1 is required; up to 5 triggers keep that"),
@@ -272,15 +276,12 @@ fn wrong_control_points_are_refused_with_their_convention() {
         let notes = "  The numbers are [t1, y1, t2, y2, t5, y5, t6, y6].";
         let hint = match hint {
             "" => String::new(),
-            _ => format!(
-                "\n  As {hint} they would fit; that is\n  shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]"
-            ),
+            _ => {
+                format!("\n  As {hint} they would fit; that is\n  shutteropening = [0.1, 0, 0.15, 1, 0.85, 1, 0.9, 0]")
+            }
         };
         let expected = expected(&text, "shutteropening", reason);
-        assert_eq!(
-            Planned::parse(&text).err().unwrap().locate("a.toml", &text),
-            format!("{expected}\n{notes}{hint}")
-        );
+        assert_eq!(Planned::parse(&text).err().unwrap().locate("a.toml", &text), format!("{expected}\n{notes}{hint}"));
     };
     let fraction = |point: &str, number: &str| {
         format!(
@@ -302,24 +303,14 @@ fn wrong_control_points_are_refused_with_their_convention() {
         ("[0.1, 0, 0.15, 1, 0.85, 2, 0.9, 0]", "closing", openness("first", "2"), ""),
         ("[0.1, 0, 0.15, 1, 0.85, 1, 0.9, -0.5]", "closing", openness("second", "-0.5"), ""),
         ("[0.25, 0, 0, 1, 0.85, 1, 0.9, 0]", "opening", crossed.into(), ""),
-        (
-            "[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]",
-            "opening",
-            fraction("first", "0.4"),
-            "fractions of each ramp",
-        ),
+        ("[0.4, 0, 0.6, 1, 0.4, 1, 0.6, 0]", "opening", fraction("first", "0.4"), "fractions of each ramp"),
     ] {
         is(TRAPEZOID, numbers, &format!("{ramp} ramp: {reason}"), hint);
     }
     // Times for fractions, in ms and in seconds; what are seconds here would also fit as fractions of each ramp.
     let brief = with(TRAPEZOID, "open_end = 0.0025; close_start = 0.0075; close_end = 0.01");
     let ms = with(TRAPEZOID, "unit = 'ms'; open_end = 2.5; close_start = 7.5; close_end = 10");
-    is(
-        &ms,
-        "[1, 0, 1.5, 1, 8.5, 1, 9, 0]",
-        &format!("opening ramp: {}", fraction("first", "1")),
-        "times in ms",
-    );
+    is(&ms, "[1, 0, 1.5, 1, 8.5, 1, 9, 0]", &format!("opening ramp: {}", fraction("first", "1")), "times in ms");
     is(
         &brief,
         "[0.001, 0, 0.0015, 1, 0.0085, 1, 0.009, 0]",

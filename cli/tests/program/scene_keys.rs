@@ -4,8 +4,7 @@ use shutter::planned::Planned;
 
 /// The cells of each row: the key, and what holds without it.
 fn rows() -> Vec<(&'static str, &'static str)> {
-    let rows =
-        include_str!("../../../docs/scene.md").lines().filter(|line| line.starts_with("| `"));
+    let rows = include_str!("../../../docs/scene.md").lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
         (cells[1].trim_matches('`'), cells[3])

@@ -146,8 +146,7 @@ impl Folder {
     /// Runs the program with these arguments, of which those that end like a file or begin like a folder are here.
     pub fn run(&self, args: &str) -> Run {
         let ends = [".csv", ".toml", ".wav", ".rs", ".h", ".svg", ".json"];
-        let is_here =
-            |arg: &str| arg.starts_with("./") || ends.iter().any(|end| arg.ends_with(end));
+        let is_here = |arg: &str| arg.starts_with("./") || ends.iter().any(|end| arg.ends_with(end));
         let here = format!("{}/", self.0.display());
         let args = args.split_whitespace();
         let args = args.map(|arg| if is_here(arg) { format!("{here}{arg}") } else { arg.into() });

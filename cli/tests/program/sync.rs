@@ -1,4 +1,5 @@
-//! `shutter fit --sync CH2`: the delay from the edges of a camera's sync, recorded beside the light, and its spread between shots.
+//! `shutter fit --sync CH2`: the delay from the edges of a camera's sync, recorded beside the light, and its spread
+//! between shots.
 
 use serde_json::Value;
 
@@ -39,19 +40,7 @@ impl Record {
         let delays = (0..shots).map(|_| 0.003 + 20e-6 * random.normal()).collect();
         let (levels, noise, length) = ([3.3, 0.1], 0.2, 0.004);
         let (hertz, bounces, reopens, slow, lost) = (2e5, false, false, 1e-9, Vec::new());
-        Self {
-            delays,
-            hertz,
-            levels,
-            noise,
-            length,
-            bounces,
-            reopens,
-            slow,
-            lost,
-            soft: false,
-            seed,
-        }
+        Self { delays, hertz, levels, noise, length, bounces, reopens, slow, lost, soft: false, seed }
     }
 
     fn mean(&self) -> f64 {
@@ -86,9 +75,8 @@ impl Record {
     fn rows(&self) -> Vec<[f64; 3]> {
         let mut random = Random::new(self.seed + 1);
         // Where between two samples an edge comes is chance.
-        let edges: Vec<f64> = (0..self.delays.len())
-            .map(|k| 0.008 + 0.024 * k as f64 + random.within(0.0, 1.0) / self.hertz)
-            .collect();
+        let edges: Vec<f64> =
+            (0..self.delays.len()).map(|k| 0.008 + 0.024 * k as f64 + random.within(0.0, 1.0) / self.hertz).collect();
         let samples = (0.024 * self.delays.len() as f64 * self.hertz) as usize;
         let row = |i: usize| {
             let t = i as f64 / self.hertz;
@@ -156,7 +144,8 @@ fn the_spread_is_what_was_put_in() {
     }
 }
 
-/// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other edge.
+/// A contact bounces as it closes or as it opens, and the warning says for how long a firmware has to take no other
+/// edge.
 #[test]
 fn a_bounce_is_told_with_its_end() {
     let folder = Folder::new("bounce");
@@ -208,10 +197,8 @@ fn the_spread_is_told_and_kept() {
     assert_eq!(json["sync_falls"], true);
     assert!((number(&json, "sync_threshold") - 1.7).abs() < 0.01);
     let first = folder.text("leaf.toml");
-    for words in [
-        &format!("\ndelay_spread = {spread}"),
-        "\n# Sync: it falls from 3.3 to 0.1; an edge counts at 1.7.\n",
-    ] {
+    for words in [&format!("\ndelay_spread = {spread}"), "\n# Sync: it falls from 3.3 to 0.1; an edge counts at 1.7.\n"]
+    {
         assert!(first.contains(words), "{first}");
     }
 
@@ -219,8 +206,7 @@ fn the_spread_is_told_and_kept() {
     let told = out.lines().find(|line| line.starts_with("spread ")).unwrap();
     // The spread is some 20 µs, a share 1.25 ms and the gap 0.1 ms.
     let percent = |of: f64| 100.0 * record.spread() / of;
-    let said: Vec<f64> =
-        told.split(" %").filter_map(|it| it.rsplit(' ').next()?.parse().ok()).collect();
+    let said: Vec<f64> = told.split(" %").filter_map(|it| it.rsplit(' ').next()?.parse().ok()).collect();
     let off = [said[0] - percent(1.25e-3), said[1] - percent(1e-4)].map(f64::abs);
     assert!(off[0] < 0.3 && off[1] < 4.0, "{told}");
     let (_, written) = first.split_once("\ndelay_spread = ").unwrap();
@@ -232,7 +218,8 @@ fn the_spread_is_told_and_kept() {
     assert!((number(&json, "delay_spread_s") - record.spread()).abs() < 3e-6);
     assert_eq!((&json["sync_falls"], &json["set_up"]), (&true.into(), &"in_path".into()));
 
-    // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay alone.
+    // A fit by the same leaves all as it is, one without a sync keeps what is known, and one shot replaces the delay
+    // alone.
     folder.run("fit five.csv --sync CH2 --out leaf.toml").well();
     assert_eq!(folder.text("leaf.toml"), first);
     // An edge that its user has changed is measured again, and that is said.
@@ -252,9 +239,9 @@ fn the_spread_is_told_and_kept() {
     for quiet in ["emulated", "emulated --sync-falls true", "in_path --fully-open"] {
         folder.run(&format!("{plan} {quiet}")).quietly();
     }
-    // And what a coarse timer does to triggers, and leaves of equal doses. A share of 5 ms / 8 has 6.25 ticks of 10 kHz.
-    let flashes =
-        "plan leaf.toml --set-up emulated --triggers 8 --min-gap 0 --emit rust --timer-hz";
+    // And what a coarse timer does to triggers, and leaves of equal doses. A share of 5 ms / 8 has 6.25 ticks of 10
+    // kHz.
+    let flashes = "plan leaf.toml --set-up emulated --triggers 8 --min-gap 0 --emit rust --timer-hz";
     folder
         .run(&format!("{flashes} 10kHz"))
         .prints(&["\n// rounding     moves flashes by up to 8 % of a share\n"])
@@ -337,14 +324,8 @@ fn shots_in_files_of_their_own_make_one_scene() {
         ("fit a.csv b.csv ./a.csv --sync 0", "a.csv: it is given twice"),
         ("fit a.csv b.csv --sync copy.csv --sync copy.csv", "copy.csv: it is given twice"),
         ("fit a.csv b.csv copy.csv --sync 0", "a.csv once more, and no other shot"),
-        (
-            "fit a.csv b.csv --out speeds",
-            "make one scene: name it SCENE.toml, or give each trace its speed",
-        ),
-        (
-            "fit a.csv ms.csv",
-            "shots of one setting are read alike, and this is column 2 of 2, \"CH7\"",
-        ),
+        ("fit a.csv b.csv --out speeds", "make one scene: name it SCENE.toml, or give each trace its speed"),
+        ("fit a.csv ms.csv", "shots of one setting are read alike, and this is column 2 of 2, \"CH7\""),
         ("fit a.csv late.csv --sync 0", "before the edge of the sync"),
     ]);
     let out = folder.run("fit a.csv b.csv --nominal 4ms,5ms").well().out;
@@ -382,8 +363,7 @@ fn a_sync_may_have_a_file_of_its_own() {
     let three = folder.json("1.csv --sync changes.csv");
     assert!((number(&one, "delay_s") - number(&three, "delay_s")).abs() < 5e-6, "{three}");
     assert!(codes(&three).contains(&"changes"), "{three}");
-    let other =
-        "fewer.csv: it is no channel of the same record: 14399 samples, and the light has 14400";
+    let other = "fewer.csv: it is no channel of the same record: 14399 samples, and the light has 14400";
     folder.refuses(&[
         ("fit 1.csv --sync fewer.csv", other),
         ("fit 1.csv --sync later.csv", "sample 1 is at 0.0000025 s, the light's at 0 s"),
@@ -402,10 +382,8 @@ fn a_stereo_sound_has_a_sync() {
     for (name, channels) in [("two.wav", 2), ("one.wav", 1)] {
         let whole = |x: f64| ((0.9 * 32767.0 * x) as i16).to_le_bytes();
         let rows = record.rows();
-        let data: Vec<u8> = rows
-            .iter()
-            .flat_map(|[_, light, sync]| [whole(light / 3.0), whole(*sync)][..channels].concat())
-            .collect();
+        let data: Vec<u8> =
+            rows.iter().flat_map(|[_, light, sync]| [whole(light / 3.0), whole(*sync)][..channels].concat()).collect();
         let mut bytes = b"RIFF\0\0\0\0WAVEfmt \x10\0\0\0\x01\0".to_vec();
         bytes.extend((channels as u16).to_le_bytes());
         bytes.extend(48_000u32.to_le_bytes());
@@ -463,10 +441,9 @@ fn what_is_doubtful_about_a_sync_is_told() {
     };
     // One of four shots without an edge; one edge without a shot, since the record ends before that.
     let cut: Vec<_> = Record::new(4, 2).csv().lines().take(16_400).map(String::from).collect();
-    for (text, code) in [
-        (Record { lost: vec![1], ..Record::new(4, 2) }.csv(), "sync_missing"),
-        (cut.join("\n"), "sync_others"),
-    ] {
+    for (text, code) in
+        [(Record { lost: vec![1], ..Record::new(4, 2) }.csv(), "sync_missing"), (cut.join("\n"), "sync_others")]
+    {
         let json = fitted(text);
         assert_eq!((&json["delay_shots"], codes(&json)), (&3.into(), vec![code]));
     }

@@ -11,9 +11,7 @@ use std::fs;
 use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
-use crate::generator::{
-    self, Case, Disturbance, Random, SHUTTERS, Shutter, asked, case, quantile, traced, truth,
-};
+use crate::generator::{self, Case, Disturbance, Random, SHUTTERS, Shutter, asked, case, quantile, traced, truth};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 use shutter::picture::style;
@@ -44,8 +42,7 @@ fn row(shutter: Shutter, case: &Case) -> Option<Row> {
     let fit = fit(&case.trace, &Options::default(), &mut |_| ()).ok()?;
     let time = clock.elapsed();
     let exposure = case.exposure();
-    let holds =
-        |m: Measured, truth: f64| (m.value - truth).abs() <= INTERVAL * m.error + 1e-5 * truth;
+    let holds = |m: Measured, truth: f64| (m.value - truth).abs() <= INTERVAL * m.error + 1e-5 * truth;
     let (mut squares, mut greatest, mut covered) = (0.0, 0.0, 0.0);
     let n = fit.triggers.len() as f64;
     for (i, trigger) in fit.triggers.iter().enumerate() {
@@ -113,8 +110,7 @@ fn of(rows: &[Row], shutter: Shutter) -> Vec<&Row> {
 fn print(name: &str, rows: &[&Row]) {
     let percent = |x: Option<f64>| x.map_or("-".into(), |x| format!("{:.0} %", 100.0 * x));
     let error = |q, of: fn(&Row) -> f64| 100.0 * quantile(rows.iter().map(|row| of(row)), q);
-    let kinds =
-        Kind::ALL.map(|kind| rows.iter().filter(|row| row.kind == kind).count().to_string());
+    let kinds = Kind::ALL.map(|kind| rows.iter().filter(|row| row.kind == kind).count().to_string());
     println!(
         "| {name} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {} | {} | {} | {} | {:.0} |",
         rows.len(),
@@ -139,17 +135,16 @@ fn judge_errors(rows: &[Row], failed: usize, (median, most): (f64, f64)) {
     assert!(error(0.9) <= most, "90 % {}", error(0.9));
 }
 
-/// The limits on the choice of the model, and on how often an interval holds the truth. Errors must not be too large either, but
-/// for what is in them that these shutters do not do.
+/// The limits on the choice of the model, and on how often an interval holds the truth. Errors must not be too large
+/// either, but for what is in them that these shutters do not do.
 fn judge_claims(rows: &[Row], coverage: RangeInclusive<f64>) {
     let all: Vec<&Row> = rows.iter().collect();
     let kept = kept_simple(&all).expect("some are simple");
     assert!(kept >= 0.9, "kept simple: {kept}");
     let sighted: Vec<&Row> = rows.iter().filter(|row| !row.is_blind).collect();
-    for (what, of) in [
-        ("triggers", (|row| row.covered) as fn(&Row) -> f64),
-        ("exposure", |row| f64::from(row.exposure_covered)),
-    ] {
+    for (what, of) in
+        [("triggers", (|row| row.covered) as fn(&Row) -> f64), ("exposure", |row| f64::from(row.exposure_covered))]
+    {
         let (all, sighted) = (share(&all, of), share(&sighted, of));
         assert!(all >= *coverage.start(), "{what} covered: {all}");
         assert!(sighted <= *coverage.end(), "{what} covered without `unseen`: {sighted}");
@@ -170,8 +165,7 @@ fn some_traces_are_fitted_as_well_as_promised() {
     let mut all = Vec::new();
     for (disturbance, name, limits) in DISTURBANCES {
         println!("{name}");
-        let (rows, failed) =
-            rows(disturbance, if disturbance == Disturbance::White { 5 } else { 2 });
+        let (rows, failed) = rows(disturbance, if disturbance == Disturbance::White { 5 } else { 2 });
         judge_errors(&rows, failed, limits);
         all.extend(rows);
     }
@@ -268,12 +262,10 @@ fn picture(rows: &[Row]) -> String {
             graph.draw_series([Text::new(label, (x, y), at)]).unwrap();
         }
         for (shutter, color) in SHUTTERS.into_iter().zip(COLORS) {
-            let mut errors: Vec<f64> =
-                of(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
+            let mut errors: Vec<f64> = of(rows, shutter).iter().map(|row| 100.0 * row.rms).collect();
             errors.sort_by(f64::total_cmp);
             let n = errors.len() as f64;
-            let line =
-                errors.into_iter().enumerate().map(|(i, e)| (e.max(0.001), (i as f64 + 0.5) / n));
+            let line = errors.into_iter().enumerate().map(|(i, e)| (e.max(0.001), (i as f64 + 0.5) / n));
             let pen = color.stroke_width(2 * SCALE);
             let name = match shutter {
                 Shutter::LiquidCrystal => "liquid crystal".into(),

@@ -1,5 +1,5 @@
-//! Trigger times without a curve: a trace that no model explains becomes a scene of its own triggers, which `shutter plan`
-//! turns into ticks.
+//! Trigger times without a curve: a trace that no model explains becomes a scene of its own triggers, which `shutter
+//! plan` turns into ticks.
 
 use serde_json::Value;
 use shutter::scene;
@@ -34,7 +34,8 @@ fn fitted(folder: &Folder, more: &str) -> (Value, String) {
     (json, folder.text("a.toml"))
 }
 
-/// A trigger's tick is the nearest to its time in the trace, from the start of opening; and from the edge, by two roundings.
+/// A trigger's tick is the nearest to its time in the trace, from the start of opening; and from the edge, by two
+/// roundings.
 #[test]
 fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
     // Where f32 would have lost the times, these are kept.
@@ -49,8 +50,7 @@ fn the_ticks_of_a_trace_that_no_model_explains_are_its_own_triggers() {
         let plan: Value = serde_json::from_str(&folder.run(plan).quietly()).unwrap();
         let (hz, opens) = (number(&plan, "timer_hz"), number(&json, "opens_s"));
         let delay = opens - 1e-3 * (zero + 1.0);
-        let [triggers, models] =
-            ["triggers", "model_triggers"].map(|key| json[key].as_array().unwrap());
+        let [triggers, models] = ["triggers", "model_triggers"].map(|key| json[key].as_array().unwrap());
         assert_eq!(plan["triggers"].as_array().unwrap().len(), 37);
         for (given, planned) in triggers.iter().zip(plan["triggers"].as_array().unwrap()) {
             let time = number(given, "time_s");
@@ -147,10 +147,7 @@ fn the_plan_says_that_there_is_no_curve_and_shows_the_times() {
     assert_eq!(run.err, "wrote a.svg\n");
     // Beside a curve it is a row of a table.
     folder.write("a.toml", with(TIMES, "nominal = 2"));
-    folder.write(
-        "b.toml",
-        with(TRAPEZOID, "close_start = 4; close_end = 4.25; triggers = 4; min_gap = 0"),
-    );
+    folder.write("b.toml", with(TRAPEZOID, "close_start = 4; close_end = 4.25; triggers = 4; min_gap = 0"));
     let out = folder.run("plan a.toml b.toml").well().out;
     let rows: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
     assert_eq!(rows[1], ["a", "2", "ms", "-", "-", "-", "-", "3", "as", "measured"]);

@@ -5,10 +5,7 @@ use super::told::Refusal;
 /// The forms that begin with a mark of their own, and what to do about each.
 const FORMS: [(&[u8], &str); 21] = [
     (b"\x1f\x8b", "it is gzip: unpack it first"),
-    (
-        b"PK\x03\x04",
-        "it is a zip, or a workbook (xlsx, ods, numbers): unpack it, or save the sheet as CSV",
-    ),
+    (b"PK\x03\x04", "it is a zip, or a workbook (xlsx, ods, numbers): unpack it, or save the sheet as CSV"),
     (b"\xd0\xcf\x11\xe0", "it is an old workbook (xls): save the sheet as CSV"),
     (b"BZh", "it is bzip2: unpack it first"),
     (b"\xfd7zXZ", "it is xz: unpack it first"),
@@ -30,14 +27,14 @@ const FORMS: [(&[u8], &str); 21] = [
     (b"SQLite", "it is a database"),
 ];
 
-/// The text of a file's bytes: UTF-8, UTF-16 with or without its mark, or a single-byte encoding whose letters do not matter.
+/// The text of a file's bytes: UTF-8, UTF-16 with or without its mark, or a single-byte encoding whose letters do not
+/// matter.
 ///
 /// # Errors
 /// What is empty or binary.
 pub fn decode(bytes: &[u8]) -> Result<String, Refusal> {
     let no_csv = |reason: &str| Err(Refusal::NotCsv { reason: reason.into() });
-    let is_text =
-        |bytes: &[u8]| bytes.iter().all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());
+    let is_text = |bytes: &[u8]| bytes.iter().all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace());
     let form = FORMS.iter().find(|(mark, _)| bytes.starts_with(mark));
     if let Some((_, reason)) = form.filter(|_| !is_text(&bytes[..bytes.len().min(256)])) {
         return no_csv(reason);

@@ -1,8 +1,8 @@
-//! A recorder that is coupled by a capacitor: one high-pass pole, whose time constant is the one that makes the dark after the
-//! pulse what it was before, undone.
+//! A recorder that is coupled by a capacitor: one high-pass pole, whose time constant is the one that makes the dark
+//! after the pulse what it was before, undone.
 //!
-//! Such a recorder shows `y = x - q`, where the capacitor's charge `q` grows by `y/tau` in a unit of time. So `x` is `y` and the
-//! integral of `y` over `tau`; in the dark that has to be one level.
+//! Such a recorder shows `y = x - q`, where the capacitor's charge `q` grows by `y/tau` in a unit of time. So `x` is
+//! `y` and the integral of `y` over `tau`; in the dark that has to be one level.
 
 use super::pulse::{Light, Pulses, pulses};
 use super::samples::Trace;
@@ -34,10 +34,7 @@ pub fn undone(trace: &Trace) -> Option<(Pulses, f64, f64)> {
     let (start, end) = (guess.frames.first()?.crossings[0], guess.frames.last()?.crossings[5]);
     let room = ROOM * (end - start);
     let is_dark = |t: f64| t < start - room || t > end + room;
-    let parts = [
-        0..times.partition_point(|t| is_dark(*t) && *t < end),
-        times.partition_point(|t| *t <= end + room)..n,
-    ];
+    let parts = [0..times.partition_point(|t| is_dark(*t) && *t < end), times.partition_point(|t| *t <= end + room)..n];
     // Time counts from the middle, in units of the whole.
     let unit = times[n - 1] - times[0];
     let mut rows = Vec::new();
@@ -52,8 +49,7 @@ pub fn undone(trace: &Trace) -> Option<(Pulses, f64, f64)> {
             rows.push(([1.0, time, mean(&integral[few.clone()]) / whole], mean(&values[few])));
         }
     }
-    let (_, by_drift) =
-        least_squares::<2>(&rows.iter().map(|(x, y)| ([x[0], x[1]], *y)).collect::<Vec<_>>())?;
+    let (_, by_drift) = least_squares::<2>(&rows.iter().map(|(x, y)| ([x[0], x[1]], *y)).collect::<Vec<_>>())?;
     let ([_, slope, step], by_pole) = least_squares(&rows)?;
     let rate = -step / whole;
     let is_asked_for = rate > 0.0 && by_drift > FALLS * by_pole && rate * unit < 100.0;

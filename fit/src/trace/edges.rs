@@ -1,5 +1,5 @@
-//! The edges of a camera's sync, recorded beside the light: its two levels, which of them is at rest, and which edge starts
-//! which shot.
+//! The edges of a camera's sync, recorded beside the light: its two levels, which of them is at rest, and which edge
+//! starts which shot.
 
 use super::pulse::{Frame, noise};
 use super::samples::{CONTRAST, Trace, median};
@@ -66,14 +66,14 @@ pub fn edges(sync: &Trace, frames: &[Frame]) -> Result<Edges, String> {
     if between as f64 > BETWEEN * share.len() as f64 {
         return Err("its column has no two levels, as a switch has; is it the right one?".into());
     }
-    // Edges take turns, and the first one leaves the level of the beginning. That is the level at rest, unless the record begins
-    // in the middle of a shot: then the other level gives each shot an edge in time, and leaves none over.
+    // Edges take turns, and the first one leaves the level of the beginning. That is the level at rest, unless the
+    // record begins in the middle of a shot: then the other level gives each shot an edge in time, and leaves none
+    // over.
     let begins_high = share[0] > 0.5;
     let all = crossings(&sync.times, &share, begins_high);
     let [as_begun, other] = [0, 1].map(|first| Starts::new(&all[first.min(all.len())..], frames));
     let is_other = other.faults() + other.late < as_begun.faults();
-    let (rests_high, starts) =
-        if is_other { (!begins_high, other) } else { (begins_high, as_begun) };
+    let (rests_high, starts) = if is_other { (!begins_high, other) } else { (begins_high, as_begun) };
 
     let started = starts.of.iter().flatten().count();
     if started == 0 {
@@ -81,9 +81,7 @@ pub fn edges(sync: &Trace, frames: &[Frame]) -> Result<Edges, String> {
     }
     if starts.others > started || starts.is_clock {
         let (edges, shots) = (all.len(), frames.len());
-        return Err(format!(
-            "its column switches {edges} times, and there are {shots} shots; is it the right one?"
-        ));
+        return Err(format!("its column switches {edges} times, and there are {shots} shots; is it the right one?"));
     }
     let levels = if rests_high { [high, low] } else { [low, high] };
     let switch = Switch { levels, threshold: 0.5 * (low + high) };
@@ -131,8 +129,8 @@ impl Starts {
     }
 }
 
-/// The medians of the low and of the high samples. Otsu's split finds them despite spikes; where the high ones are so few that it
-/// splits the noise, the middle of the range does.
+/// The medians of the low and of the high samples. Otsu's split finds them despite spikes; where the high ones are so
+/// few that it splits the noise, the middle of the range does.
 fn levels(values: &[f64]) -> Result<[f64; 2], String> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -27,8 +27,8 @@ pub struct Layout {
 pub enum Time {
     /// A column of times, in this unit.
     Column(usize, Unit),
-    /// A column of numbers that count steps of so many seconds, and what its first one is, or the rows counted; and the first time, if
-    /// something tells it.
+    /// A column of numbers that count steps of so many seconds, and what its first one is, or the rows counted; and the
+    /// first time, if something tells it.
     Steps { column: Option<(usize, f64)>, start: Option<f64>, step: f64 },
 }
 
@@ -118,13 +118,7 @@ impl Layout {
     }
 
     /// A row's time in seconds and the signal in a column, which may be infinite, or what is wrong with them.
-    pub fn sample(
-        &self,
-        row: usize,
-        fields: &[&str],
-        signal: usize,
-        comma: bool,
-    ) -> Result<(f64, f64), String> {
+    pub fn sample(&self, row: usize, fields: &[&str], signal: usize, comma: bool) -> Result<(f64, f64), String> {
         let get = |what: &str, k: usize| {
             let field = fields.get(k).copied().unwrap_or_default();
             match number(field, comma) {
@@ -200,12 +194,7 @@ impl Columns<'_> {
     }
 
     /// The signals: those that are asked for, or all columns that are neither times nor counts, if there are others.
-    fn signals(
-        &self,
-        asked: &[usize],
-        time: Option<usize>,
-        sync: Option<usize>,
-    ) -> Result<Vec<usize>, Refusal> {
+    fn signals(&self, asked: &[usize], time: Option<usize>, sync: Option<usize>) -> Result<Vec<usize>, Refusal> {
         if !asked.is_empty() {
             return Ok(asked.to_vec());
         }
@@ -223,18 +212,13 @@ impl Columns<'_> {
         Ok(found.unwrap_or_else(|| columns.clone()))
     }
 
-    /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is known.
-    fn time(
-        &self,
-        asked: &[usize],
-        settings: &Settings,
-        unit: Option<Unit>,
-    ) -> Result<Option<usize>, Refusal> {
+    /// The time's column, if there is one: by its name, and best with a unit; or the first that runs on, if no rate is
+    /// known.
+    fn time(&self, asked: &[usize], settings: &Settings, unit: Option<Unit>) -> Result<Option<usize>, Refusal> {
         if self.table.columns.len() < 2 {
             return Ok(None);
         }
-        let columns: Vec<usize> =
-            self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
+        let columns: Vec<usize> = self.table.columns.iter().copied().filter(|k| !asked.contains(k)).collect();
         let running: Vec<usize> = columns.iter().copied().filter(|k| self.runs(*k)).collect();
         let find = |is: &dyn Fn(&usize) -> bool| running.iter().copied().find(is);
         let has_unit = |k: &usize| matches!(self.unit(*k), Said::Unit(_));
@@ -260,12 +244,7 @@ impl Columns<'_> {
     }
 
     /// How a row's time is known, and who tells that.
-    fn clock(
-        &self,
-        time: Option<usize>,
-        settings: &Settings,
-        asked: Option<Unit>,
-    ) -> Result<(Time, Told), Refusal> {
+    fn clock(&self, time: Option<usize>, settings: &Settings, asked: Option<Unit>) -> Result<(Time, Told), Refusal> {
         let steps = |column: Option<usize>, words, step| {
             let column = column.map(|k| (k, self.table.first[k][0]));
             // What counts from below 0 tells its zero.
@@ -284,9 +263,10 @@ impl Columns<'_> {
             (Some(unit), _) => return Ok((Time::Column(k, unit), Told::Asked)),
             (None, Said::Unit(unit)) => {
                 // A rate that fits the steps in another unit says that one of the two is wrong.
-                let against = settings.step().ok().flatten().filter(|(_, step)| {
-                    unit_of_steps(&self.table.first[k], *step).is_some_and(|other| other != unit)
-                });
+                let against =
+                    settings.step().ok().flatten().filter(|(_, step)| {
+                        unit_of_steps(&self.table.first[k], *step).is_some_and(|other| other != unit)
+                    });
                 return match against {
                     Some((second, _)) => Err(Refusal::TwoRates { first: self.name(k), second }),
                     None => Ok((Time::Column(k, unit), Told::Name)),
@@ -317,8 +297,8 @@ impl Columns<'_> {
         }
         // Whole numbers with more than one between them are a timer's, and that hardly counts seconds.
         let first = &self.table.first[k];
-        let is_timer = first.iter().all(|t| t.fract() == 0.0)
-            && !first.windows(2).any(|pair| (pair[1] - pair[0]).abs() == 1.0);
+        let is_timer =
+            first.iter().all(|t| t.fract() == 0.0) && !first.windows(2).any(|pair| (pair[1] - pair[0]).abs() == 1.0);
         if self.counts(k) || is_timer {
             let quoted = settings.unread.clone();
             return Err(Refusal::Counter { name: self.name(k), quoted });

@@ -22,11 +22,12 @@ const OTHER_UNITS: &str = "min mins minutes h hr hours d days ps picoseconds div
 /// What makes another number of a unit.
 const FACTORS: &str = "ten tens tenth tenths hundred hundreds hundredth hundredths thousand thousandths half halves quarter \
                        quarters deci centi per div sample";
-const TIMES: &str = "time times t timestamp elapsed timer zeit temps tiempo tempo tid tijd czas aika millis micros seconds";
+const TIMES: &str =
+    "time times t timestamp elapsed timer zeit temps tiempo tempo tid tijd czas aika millis micros seconds";
 /// These may stand beside one of the former.
-const BESIDE_TIMES: &str =
-    "stamp since start trigger boot fractional axis x rel relative abs absolute in of the";
-const COUNTS: &str = "sample samples index idx n no nr num number point points sequence seq i count counter row tick ticks";
+const BESIDE_TIMES: &str = "stamp since start trigger boot fractional axis x rel relative abs absolute in of the";
+const COUNTS: &str =
+    "sample samples index idx n no nr num number point points sequence seq i count counter row tick ticks";
 const SIGNALS: &str = "v mv uv µv kv volt volts mvolt mvolts millivolts a ma ua amp amps ampere w lx lux % db dbv code adc raw \
                        value logic sequence ampl unknown";
 
@@ -48,11 +49,8 @@ pub fn words(text: &str) -> Vec<String> {
 
 /// A name's words outside of its brackets, and what stands in these.
 fn parts(name: &str) -> (Vec<String>, Vec<String>) {
-    let name =
-        name.split(' ').filter(|word| !is_path(word)).collect::<Vec<_>>().join(" ").to_lowercase();
-    let parts = name
-        .split([')', ']', '}'])
-        .map(|part| part.split_once(['(', '[', '{']).unwrap_or((part, "")));
+    let name = name.split(' ').filter(|word| !is_path(word)).collect::<Vec<_>>().join(" ").to_lowercase();
+    let parts = name.split([')', ']', '}']).map(|part| part.split_once(['(', '[', '{']).unwrap_or((part, "")));
     let (outside, inside): (Vec<&str>, Vec<&str>) = parts.unzip();
     (words(&outside.join(" ")), inside.iter().map(|text| text.trim().into()).collect())
 }
@@ -60,9 +58,7 @@ fn parts(name: &str) -> (Vec<String>, Vec<String>) {
 /// Is it a file's name behind folders, whose letters are no units?
 fn is_path(word: &str) -> bool {
     let mut parts = word.split(['/', '\\']);
-    parts.next_back().is_some_and(|last| {
-        parts.next().is_some() && (last.contains('.') || parts.next().is_some())
-    })
+    parts.next_back().is_some_and(|last| parts.next().is_some() && (last.contains('.') || parts.next().is_some()))
 }
 
 fn is_number(word: &str) -> bool {
@@ -103,10 +99,7 @@ pub fn unit_in(name: &str) -> Said {
 /// May the word stand in the name of a time?
 fn may_name_time(word: &str) -> bool {
     let is_listed = [TIMES, BESIDE_TIMES, FACTORS, OTHER_UNITS].iter().any(|list| has(list, word));
-    is_listed
-        || unit_of(word).is_some()
-        || is_number(word)
-        || word.strip_prefix('x').is_some_and(is_number)
+    is_listed || unit_of(word).is_some() || is_number(word) || word.strip_prefix('x').is_some_and(is_number)
 }
 
 /// Is it the name of a time, and of nothing else, as an exposure's time would be?
@@ -118,8 +111,7 @@ pub fn is_time(name: &str) -> bool {
 /// Is it the name of a horizontal axis?
 pub fn is_axis(name: &str) -> bool {
     let (words, _) = parts(name);
-    words.first().is_some_and(|word| word == "x")
-        && words[1..].iter().all(|word| has("axis value values data", word))
+    words.first().is_some_and(|word| word == "x") && words[1..].iter().all(|word| has("axis value values data", word))
 }
 
 /// Is it the name of a number of samples?
@@ -142,25 +134,13 @@ mod tests {
     fn a_name_tells_its_unit() {
         use Said::{Nothing, Unclear};
         for (said, names) in [
-            (
-                Said::Unit(Unit::Second),
-                "Time (s);Zeit  1 - Standardmessrate [s];t / s;in s;Second;Time_s",
-            ),
+            (Said::Unit(Unit::Second), "Time (s);Zeit  1 - Standardmessrate [s];t / s;in s;Second;Time_s"),
             (Said::Unit(Unit::Millisecond), "TimeMs;tms;millis;Time in ms;Elapsed msecs"),
             (Said::Unit(Unit::Microsecond), "micros();time_µs;esp_timer_us;(us)"),
             (Said::Unit(Unit::Nanosecond), "Time[ns]"),
-            (
-                Nothing,
-                "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms;/records/s.wav;C:\\us\\ms.csv",
-            ),
-            (
-                Unclear,
-                "Time (tenths of ms);timer (half us);Time (s/div);Time (h:m:s);Time (10us);Time (1e-6 s)",
-            ),
-            (
-                Unclear,
-                "Time (min);time x 10 us;10us;hundreds of us;elapsed hours;Time x1000 (s);Time*1e6 (s);ms/100",
-            ),
+            (Nothing, "Time;time[0];ts;CH1 (V);V/s;ms.A;leaf shutter in ms;shutter 8 ms;/records/s.wav;C:\\us\\ms.csv"),
+            (Unclear, "Time (tenths of ms);timer (half us);Time (s/div);Time (h:m:s);Time (10us);Time (1e-6 s)"),
+            (Unclear, "Time (min);time x 10 us;10us;hundreds of us;elapsed hours;Time x1000 (s);Time*1e6 (s);ms/100"),
         ] {
             names.split(';').for_each(|name| assert_eq!(unit_in(name), said, "{name}"));
         }

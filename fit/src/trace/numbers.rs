@@ -2,8 +2,8 @@
 
 use std::iter::once;
 
-/// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the rest of the
-/// file: so quotes count only where a line has them in pairs.
+/// The fields of a line, without blanks and quotes around them. A quote that is never closed must not swallow the rest
+/// of the file: so quotes count only where a line has them in pairs.
 pub fn split(line: &str, delimiter: char) -> impl Iterator<Item = &str> {
     let quotes = if delimiter == ',' { line.matches('"').count() } else { 0 };
     let is_quoted = quotes > 0 && quotes.is_multiple_of(2);
@@ -26,8 +26,8 @@ pub fn split(line: &str, delimiter: char) -> impl Iterator<Item = &str> {
 /// What parts thousands and nothing else: blanks that do not break (the last as another encoding's), and apostrophes.
 pub const THOUSANDS: [char; 5] = ['\u{a0}', '\u{202f}', char::REPLACEMENT_CHARACTER, '\'', '’'];
 
-/// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here. Below zero with
-/// either minus, or in an accountant's brackets; a sign may stand apart.
+/// A number with a decimal point, or a decimal comma where that is said; NaN and infinities are numbers here. Below
+/// zero with either minus, or in an accountant's brackets; a sign may stand apart.
 pub fn number(field: &str, comma: bool) -> Option<f64> {
     let with_point = (comma && field.contains(',')).then(|| field.replacen(',', ".", 1));
     let field = with_point.as_deref().unwrap_or(field);
@@ -50,17 +50,15 @@ fn overload(field: &str) -> Option<f64> {
         Some(size) => (-1.0, size),
         None => (1.0, field.strip_prefix('+').unwrap_or(field)),
     };
-    let is_sign = ["∞", "1.#inf", "1.#inf00", "ol", "ovl", "overload", "overflow"]
-        .contains(&size.to_lowercase().as_str());
+    let is_sign =
+        ["∞", "1.#inf", "1.#inf00", "ol", "ovl", "overload", "overflow"].contains(&size.to_lowercase().as_str());
     is_sign.then_some(sign * f64::INFINITY)
 }
 
 /// Is it a number with a decimal comma?
 pub fn is_decimal(field: &str) -> bool {
     let is_part = |(_, part): (&str, &str)| part.starts_with(|c: char| c.is_ascii_digit());
-    field.split_once(',').is_some_and(is_part)
-        && !field.contains('.')
-        && number(field, true).is_some()
+    field.split_once(',').is_some_and(is_part) && !field.contains('.') && number(field, true).is_some()
 }
 
 /// Is it a number whose commas may part its thousands: `1,234` or `12,345,678.9`?

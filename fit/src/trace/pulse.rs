@@ -153,11 +153,7 @@ pub fn pulses(trace: &Trace, light: Light) -> Result<Pulses, Refusal> {
     }
     let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0);
     if longest < FEWEST_LIT {
-        return Err(Refusal::ShortPulse {
-            samples: longest,
-            required: FEWEST_LIT,
-            pulses: runs.len(),
-        });
+        return Err(Refusal::ShortPulse { samples: longest, required: FEWEST_LIT, pulses: runs.len() });
     }
     let frames = frames(&trace, &share, &runs, levels, &mut warnings)?;
     if inverted && light == Light::Auto {
@@ -193,7 +189,8 @@ pub fn least_step(values: &[f64]) -> f64 {
     if 1.5 * least < high - low { least } else { 0.0 }
 }
 
-/// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is left.
+/// What rounding to steps adds to every sample of a level alike: a noise of half a step spreads it, and then nothing is
+/// left.
 fn common_rounding(values: &[f64]) -> f64 {
     let differ: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let repeated = differ.iter().filter(|d| **d == 0.0).count();
@@ -230,7 +227,8 @@ fn drop_spikes(trace: &mut Trace, noise: f64) -> Vec<f64> {
     };
     // Not at the ends: there an edge would be one.
     let spikes: Vec<usize> = (4..n.saturating_sub(4)).filter(|i| is_spike(*i)).collect();
-    // What is so frequent is no accident: a pattern that belongs to the signal. Without noise nothing tells one from that.
+    // What is so frequent is no accident: a pattern that belongs to the signal. Without noise nothing tells one from
+    // that.
     if noise == 0.0 || spikes.is_empty() || spikes.len() > n / FEW_OF {
         return Vec::new();
     }
@@ -276,8 +274,8 @@ impl Smooth {
         if is_cut { first.min(last) } else { 0.5 * (first + last) }
     }
 
-    /// Does light lower the signal? A trace mostly begins and ends in the dark; but where its ends are shorter than what they are taken
-    /// for elsewhere, pulses may be cut there, and a gap between pulses is none.
+    /// Does light lower the signal? A trace mostly begins and ends in the dark; but where its ends are shorter than
+    /// what they are taken for elsewhere, pulses may be cut there, and a gap between pulses is none.
     fn seems_inverted(&self) -> Result<bool, Refusal> {
         let (low, high) = range(&self.values);
         let share: Vec<f64> = self.values.iter().map(|v| (v - low) / (high - low)).collect();
@@ -294,8 +292,8 @@ impl Smooth {
         if begins && ends_so && highs.len() > 1 {
             let at_ends = [&highs[0], &highs[highs.len() - 1]].map(|run| run.len());
             let longest = whole.iter().map(|run| run.len()).max().unwrap_or(0);
-            let are_dark = at_ends[0].max(at_ends[1]) >= longest
-                && lows.clone().all(|low| at_ends[0] + at_ends[1] >= low);
+            let are_dark =
+                at_ends[0].max(at_ends[1]) >= longest && lows.clone().all(|low| at_ends[0] + at_ends[1] >= low);
             if are_dark {
                 return Ok(true);
             }
@@ -323,7 +321,8 @@ impl Smooth {
         self.height() / self.noise.max(f64::MIN_POSITIVE)
     }
 
-    /// How much the light adds to the dark: up to the median of what is above half, or to the peak where that is far above.
+    /// How much the light adds to the dark: up to the median of what is above half, or to the peak where that is far
+    /// above.
     fn light(&self) -> f64 {
         let half = self.dark + 0.5 * self.height();
         let above = |level: f64| self.values.iter().copied().filter(|v| *v > level).collect();
@@ -386,8 +385,7 @@ fn runs(share: &[f64]) -> Vec<Range<usize>> {
 
 /// Pulses that follow each other faster than any camera fires.
 fn pulsed(times: &[f64], runs: &[Range<usize>]) -> Option<Warning> {
-    let gaps: Vec<f64> =
-        runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
+    let gaps: Vec<f64> = runs.windows(2).map(|pair| times[pair[1].start] - times[pair[0].start]).collect();
     let period = if gaps.is_empty() { return None } else { median(gaps) };
     let is_mains = MAINS.into_iter().any(|hertz| (hertz * period - 1.0).abs() < 0.02);
     (period < FASTEST || is_mains).then_some(Warning::Pulsed { hertz: 1.0 / period })
@@ -428,21 +426,11 @@ fn frames(
             warnings.push(Warning::PartialFrame { number: k + 1 });
         }
     }
-    if frames.is_empty() {
-        Err(Refusal::CutPulse { begins: cut[0], ends: cut[1] })
-    } else {
-        Ok(frames)
-    }
+    if frames.is_empty() { Err(Refusal::CutPulse { begins: cut[0], ends: cut[1] }) } else { Ok(frames) }
 }
 
 /// The frame of the pulse whose light is on in `run`, and which owns `samples`.
-fn frame(
-    trace: &Trace,
-    share: &[f64],
-    run: &Range<usize>,
-    samples: Range<usize>,
-    (dark, light): (f64, f64),
-) -> Frame {
+fn frame(trace: &Trace, share: &[f64], run: &Range<usize>, samples: Range<usize>, (dark, light): (f64, f64)) -> Frame {
     let t = &trace.times;
     let crossings = crossings(t, share, run, &samples);
     // Half a pulse of dark on either side: more would only add noise.
@@ -457,8 +445,8 @@ fn frame(
             (owned(before) + owned(after)) * (trace.values[i] - dark) / light
         })
         .sum();
-    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell; but a tail does not
-    // end there.
+    // Beyond two pulses of dark, whatever else happens matters more than what more dark samples would tell; but a tail
+    // does not end there.
     let (from, mut to) = window(t, &samples, crossings, 2.0);
     let rise = t.partition_point(|t| *t < crossings[0]).max(from);
     let mut pulses = 2.0;
@@ -515,12 +503,7 @@ fn crossings(t: &[f64], share: &[f64], run: &Range<usize>, samples: &Range<usize
 }
 
 /// The samples from so many pulses before a pulse to so many after it, and some more, up to the next gap.
-fn window(
-    times: &[f64],
-    samples: &Range<usize>,
-    crossings: Crossings,
-    pulses: f64,
-) -> (usize, usize) {
+fn window(times: &[f64], samples: &Range<usize>, crossings: Crossings, pulses: f64) -> (usize, usize) {
     let around = pulses * (crossings[5] - crossings[0]);
     let from = times.partition_point(|t| *t < crossings[0] - around);
     let to = times.partition_point(|t| *t <= crossings[5] + around);

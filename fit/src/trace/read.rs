@@ -1,7 +1,7 @@
 //! A file's bytes to a trace, with what was read and what is doubtful about it.
 //!
-//! What oscilloscopes, logic analysers and shutter testers write differs in the delimiter, the decimal mark and what stands
-//! above the numbers; all of that is read off the file itself.
+//! What oscilloscopes, logic analysers and shutter testers write differs in the delimiter, the decimal mark and what
+//! stands above the numbers; all of that is read off the file itself.
 
 use super::asked::Options;
 use super::bytes::decode;
@@ -41,8 +41,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     if changes {
         warnings.push(Warning::Changes);
     }
-    let is_asked =
-        |t: f64| options.from.is_none_or(|from| t >= from) && options.to.is_none_or(|to| t <= to);
+    let is_asked = |t: f64| options.from.is_none_or(|from| t >= from) && options.to.is_none_or(|to| t <= to);
     let mut read = samples(&table, &layout, |rows| {
         rows.retain(|row| is_asked(row.time));
         if changes {
@@ -67,7 +66,8 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     Ok(Recording { trace, timing, sync: sync.map(|sync| sync.trace), reading, warnings })
 }
 
-/// The samples of each signal, and of the sync, of rows as they are `taken`. Each line is read once, since there may be thousands of columns.
+/// The samples of each signal, and of the sync, of rows as they are `taken`. Each line is read once, since there may be
+/// thousands of columns.
 fn samples(
     table: &Table,
     layout: &Layout,
@@ -82,8 +82,7 @@ fn samples(
         fields.clear();
         fields.extend(split(row, table.delimiter));
         let is_remark = row.starts_with('#');
-        let is_word = row.starts_with(char::is_alphabetic)
-            && number(fields[0], table.decimal_comma).is_none();
+        let is_word = row.starts_with(char::is_alphabetic) && number(fields[0], table.decimal_comma).is_none();
         let mut is_read = false;
         for (signal, column) in signals.iter().zip(&mut columns).filter(|_| !is_remark) {
             match layout.sample(rows, &fields, *signal, table.decimal_comma) {
@@ -109,9 +108,7 @@ fn samples(
         }
         rows += usize::from(!is_remark);
     }
-    let read = |(signal, column): (&usize, Column)| {
-        column.read(&taken, || layout.reading(table, *signal).to_string())
-    };
+    let read = |(signal, column): (&usize, Column)| column.read(&taken, || layout.reading(table, *signal).to_string());
     Ok(signals.iter().zip(columns).map(read).collect())
 }
 
@@ -125,11 +122,7 @@ struct Column {
 }
 
 impl Column {
-    fn read(
-        mut self,
-        taken: impl Fn(&mut Vec<Sample>),
-        reading: impl Fn() -> String,
-    ) -> Result<Samples, Refusal> {
+    fn read(mut self, taken: impl Fn(&mut Vec<Sample>), reading: impl Fn() -> String) -> Result<Samples, Refusal> {
         let mut warnings = Vec::new();
         if let Some((line, reason)) = self.first {
             let (count, rows) = (self.broken, self.samples.len() + self.broken);

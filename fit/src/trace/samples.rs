@@ -25,10 +25,7 @@ impl Trace {
 
     /// Some of the samples.
     pub(crate) fn part(&self, samples: &Range<usize>) -> Self {
-        Self {
-            times: self.times[samples.clone()].to_vec(),
-            values: self.values[samples.clone()].to_vec(),
-        }
+        Self { times: self.times[samples.clone()].to_vec(), values: self.values[samples.clone()].to_vec() }
     }
 }
 

@@ -29,13 +29,12 @@ fn is_gate(trace: &Trace) -> bool {
     let (low, high) = range(&trace.values);
     let is_between = |v: &f64| (0.1..=0.9).contains(&((v - low) / (high - low)));
     let is_high = |v: &f64| *v > 0.5 * (low + high);
-    let edges =
-        trace.values.windows(2).filter(|pair| is_high(&pair[0]) != is_high(&pair[1])).count();
+    let edges = trace.values.windows(2).filter(|pair| is_high(&pair[0]) != is_high(&pair[1])).count();
     trace.values.iter().filter(|v| is_between(v)).count() <= edges
 }
 
-/// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told, as
-/// `name` has them, with the option that chooses them.
+/// The column that holds a pulse of light, by its place, and its samples; of several, the first. The others are told,
+/// as `name` has them, with the option that chooses them.
 pub fn light_among(
     mut all: Vec<(usize, Result<Samples, Refusal>)>,
     name: impl Fn(usize) -> String,

@@ -1,4 +1,5 @@
-//! The settings above the rows that tell when the samples were taken: a closed list of names, each with a number and its unit.
+//! The settings above the rows that tell when the samples were taken: a closed list of names, each with a number and
+//! its unit.
 
 use super::names::{has, unit_of, words};
 use super::numbers::{is_grouped, number, short_of};
@@ -43,19 +44,10 @@ const NAMES: [(Kind, &str); 9] = [
     (Kind::Clock, "clock interval"),
     (Kind::Start, "t0 x0 hoffset xzero xorg xorigin xstart starttime wfstartoffset"),
     (Kind::Begin, "start"),
-    (
-        Kind::Trigger,
-        "triggerpoint triggerposition triggeraddress triggersample triggerindex zeroindex",
-    ),
+    (Kind::Trigger, "triggerpoint triggerposition triggeraddress triggersample triggerindex zeroindex"),
     (Kind::Zero, "triggeroffset triggertime triggerdelay horizontaldelay pretrigger"),
-    (
-        Kind::Unit,
-        "horizontalunits horizontalunit hunit xunits xunit timeunit timeunits zeiteinheit",
-    ),
-    (
-        Kind::Decimation,
-        "decimation decimationfactor decimationrate decimationratio downsampling subsampling",
-    ),
+    (Kind::Unit, "horizontalunits horizontalunit hunit xunits xunit timeunit timeunits zeiteinheit"),
+    (Kind::Decimation, "decimation decimationfactor decimationrate decimationratio downsampling subsampling"),
 ];
 
 /// A unit of time or of a rate.
@@ -106,11 +98,11 @@ pub fn is_setting(name: &str) -> bool {
     named(name).is_some()
 }
 
-/// A number and the unit behind it, as in `100 kHz`, `10.0uS` or `Analog:1e-5`; none where what stands behind it is no unit.
+/// A number and the unit behind it, as in `100 kHz`, `10.0uS` or `Analog:1e-5`; none where what stands behind it is no
+/// unit.
 fn value(text: &str, comma: bool) -> Option<(f64, Option<Measure>)> {
     let text = text.rsplit(':').next()?.trim();
-    let is_part =
-        |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | '\u{2212}' | 'e' | 'E');
+    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '+' | '-' | '\u{2212}' | 'e' | 'E');
     let end = text.find(|c| !is_part(c)).unwrap_or(text.len());
     let digits = text[..end].trim_end_matches(['e', 'E']);
     let x = number(digits, comma)?;
@@ -174,16 +166,12 @@ impl Settings {
                     None => {
                         add(line, field, &beside)
                             || add(&format!("{field} {below}"), field, below)
-                            || !goes_on
-                                && (is_alone || digit > 0)
-                                && add(line, &field[..digit], &field[digit..])
+                            || !goes_on && (is_alone || digit > 0) && add(line, &field[..digit], &field[digit..])
                     }
                 };
             }
             let words = line.to_lowercase();
-            let is_near = ["sampl", "rate", "interval", "increment", "delta"]
-                .iter()
-                .any(|it| words.contains(it));
+            let is_near = ["sampl", "rate", "interval", "increment", "delta"].iter().any(|it| words.contains(it));
             if is_near && settings.steps.len() == known && line.contains(is_digit) {
                 settings.unread.get_or_insert(short_of(line.trim()));
             }
@@ -197,8 +185,7 @@ impl Settings {
 
     /// Is it a setting of the list, with a value?
     fn add(&mut self, words: &str, name: &str, text: &str, comma: bool) -> bool {
-        let words =
-            || short_of(&words.replace('"', "").split_whitespace().collect::<Vec<_>>().join(" "));
+        let words = || short_of(&words.replace('"', "").split_whitespace().collect::<Vec<_>>().join(" "));
         let kind = named(name);
         if let Some((Kind::Unit, None)) = kind {
             let unit = unit_of(&text.trim().trim_matches('"').to_lowercase());
@@ -220,17 +207,13 @@ impl Settings {
             (Kind::Rate, None) if x < 1.0 => return false,
             (Kind::Rate, None) => 1.0 / x,
             (Kind::Rate, Some(Measure::Hertz(each))) => 1.0 / (each * x),
-            (Kind::Rate | Kind::Trigger, Some(_))
-            | (Kind::Clock, None)
-            | (_, Some(Measure::Hertz(_))) => return false,
+            (Kind::Rate | Kind::Trigger, Some(_)) | (Kind::Clock, None) | (_, Some(Measure::Hertz(_))) => return false,
             (_, Some(Measure::Time(unit))) => unit.seconds(x),
             (_, None) => x,
         };
         let is_sure = unit.is_some() || kind == Kind::Rate;
         match kind {
-            Kind::Rate | Kind::Step | Kind::Clock if x > 0.0 && x.is_finite() => {
-                self.steps.push((words(), x, is_sure))
-            }
+            Kind::Rate | Kind::Step | Kind::Clock if x > 0.0 && x.is_finite() => self.steps.push((words(), x, is_sure)),
             Kind::Start | Kind::Begin | Kind::Trigger | Kind::Zero if x.is_finite() => {
                 self.zeros.push((kind, x, is_sure))
             }
@@ -261,11 +244,9 @@ impl Settings {
     /// # Errors
     /// Two that differ.
     pub fn step(&self) -> Result<Option<(String, f64)>, Refusal> {
-        let mut steps =
-            self.steps.iter().map(|(words, step, is_sure)| (words, self.seconds(*step, *is_sure)));
+        let mut steps = self.steps.iter().map(|(words, step, is_sure)| (words, self.seconds(*step, *is_sure)));
         let Some((first, step)) = steps.next() else { return Ok(None) };
-        let other =
-            steps.find(|(_, other)| (other / step - 1.0).abs() > 1e-3).map(|(words, _)| words);
+        let other = steps.find(|(_, other)| (other / step - 1.0).abs() > 1e-3).map(|(words, _)| words);
         match other.or(self.decimation.as_ref()) {
             Some(second) => Err(Refusal::TwoRates { first: first.clone(), second: second.clone() }),
             None => Ok(Some((first.clone(), step))),
@@ -291,11 +272,7 @@ mod tests {
             |100 kHz|100.000 kHz|Sample rate: 100000.000|XInc,10\nXUnits,us|HResolution,1E-5\nHUnit,s|Sample Interval,1e-05,s|Sample Interval,Analog:1.0e-05|Sample Interval(uS),10.0|Sample interval in ms = 0.01\
             |XInc:,1.0E-05|CLOCK=10.0uS|Interval=,1E-05 s|0.01 msec/sample|Unit,wf_increment\nV,0.00001|CH1,t0 = -6ms, tInc = 10us|X,Start,Increment\nSequence,-6.0ms,10.0us";
         for text in ten_microseconds.split('|') {
-            assert!(
-                (step(text).unwrap_or_default() - 1e-5).abs() < 1e-15,
-                "{text}: {:?}",
-                step(text)
-            );
+            assert!((step(text).unwrap_or_default() - 1e-5).abs() < 1e-15, "{text}: {:?}", step(text));
         }
         let nothing = "Interval,2|10 msec|Sample rate: 0.00001|Sample interval: 10|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
@@ -313,13 +290,10 @@ mod tests {
         let six_before = "CH1,t0 = -6ms, tInc = 10us|HOffset,-6.0E-03\nHUnit,s|HOffset,-6\nHUnit,ms|XZERO,-0.006|Unit,wf_start_offset\nV,-0.006|XOrg:,-6.0E-03\nStart:,0\
             |Trigger Point,600,Samples|Trigger position: 600|Trigger Address,600|Zero Index,600|X,Start\nSequence,-6.0ms";
         for text in six_before.split('|') {
-            assert!(
-                (start(text).unwrap_or_default() + 0.006).abs() < 1e-15,
-                "{text}: {:?}",
-                start(text)
-            );
+            assert!((start(text).unwrap_or_default() + 0.006).abs() < 1e-15, "{text}: {:?}", start(text));
         }
-        let nothing = "Sample rate: 100 kHz|Trigger position: 50 %|Trigger position: 6 ms|TriggerOffset,-0.006|Trigger Level,1.0";
+        let nothing =
+            "Sample rate: 100 kHz|Trigger position: 50 %|Trigger position: 6 ms|TriggerOffset,-0.006|Trigger Level,1.0";
         nothing.split('|').for_each(|text| assert_eq!(start(text), None, "{text}"));
     }
 }

@@ -1,4 +1,5 @@
-//! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands above them.
+//! A text as rows of fields: what delimits them, what their decimal mark is, which columns hold numbers, what stands
+//! above them.
 
 use super::asked::Column;
 use super::names::{has, is_axis, is_time, is_unit, words};
@@ -23,22 +24,17 @@ fn filled_lines(text: &str) -> impl Iterator<Item = &str> {
 fn marks(text: &str) -> Result<(char, bool), Refusal> {
     // From the file's middle, where the numbers are.
     let total = filled_lines(text).count();
-    let lines: Vec<&str> = filled_lines(text)
-        .skip(total / 2)
-        .chain(filled_lines(text))
-        .take(LOOKED_AT.min(total))
-        .collect();
+    let lines: Vec<&str> =
+        filled_lines(text).skip(total / 2).chain(filled_lines(text)).take(LOOKED_AT.min(total)).collect();
     let most = |c: char| 2 * lines.iter().filter(|l| l.trim().contains(c)).count() > lines.len();
     let delimiter = match ['\t', ';', ',', ' '].into_iter().find(|c| most(*c)).unwrap_or(',') {
         ',' if are_decimals(&lines) && !is_pair_above(text) && !counts(text) => ';',
         delimiter => delimiter,
     };
-    if delimiter == ',' && lines.iter().filter(|line| is_in_halves(line)).count() > lines.len() / 2
-    {
+    if delimiter == ',' && lines.iter().filter(|line| is_in_halves(line)).count() > lines.len() / 2 {
         let line = short_of(lines[0]);
-        let reason = format!(
-            "'{line}' has commas between its columns and in its numbers; part the columns by semicolons"
-        );
+        let reason =
+            format!("'{line}' has commas between its columns and in its numbers; part the columns by semicolons");
         return Err(Refusal::NotCsv { reason });
     }
     let fields = || lines.iter().flat_map(|line| split(line, delimiter));
@@ -48,13 +44,10 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
     let Some(comma) = fields().find(|field| field.contains(',') && is_number(field)) else {
         return Ok((delimiter, false));
     };
-    let refused =
-        |other: &str| Refusal::Thousands { number: short_of(comma), other: short_of(other) };
+    let refused = |other: &str| Refusal::Thousands { number: short_of(comma), other: short_of(other) };
     // A date has two points.
     let has_point = |field: &&str| field.matches('.').count() == 1 || field.contains(',');
-    if let Some(point) =
-        fields().find(|field| field.contains('.') && has_point(field) && is_number(field))
-    {
+    if let Some(point) = fields().find(|field| field.contains('.') && has_point(field) && is_number(field)) {
         return Err(refused(point));
     }
     // Decimals have a `0,1` or a `1,5` somewhere; whole thousands have neither.
@@ -68,8 +61,7 @@ fn marks(text: &str) -> Result<(char, bool), Refusal> {
 
 /// Is each line a value alone with a decimal comma? It looks like two columns, but the first one's few numbers tell.
 fn are_decimals(lines: &[&str]) -> bool {
-    let mut whole: Vec<_> =
-        lines.iter().map(|line| line.trim().split_once(',').map(|(whole, _)| whole)).collect();
+    let mut whole: Vec<_> = lines.iter().map(|line| line.trim().split_once(',').map(|(whole, _)| whole)).collect();
     whole.sort();
     whole.dedup();
     whole.len() <= lines.len() / 4 && lines.iter().all(|line| is_decimal(line.trim()))
@@ -88,12 +80,9 @@ fn is_in_halves(line: &str) -> bool {
 
 /// Are two names above the numbers, with a comma between them?
 fn is_pair_above(text: &str) -> bool {
-    let above: Vec<&str> = filled_lines(text)
-        .take(LONGEST_HEADER)
-        .take_while(|line| !is_decimal(line.trim()))
-        .collect();
-    let last =
-        above.last().map(|line| line.split(',').filter(|name| !name.trim().is_empty()).count());
+    let above: Vec<&str> =
+        filled_lines(text).take(LONGEST_HEADER).take_while(|line| !is_decimal(line.trim())).collect();
+    let last = above.last().map(|line| line.split(',').filter(|name| !name.trim().is_empty()).count());
     last == Some(2)
 }
 
@@ -215,15 +204,13 @@ impl<'a> Table<'a> {
         let mut fields = split(line, self.delimiter);
         let is_like = |most: &Option<Holds>| {
             let holds = self.holds(fields.next().unwrap_or_default());
-            most.is_none_or(|most| {
-                holds == most || (most, holds) == (Holds::Nothing, Holds::Number)
-            })
+            most.is_none_or(|most| holds == most || (most, holds) == (Holds::Nothing, Holds::Number))
         };
         !line.starts_with('#') && most.iter().all(is_like)
     }
 
-    /// How many lines are above the rows, where this is the first whole one: rows before it may be broken, or have settings where
-    /// others have nothing, if their times lead to it.
+    /// How many lines are above the rows, where this is the first whole one: rows before it may be broken, or have
+    /// settings where others have nothing, if their times lead to it.
     fn without_header(&self, lines: &[&str], first: usize, most: &[Option<Holds>]) -> usize {
         let time = |line: usize| {
             let line = lines.get(line).copied().unwrap_or_default();
@@ -237,11 +224,9 @@ impl<'a> Table<'a> {
         };
         let is_word = |c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E');
         let is_row = |line: &usize| {
-            let held: Vec<Holds> =
-                split(lines[*line], self.delimiter).map(|field| self.holds(field)).collect();
-            let is_bare = |(held, most): (&Holds, &Option<Holds>)| {
-                *most != Some(Holds::Nothing) || *held == Holds::Nothing
-            };
+            let held: Vec<Holds> = split(lines[*line], self.delimiter).map(|field| self.holds(field)).collect();
+            let is_bare =
+                |(held, most): (&Holds, &Option<Holds>)| *most != Some(Holds::Nothing) || *held == Holds::Nothing;
             let time = time(*line);
             !time.is_empty()
                 && !time.contains(is_word)
@@ -267,8 +252,8 @@ impl<'a> Table<'a> {
         Refusal::NotCsv { reason }
     }
 
-    /// The fields of a line above the rows; what makes it a comment is no part of the first. Of names between blanks, a unit in
-    /// brackets belongs to the word before it.
+    /// The fields of a line above the rows; what makes it a comment is no part of the first. Of names between blanks, a
+    /// unit in brackets belongs to the word before it.
     fn fields_above(&self, line: &str) -> Vec<String> {
         let inner = line.trim_start_matches(['#', '%', '/', ';']);
         let inner = if inner.len() < line.len() { inner.trim_start() } else { line };
@@ -297,19 +282,16 @@ impl<'a> Table<'a> {
     fn names(&self) -> [Vec<String>; 2] {
         let last = self.columns[self.columns.len() - 1];
         let is_wide = |fields: &[String]| {
-            let filled =
-                self.columns.iter().filter(|k| fields.get(**k).is_some_and(|f| !f.is_empty()));
+            let filled = self.columns.iter().filter(|k| fields.get(**k).is_some_and(|f| !f.is_empty()));
             let is_whole = self.delimiter != ' ' || fields.len() == self.width;
             fields.len() > last && 2 * filled.count() > self.columns.len() && is_whole
         };
         let is_units = |fields: &[String]| {
-            self.columns.len() > 1
-                && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
+            self.columns.len() > 1 && self.columns.iter().all(|k| fields[*k].is_empty() || is_unit(&fields[*k]))
         };
         // Names that are told to be some.
-        let is_told = |(_, fields): &&Above| {
-            has("tracename channeltitle", &words(&fields[0]).concat()) && is_wide(fields)
-        };
+        let is_told =
+            |(_, fields): &&Above| has("tracename channeltitle", &words(&fields[0]).concat()) && is_wide(fields);
         if let Some((_, fields)) = self.above.iter().find(is_told) {
             return [fields.clone(), Vec::new()];
         }
@@ -334,9 +316,7 @@ impl<'a> Table<'a> {
         let behind_mark = before_brackets.rsplit_once(['=', ':']).map(|(_, behind)| behind);
         let is_number = |field: &str| number(field, self.decimal_comma).is_some();
         let is_channel = |field: &str| field.len() < 4 && field.bytes().all(|b| b.is_ascii_digit());
-        let is_date = |field: &str| {
-            field.starts_with(|c: char| c.is_ascii_digit()) && field.contains([':', '/'])
-        };
+        let is_date = |field: &str| field.starts_with(|c: char| c.is_ascii_digit()) && field.contains([':', '/']);
         let is_measure = |field: &str| {
             let number = field.trim_end_matches(|c: char| c.is_alphabetic() || c == '%').trim_end();
             number.len() < field.len() && is_number(number)
@@ -346,15 +326,12 @@ impl<'a> Table<'a> {
             !may_be && (is_number(field) || is_date(field) || is_measure(field))
         };
         let is_setting_before = self.columns[0] > 0 && is_setting(&fields[0]);
-        is_setting_before
-            || fields.iter().any(is_value)
-            || behind_mark.is_some_and(|name| !is_time(name))
+        is_setting_before || fields.iter().any(is_value) || behind_mark.is_some_and(|name| !is_time(name))
     }
 
     /// What the lines above the rows say of the times.
     pub fn settings(&self) -> Settings {
-        let whole =
-            |line: &str| vec![line.trim_start_matches(['#', '%', '/', ';']).trim().to_string()];
+        let whole = |line: &str| vec![line.trim_start_matches(['#', '%', '/', ';']).trim().to_string()];
         let lines = self.above.iter().map(|(line, fields)| match self.delimiter {
             ' ' => (*line, whole(line)),
             _ => (*line, fields.clone()),
@@ -365,19 +342,14 @@ impl<'a> Table<'a> {
             let others = fields.filter(|(k, _)| !self.columns.contains(k));
             (row, others.map(|(_, field)| field.into()).collect())
         });
-        let has_words =
-            |(_, fields): &Above| fields.iter().any(|field| field.contains(char::is_alphabetic));
-        Settings::new(
-            &lines.chain(beside.filter(has_words)).collect::<Vec<_>>(),
-            self.decimal_comma,
-        )
+        let has_words = |(_, fields): &Above| fields.iter().any(|field| field.contains(char::is_alphabetic));
+        Settings::new(&lines.chain(beside.filter(has_words)).collect::<Vec<_>>(), self.decimal_comma)
     }
 
     /// Is the line a row of names, though not of these columns?
     pub fn names_others(&self, line: &str) -> bool {
         let fields = self.fields_above(line);
-        let is_name =
-            |k: &usize| fields.get(*k).is_some_and(|field| self.holds(field) == Holds::Word);
+        let is_name = |k: &usize| fields.get(*k).is_some_and(|field| self.holds(field) == Holds::Word);
         self.columns.len() > 1
             && self.columns.iter().all(is_name)
             && self.columns.iter().any(|k| self.names[0].get(*k) != fields.get(*k))
@@ -397,8 +369,7 @@ impl<'a> Table<'a> {
 
     /// The numbers in each column, of so many rows.
     fn numbers(&self, each: usize, most: usize) -> Vec<Vec<f64>> {
-        let mut numbers =
-            vec![Vec::new(); self.width.max(self.columns[self.columns.len() - 1] + 1)];
+        let mut numbers = vec![Vec::new(); self.width.max(self.columns[self.columns.len() - 1] + 1)];
         for (_, row) in self.rows().step_by(each.max(1)).take(most) {
             for (column, field) in numbers.iter_mut().zip(split(row, self.delimiter)) {
                 column.extend(number(field, self.decimal_comma));
@@ -413,16 +384,14 @@ impl<'a> Table<'a> {
             Column::Number(number) => number.checked_sub(1),
             Column::Name(name) => {
                 let wanted = name.to_lowercase();
-                let has =
-                    |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
+                let has = |k: &usize| self.name(*k).is_some_and(|n| n.to_lowercase().contains(&wanted));
                 let exact = self.names[0].iter().position(|n| n.to_lowercase() == wanted);
                 exact.or_else(|| (0..self.width).find(has))
             }
         };
-        found.filter(|k| *k < self.width).ok_or_else(|| Refusal::NoColumn {
-            name: column.to_string(),
-            there: self.told(0..self.width),
-        })
+        found
+            .filter(|k| *k < self.width)
+            .ok_or_else(|| Refusal::NoColumn { name: column.to_string(), there: self.told(0..self.width) })
     }
 
     /// So many columns, and their names: `2: time_s, v`.
@@ -446,8 +415,7 @@ impl<'a> Table<'a> {
     /// The first field that is no number in the first row, as a reader of a refusal may need it.
     pub fn text_beside(&self) -> Option<String> {
         let (_, row) = self.rows().next()?;
-        let is_text =
-            |field: &&str| !field.is_empty() && number(field, self.decimal_comma).is_none();
+        let is_text = |field: &&str| !field.is_empty() && number(field, self.decimal_comma).is_none();
         split(row, self.delimiter).find(is_text).map(short_of)
     }
 

@@ -1,5 +1,5 @@
-//! What the times of a file's rows are beside numbers: segments that begin anew, values that were rounded, changes of a level that stays
-//! in between.
+//! What the times of a file's rows are beside numbers: segments that begin anew, values that were rounded, changes of a
+//! level that stays in between.
 
 use super::samples::{Trace, median, range};
 use super::table::Table;
@@ -47,9 +47,7 @@ const SECOND: f64 = 1.0;
 
 /// Goes on where a timer of so many bits, or a second's fraction, began anew at 0, if it is no segment that does.
 fn unwrap(rows: &mut [Sample]) {
-    let Some(step) =
-        rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0)
-    else {
+    let Some(step) = rows.windows(2).map(|pair| pair[1].time - pair[0].time).find(|step| *step > 0.0) else {
         return;
     };
     let timers = [1u64 << 16, 1 << 32];
@@ -81,8 +79,8 @@ fn apart(rows: &mut [Sample]) -> Vec<(f64, f64)> {
         let start = starts[starts.len() - 1];
         let length = rows[k - 1].time - rows[start].time;
         longest = f64::max(longest, length);
-        let begins = rows[k].time < rows[k - 1].time
-            && (-1.0..0.1).contains(&((rows[k].time - rows[start].time) / length));
+        let begins =
+            rows[k].time < rows[k - 1].time && (-1.0..0.1).contains(&((rows[k].time - rows[start].time) / length));
         if begins && length > 0.0 && k - start >= FEWEST {
             starts.push(k);
         }
@@ -112,8 +110,7 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
     let (least, most) = range(steps());
     let rounding = most - least;
     let near = |to: f64| steps().filter(|step| (step - to).abs() < 0.1 * rounding).count() * OFTEN;
-    let is_two =
-        near(least) > n && near(most) > n && near(least) + near(most) + OFTEN >= (n - 1) * OFTEN;
+    let is_two = near(least) > n && near(most) > n && near(least) + near(most) + OFTEN >= (n - 1) * OFTEN;
     let is_repeated = again().count() * OFTEN > n && differ * OFTEN > again().count();
     if n < FEWEST || !(is_repeated || least > 0.0 && is_two && rounding > 1e-3 * most) {
         return None;
@@ -128,8 +125,7 @@ fn spread(rows: &mut [Sample]) -> Option<(f64, Timing)> {
         around[from..to].iter_mut().for_each(|around| *around = f64::max(*around, step));
     }
     // The line through the times, by weights.
-    let weighted =
-        |of: &dyn Fn(usize) -> f64| (0..n).map(|k| of(k) / around[k].powi(2)).sum::<f64>();
+    let weighted = |of: &dyn Fn(usize) -> f64| (0..n).map(|k| of(k) / around[k].powi(2)).sum::<f64>();
     let all = weighted(&|_| 1.0);
     let (middle, time) = (weighted(&|k| k as f64) / all, weighted(&|k| rows[k].time) / all);
     let off = |k: usize| k as f64 - middle;
@@ -185,8 +181,7 @@ pub fn ordered(mut rows: Vec<Sample>, warnings: &mut Vec<Warning>) -> (Trace, Ti
 /// Does nearly every row tell a change of a column that has two values, at uneven times?
 pub fn lists_changes(table: &Table, time: usize) -> bool {
     let times = &table.first[time];
-    let others: Vec<&Vec<f64>> =
-        table.columns.iter().filter(|k| **k != time).map(|k| &table.first[*k]).collect();
+    let others: Vec<&Vec<f64>> = table.columns.iter().filter(|k| **k != time).map(|k| &table.first[*k]).collect();
     let is_switch = |values: &&Vec<f64>| {
         let other = values.iter().find(|v| **v != values[0]);
         values.len() == times.len() && values.iter().all(|v| *v == values[0] || Some(v) == other)

@@ -1,7 +1,7 @@
 //! Why a trace is refused, and what is doubtful about one that is not: the reason, and what to do.
 //!
-//! Each message stands above the values that it tells: times in seconds, rates in hertz, signals in the trace's own unit,
-//! amounts as shares of the light. Lines, frames and pulses count from 1.
+//! Each message stands above the values that it tells: times in seconds, rates in hertz, signals in the trace's own
+//! unit, amounts as shares of the light. Lines, frames and pulses count from 1.
 
 use strum::{EnumIter, IntoStaticStr};
 use thiserror::Error;
@@ -38,13 +38,9 @@ pub enum Refusal {
     UnclearUnit { name: String },
     #[error("column {name} is asked for twice; see --columns")]
     SameColumn { name: String },
-    #[error(
-        "line {line}: '{text}' between the rows begins another recording; put each into a file of its own"
-    )]
+    #[error("line {line}: '{text}' between the rows begins another recording; put each into a file of its own")]
     Blocks { line: u64, text: String },
-    #[error(
-        "'{first}' and '{second}' above the numbers tell different rates; give the right one, as in --rate 100000"
-    )]
+    #[error("'{first}' and '{second}' above the numbers tell different rates; give the right one, as in --rate 100000")]
     TwoRates { first: String, second: String },
     /// A number with a comma, beside another with a point or alone.
     #[error("{}", thousands(.number, .other))]
@@ -57,9 +53,7 @@ pub enum Refusal {
     )]
     BrokenRows { count: usize, rows: usize, line: u64, reason: String, reading: String },
     /// Times and values that no file gives: not as many, not finite or beyond 10³⁰, or out of order.
-    #[error(
-        "times and values have to be as many, finite numbers up to {LARGEST:e}, and times in order"
-    )]
+    #[error("times and values have to be as many, finite numbers up to {LARGEST:e}, and times in order")]
     Unsound,
     #[error("{} in the trace, and at least {required} are required; sample faster", counted(.samples, "sample"))]
     TooFewSamples { samples: usize, required: usize },
@@ -139,13 +133,9 @@ fn no_rate(quoted: &Option<String>) -> String {
 
 fn thousands(number: &str, other: &str) -> String {
     if number == other {
-        return format!(
-            "'{number}' may be one and a fraction, or a thousand; export without separators of thousands"
-        );
+        return format!("'{number}' may be one and a fraction, or a thousand; export without separators of thousands");
     }
-    format!(
-        "'{number}' has a comma and '{other}' a point, so one of them parts thousands; export without separators"
-    )
+    format!("'{number}' has a comma and '{other}' a point, so one of them parts thousands; export without separators")
 }
 
 fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
@@ -184,13 +174,9 @@ pub enum Warning {
          ramp shows"
     )]
     Changes,
-    #[error(
-        "the file does not say in which unit its times are; they are taken as seconds (see --unit)"
-    )]
+    #[error("the file does not say in which unit its times are; they are taken as seconds (see --unit)")]
     UnitAssumed,
-    #[error(
-        "two columns hold a pulse: {taken} is taken for the light, and {other} is not ({option} takes that)"
-    )]
+    #[error("two columns hold a pulse: {taken} is taken for the light, and {other} is not ({option} takes that)")]
     SecondSignal { taken: String, other: String, option: String },
     #[error(
         "line {line}: the value is infinite; {} of the instrument {} taken as clipped, so the exposure may come out \
@@ -199,7 +185,8 @@ pub enum Warning {
         are(.count)
     )]
     Overload { count: usize, line: u64 },
-    /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at most.
+    /// An edge of the sync was followed by others, as if a contact bounced, at so many of all shots, for so long at
+    /// most.
     #[error(
         "the sync switches more than once at {few} of {}, the last time some {} after the first: its contact may bounce, as it \
          closes or as it opens; the first edge counts, so let the firmware take no other for so long",
@@ -350,7 +337,8 @@ pub enum Warning {
         short(*.to, 7)
     )]
     Gap { count: usize, from: f64, to: f64 },
-    /// So few samples, or so much noise, that the test of the fit is blind for a dip of this share for a fifth of the pulse.
+    /// So few samples, or so much noise, that the test of the fit is blind for a dip of this share for a fifth of the
+    /// pulse.
     #[error(
         "too few samples, or too much noise, to see a dip, a slope or a tail of less than {} of the light; the ± \
          allow for it; sample faster, or average several shots",

@@ -24,8 +24,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let broken = |e: hound::Error| refused(format!("it is a WAV that cannot be read ({e})"));
     let mut file = WavReader::new(Cursor::new(bytes)).map_err(broken)?;
     let spec = file.spec();
-    let (channels, rate) =
-        (usize::from(spec.channels), options.rate.unwrap_or(spec.sample_rate.into()));
+    let (channels, rate) = (usize::from(spec.channels), options.rate.unwrap_or(spec.sample_rate.into()));
     if channels == 0 || rate <= 0.0 {
         return Err(refused("it is a WAV without a channel or a rate".into()));
     }
@@ -41,17 +40,14 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
     let is_said = u64::from(file.len()) * u64::from(spec.bits_per_sample.div_ceil(8)) < UNKNOWN;
     let there = values.len() / channels;
     if announced == 0 {
-        return Err(refused(
-            "it is a WAV that announces no samples; was its recording ended?".into(),
-        ));
+        return Err(refused("it is a WAV that announces no samples; was its recording ended?".into()));
     }
     let channel = |k: usize| {
         let values = values.iter().skip(k).step_by(channels);
         let is_sound = |(_, v): &(usize, &f64)| v.is_finite();
         let timed = values.enumerate().filter(is_sound).map(|(i, v)| (i as f64 / rate, *v));
-        let is_asked = |(t, _): &(f64, f64)| {
-            options.from.is_none_or(|from| *t >= from) && options.to.is_none_or(|to| *t <= to)
-        };
+        let is_asked =
+            |(t, _): &(f64, f64)| options.from.is_none_or(|from| *t >= from) && options.to.is_none_or(|to| *t <= to);
         let (times, values) = timed.filter(is_asked).unzip();
         let timing = Timing::default();
         Ok(Samples { trace: Trace { times, values }, timing, warnings: Vec::new() })
@@ -71,9 +67,7 @@ pub fn open(bytes: &[u8], options: &Options) -> Result<Recording, Refusal> {
         asked.extend((0..channels).filter(|k| Some(*k) != sync));
     }
     if asked.is_empty() || sync.is_some_and(|sync| asked.contains(&sync)) {
-        return Err(no_delay(
-            "its channel is the signal's; record the sync on one of its own".into(),
-        ));
+        return Err(no_delay("its channel is the signal's; record the sync on one of its own".into()));
     }
     let named = |k: usize| (k + 1, None);
     let told = if options.rate.is_some() { Told::Asked } else { Told::Format };

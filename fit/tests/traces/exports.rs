@@ -1,7 +1,7 @@
 //! The exports of instruments: what must be read of each, or which words must refuse or doubt it.
 //!
-//! All are of one shutter with an exposure of 5 ms, beside a gate of 7 ms where there are two channels. So what is misread shows in the
-//! exposure.
+//! All are of one shutter with an exposure of 5 ms, beside a gate of 7 ms where there are two channels. So what is
+//! misread shows in the exposure.
 
 use shutter_fit::trace::{self, Column, open};
 use shutter_fit::unit::Unit;
@@ -9,13 +9,13 @@ use shutter_fit::{Options, fit};
 
 use crate::generator::{Random, each};
 
-/// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in exponential
-/// notation, `{mv}` in thousands, `{adc}` in whole ones, `{g}` a gate of 5 V, `{d}` one of 0 and 1, `{z}` a channel that is not
-/// connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{k us}` with its thousands apart,
-/// `{ns}`; `{i}` counts; `{set}` is a setting in the first rows. A comma before the brace, as in `{,v}`, is a decimal one.
+/// The light opens from 2 to 4 ms and closes from 7 to 9. In a row, `{v}` is the light from 0 to 1, `{e}` the same in
+/// exponential notation, `{mv}` in thousands, `{adc}` in whole ones, `{g}` a gate of 5 V, `{d}` one of 0 and 1, `{z}` a
+/// channel that is not connected; `{t}` seconds, `{T}` exponential, `{-t}` from before the trigger, `{ms}`, `{us}`, `{k
+/// us}` with its thousands apart, `{ns}`; `{i}` counts; `{set}` is a setting in the first rows. A comma before the
+/// brace, as in `{,v}`, is a decimal one.
 pub fn rows(row: &str) -> String {
-    let settings =
-        ["Record Length,1200", "Sample Interval,1e-05", "Trigger Point,600", "Source,CH1"];
+    let settings = ["Record Length,1200", "Sample Interval,1e-05", "Trigger Point,600", "Source,CH1"];
     let mut random = Random::new(11);
     let openness = |t: f64| (t - 0.002).min(0.009 - t).clamp(0.0, 0.002) / 0.002;
     let mut text = String::new();
@@ -52,8 +52,8 @@ pub fn rows(row: &str) -> String {
     text
 }
 
-/// Name, what stands above the rows, a row, the light's column (0: the file is refused), what is told of the times (or of the
-/// refusal), and the codes of what is doubted.
+/// Name, what stands above the rows, a row, the light's column (0: the file is refused), what is told of the times (or
+/// of the refusal), and the codes of what is doubted.
 type Export = (&'static str, &'static str, &'static str, usize, &'static str, &'static str);
 
 const GW_INSTEK: &str = "Format,2.0B\nMemory Length,1200\nIntpDistance,0\nTrigger Address,600\nTrigger Level,1.0E-01\nSource,CH1\n\
@@ -348,9 +348,7 @@ fn judged(export: &Export) -> Result<(), (String, bool)> {
     let text = above.to_string() + &body;
     match read(&text, &trace::Options::default()) {
         Err(refusal) if column > 0 => Err((format!("{name}: refused: {refusal}"), true)),
-        Err(refusal) if !refusal.contains(told) => {
-            Err((format!("{name}: refused without '{told}': {refusal}"), true))
-        }
+        Err(refusal) if !refusal.contains(told) => Err((format!("{name}: refused without '{told}': {refusal}"), true)),
         Err(_) => Ok(()),
         Ok((signal, times, exposure, doubted)) => {
             // The unit that is assumed may be another one, and then that is told.
@@ -378,11 +376,7 @@ fn each_export_is_read_right_or_doubted_or_refused() {
         println!("{}{said}", if *is_seen { "" } else { "IN SILENCE: " });
     }
     let count = EXPORTS.len();
-    assert!(
-        wrong.is_empty(),
-        "of {count} exports {} otherwise, {silent} wrong in silence",
-        wrong.len()
-    );
+    assert!(wrong.is_empty(), "of {count} exports {} otherwise, {silent} wrong in silence", wrong.len());
 }
 
 /// What is asked beside the file: columns, a unit, a rate.
@@ -421,10 +415,7 @@ fn what_is_asked_beside_the_file_is_done() {
     ];
     for (text, options, column, told, exposure, codes) in cases {
         let (signal, times, found, doubted) = read(text, &options).expect("a fit");
-        assert!(
-            signal == column && times.contains(told) && doubted == codes,
-            "{signal} {times} {doubted}"
-        );
+        assert!(signal == column && times.contains(told) && doubted == codes, "{signal} {times} {doubted}");
         assert!((found / exposure - 1.0).abs() < 5e-3, "{told}: {found}");
     }
     let twice = read(&timed, &asked("2,gate", None, None)).unwrap_err();
@@ -443,12 +434,8 @@ fn rows_that_are_left_out_are_told_wherever_they_are() {
         lines.iter().enumerate().map(broken).collect::<String>()
     };
     for (from, field) in [(1, ""), (1, "---"), (1, "saturated"), (30, ""), (1000, "?")] {
-        let (signal, _, exposure, doubted) =
-            read(&without(from, field), &asked("", None, None)).expect("a fit");
-        assert!(
-            signal == 3 && (exposure / 0.005 - 1.0).abs() < 5e-3,
-            "{from} '{field}': {signal} {exposure}"
-        );
+        let (signal, _, exposure, doubted) = read(&without(from, field), &asked("", None, None)).expect("a fit");
+        assert!(signal == 3 && (exposure / 0.005 - 1.0).abs() < 5e-3, "{from} '{field}': {signal} {exposure}");
         assert!(doubted.contains("broken_rows"), "{from} '{field}': {doubted}");
     }
     let refused = read(&without(1, "").replace(",\n", ",x\n").repeat(3), &asked("2,3", None, None));
@@ -457,9 +444,7 @@ fn rows_that_are_left_out_are_told_wherever_they_are() {
 
 #[test]
 fn recordings_below_each_other_are_refused() {
-    let block = |channel: &str, row: &str| {
-        format!("#CHANNEL:{channel}\n#CLOCK=10.0uS\n#SIZE=1200\n\n{}", rows(row))
-    };
+    let block = |channel: &str, row: &str| format!("#CHANNEL:{channel}\n#CLOCK=10.0uS\n#SIZE=1200\n\n{}", rows(row));
     let two = block("CH1", "{g}") + &block("CH2", "{v}");
     let refused = read(&two, &asked("", None, None)).unwrap_err();
     assert!(refused.contains("line 1205: '#CHANNEL:CH2' between the rows"), "{refused}");
@@ -475,10 +460,7 @@ fn a_table_of_thousands_of_columns_is_read_soon() {
     for i in 0..300 {
         text += &format!("\n{}", 40 * i);
         (0..3000).for_each(|k| {
-            text += &format!(
-                ",{}",
-                (i * 7 + k * 3) % 10 + if k == 2500 && (100..200).contains(&i) { 400 } else { 0 }
-            )
+            text += &format!(",{}", (i * 7 + k * 3) % 10 + if k == 2500 && (100..200).contains(&i) { 400 } else { 0 })
         });
     }
     let recording = open(text.as_bytes(), &asked("", None, None)).expect("a trace");
@@ -504,8 +486,7 @@ fn without_noise_the_error_is_that_of_a_sample() {
     for (k, (level, exposure, n)) in cases.into_iter().enumerate() {
         let times = (0..n).map(|i| step * i as f64);
         let text: String = times.map(|t| format!("{t:.6},{}\n", level(t))).collect();
-        let recording =
-            open(format!("time_s,v\n{text}").as_bytes(), &asked("", None, None)).expect("a trace");
+        let recording = open(format!("time_s,v\n{text}").as_bytes(), &asked("", None, None)).expect("a trace");
         let fit = fit(&recording.trace, &Options::default(), &mut |_| ()).expect("a fit");
         let found = fit.exposure;
         let off = (found.value - exposure).abs();
@@ -517,8 +498,7 @@ fn without_noise_the_error_is_that_of_a_sample() {
         assert!(!is_box || found.error > 0.3 * step, "{k}: {found:?}");
         let report = shutter_fit::text("logic", &fit);
         let words = || report.split([' ', '\n', ',', ';', '(', ')']);
-        let is_dust =
-            |word: &&str| word.parse::<f64>().is_ok_and(|x| word.contains("e-") && x.abs() < 1e-8);
+        let is_dust = |word: &&str| word.parse::<f64>().is_ok_and(|x| word.contains("e-") && x.abs() < 1e-8);
         let is_minus_zero = |word: &&str| word.starts_with("-0") && word.parse::<f64>() == Ok(0.0);
         assert!(!words().any(|word| is_dust(&word) || is_minus_zero(&word)), "{k}: {report}");
     }

@@ -114,11 +114,8 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         }
         Family::Dip => {
             let at = open + random.within(0.15, 0.3) * (close - open);
-            let (deep, wide) =
-                (random.within(0.05, 0.09), random.within(0.1, 0.2) * (close - open));
-            Openness::new(move |t| {
-                plain(t) - deep * (-((t - at) / wide).powi(2)).exp() * f64::from(plain(t) >= 1.0)
-            })
+            let (deep, wide) = (random.within(0.05, 0.09), random.within(0.1, 0.2) * (close - open));
+            Openness::new(move |t| plain(t) - deep * (-((t - at) / wide).powi(2)).exp() * f64::from(plain(t) >= 1.0))
         }
         // A magnet draws the blade beyond its place, where it rings until it rests.
         Family::Overshoot => {
@@ -172,9 +169,7 @@ fn mechanics(family: Family, random: &mut Random) -> Openness {
         // The lamp warms up, or the blades sag.
         Family::Sinks => {
             let by = random.within(0.005, 0.02);
-            Openness::new(move |t| {
-                plain(t) * (1.0 - by * ((t - open) / (close - open)).clamp(0.0, 1.0))
-            })
+            Openness::new(move |t| plain(t) * (1.0 - by * ((t - open) / (close - open)).clamp(0.0, 1.0)))
         }
         // A dip of a hundredth for a fifth of the time.
         Family::Shallow => {
@@ -204,8 +199,7 @@ pub fn measured(family: Family, random: &mut Random) -> Measured {
     // Milliseconds to some tens, as the lamp's frequencies need.
     let scale = random.scale(0.01, 0.06);
     // A shallow dip may be hidden.
-    let (most, least, noisy) =
-        if family == Family::Shallow { (2000.0, 400.0, 0.02) } else { (5000.0, 800.0, 0.01) };
+    let (most, least, noisy) = if family == Family::Shallow { (2000.0, 400.0, 0.02) } else { (5000.0, 800.0, 0.01) };
     let n = random.scale(least, most) as usize;
     let noise = random.scale(0.001, noisy);
     let lamp = lamp(family, scale, random);

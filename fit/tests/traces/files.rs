@@ -1,5 +1,6 @@
-//! What `shutter fit` reads of the files of instruments: which column, in which unit or at which rate, and what it refuses, in
-//! words that help. All files are of one shutter, so what is taken for something else shows in the exposure.
+//! What `shutter fit` reads of the files of instruments: which column, in which unit or at which rate, and what it
+//! refuses, in words that help. All files are of one shutter, so what is taken for something else shows in the
+//! exposure.
 
 use std::collections::BTreeSet;
 
@@ -33,18 +34,16 @@ fn the_codes_of_warnings_are_the_documented_ones() {
     let pages = include_str!("../../../docs/measuring.md");
     let (_, list) = pages.split_once("\n## Warnings\n").unwrap();
     let before_colons = list.lines().filter_map(|line| line.strip_prefix("- ")?.split_once(':'));
-    let codes =
-        before_colons.flat_map(|(codes, _)| codes.split(", ").map(|it| it.trim_matches('`')));
+    let codes = before_colons.flat_map(|(codes, _)| codes.split(", ").map(|it| it.trim_matches('`')));
     let told = Warning::iter().map(|warning| warning.code());
     assert_eq!(codes.collect::<BTreeSet<_>>(), told.collect());
 }
 
 #[test]
 fn of_two_signals_the_light_is_taken_and_the_other_named() {
-    for (names, row) in [
-        ("x-axis,1,2\nsecond,Volt,Volt\n", "{t},{g},{v}"),
-        ("Time (s);sync;photodiode\n", "{t};{g};{v}"),
-    ] {
+    for (names, row) in
+        [("x-axis,1,2\nsecond,Volt,Volt\n", "{t},{g},{v}"), ("Time (s);sync;photodiode\n", "{t};{g};{v}")]
+    {
         let text = names.to_string() + &rows(row);
         let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
         assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
@@ -97,15 +96,9 @@ fn what_is_refused_is_shown() {
     };
     for (text, words) in [
         (with("us;v\n", |i, _, v| format!("{};{v:.2}", grouped(10 * i))), "has a comma"),
-        (
-            with("us;v\n", |i, _, v| format!("{};{:.0}", grouped(10 * i), 100.0 * v)),
-            "or a thousand",
-        ),
+        (with("us;v\n", |i, _, v| format!("{};{:.0}", grouped(10 * i), 100.0 * v)), "or a thousand"),
         (with("t;v\n", |i, _, v| format!("1.000,{:02};{v:.5}", i % 100)), "thousand"),
-        (
-            with("", |_, t, v| format!("{:.3} ms; {v:.4} V", 1e3 * t)),
-            "its middle line is '6.000 ms;",
-        ),
+        (with("", |_, t, v| format!("{:.3} ms; {v:.4} V", 1e3 * t)), "its middle line is '6.000 ms;"),
     ] {
         let said = refused(text.as_bytes());
         assert!(said.contains(words), "{words}: {said}");
@@ -129,9 +122,7 @@ fn other_files_of_the_same_trace_are_read() {
     let text = with("t (µs),V\n", |_, t, v| format!("{:.2},{v:.5}", 1e6 * t));
     let latin: Vec<u8> = text.chars().map(|c| c as u32 as u8).collect();
     // A mark may say the encoding.
-    let wide = |text: &str, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
-        text.encode_utf16().flat_map(bytes).collect()
-    };
+    let wide = |text: &str, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> { text.encode_utf16().flat_map(bytes).collect() };
     let marked = format!("\u{feff}{text}");
     let broken = with("time_s,v\n", |i, t, v| match i {
         300 => format!("{t:.6},NaN"),
@@ -170,12 +161,7 @@ fn other_files_of_the_same_trace_are_read() {
 fn wav(floating: bool) -> Vec<u8> {
     let format = if floating { hound::SampleFormat::Float } else { hound::SampleFormat::Int };
     let bits_per_sample = if floating { 32 } else { 16 };
-    let spec = hound::WavSpec {
-        channels: 2,
-        sample_rate: 100_000,
-        bits_per_sample,
-        sample_format: format,
-    };
+    let spec = hound::WavSpec { channels: 2, sample_rate: 100_000, bits_per_sample, sample_format: format };
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut file = hound::WavWriter::new(&mut bytes, spec).unwrap();
     for v in rows("{v}").lines().map(|line| line.parse::<f64>().unwrap()) {
@@ -196,10 +182,7 @@ fn a_sound_is_read_and_doubted() {
     for floating in [false, true] {
         let (recording, exposure) = read(&wav(floating), &trace::Options::default()).unwrap();
         assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
-        assert_eq!(
-            recording.reading.to_string(),
-            "column 2 of 2; times: 100000 samples a second, by the file"
-        );
+        assert_eq!(recording.reading.to_string(), "column 2 of 2; times: 100000 samples a second, by the file");
         assert_eq!(recording.warnings, [Warning::SoundCard]);
     }
 }
@@ -265,8 +248,7 @@ fn doubted(text: &str, sync: Option<Sync>) -> (Fit, Recording, Vec<&'static str>
     let recording = open(text.as_bytes(), &trace::Options::default()).unwrap();
     let options = Options { timing: recording.timing.clone(), sync, ..Options::default() };
     let fit = fit(&recording.trace, &options, &mut |_| ()).unwrap();
-    let codes =
-        recording.warnings.iter().chain(&fit.warnings).map(|warning| warning.code()).collect();
+    let codes = recording.warnings.iter().chain(&fit.warnings).map(|warning| warning.code()).collect();
     (fit, recording, codes)
 }
 
@@ -276,8 +258,7 @@ fn segments_whose_times_begin_anew_are_shots() {
         let times = (0..700).map(|i| -2e-3 + 2e-5 * f64::from(i));
         let mut random = Random::new(later as u64);
         let openness = |t: f64| (t.min(0.005 + longer - t) / 6e-4).clamp(0.0, 1.0);
-        let rows =
-            times.map(|t| format!("{t:.6},{:.5}\n", openness(t - later) + 0.003 * random.normal()));
+        let rows = times.map(|t| format!("{t:.6},{:.5}\n", openness(t - later) + 0.003 * random.normal()));
         rows.collect()
     };
     let file = |segments: &[String]| format!("Time (s),A\n{}", segments.concat());
@@ -285,9 +266,7 @@ fn segments_whose_times_begin_anew_are_shots() {
     let (fit, recording, codes) = doubted(&equal, Some(Sync::Edge(0.0)));
     assert_eq!((fit.frames.count, fit.chosen, recording.reading.segments), (3, Kind::Trapezoid, 3));
     assert!(codes.is_empty(), "{codes:?}");
-    assert!(
-        (fit.exposure.value - 0.0044).abs() < 4.0 * fit.exposure.error && fit.exposure.error < 2e-6
-    );
+    assert!((fit.exposure.value - 0.0044).abs() < 4.0 * fit.exposure.error && fit.exposure.error < 2e-6);
     // Its times are those of its own segment.
     let later = [0.0, 4e-4, 2e-4][fit.frames.fitted - 1];
     assert!((fit.delay.unwrap().mean() - later).abs() < 3e-6);
@@ -296,14 +275,9 @@ fn segments_whose_times_begin_anew_are_shots() {
     // Another column's names between them begin another recording; the same ones do not.
     let [first, second] = [0.0, 1e-4].map(|later| segment(later, 0.0));
     let parted = |names: &str| {
-        open(
-            file(&[first.clone(), format!("{names}\n"), second.clone()]).as_bytes(),
-            &trace::Options::default(),
-        )
+        open(file(&[first.clone(), format!("{names}\n"), second.clone()]).as_bytes(), &trace::Options::default())
     };
-    assert!(
-        parted("Time (s),B").unwrap_err().to_string().contains("'Time (s),B' between the rows")
-    );
+    assert!(parted("Time (s),B").unwrap_err().to_string().contains("'Time (s),B' between the rows"));
     assert_eq!(parted("Time (s),A").unwrap().reading.segments, 2);
 }
 
@@ -318,26 +292,20 @@ fn uneven_samples_count_for_their_own_time() {
     assert!((pulses.frames[0].exposure / 0.005 - 1.0).abs() < 5e-3, "{:?}", pulses.frames);
 }
 
-/// A timer of 16 or 32 bits, or a second's fraction, goes on when it begins anew; nobody counts seconds by the hundred; a number may
-/// be a name.
+/// A timer of 16 or 32 bits, or a second's fraction, goes on when it begins anew; nobody counts seconds by the hundred;
+/// a number may be a name.
 #[test]
 fn a_timers_count_and_a_channels_number_are_not_misread() {
     let second = 1_000_000;
-    let timers =
-        [(1u64 << 16, 50, 600), (1 << 32, 10, 600), (second, 10, 600), (second, 1250, 800)];
+    let timers = [(1u64 << 16, 50, 600), (1 << 32, 10, 600), (second, 10, 600), (second, 1250, 800)];
     for (whole, tick, before) in timers {
         let first = whole - before * tick;
-        let text =
-            with("us,adc\n", |i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
+        let text = with("us,adc\n", |i, _, v| format!("{},{v:.4}", (first + tick * i as u64) % whole));
         let rated = trace::Options { rate: Some(1e6 / tick as f64), ..Default::default() };
         assert_eq!(open(text.as_bytes(), &rated).unwrap().reading.signal.0, 2);
         let (fit, _, codes) = doubted(&text, None);
         let truth = 500e-6 * tick as f64;
-        assert!(
-            codes.is_empty() && (fit.exposure.value / truth - 1.0).abs() < 2e-3,
-            "{codes:?} {:?}",
-            fit.exposure
-        );
+        assert!(codes.is_empty() && (fit.exposure.value / truth - 1.0).abs() < 2e-3, "{codes:?} {:?}", fit.exposure);
     }
     let timer = with("time,adc\n", |i, _, v| format!("{},{v:.4}", 212 * i));
     let said = read(timer.as_bytes(), &trace::Options::default()).unwrap_err();
@@ -353,8 +321,7 @@ fn a_timers_count_and_a_channels_number_are_not_misread() {
 fn rounded_times_are_spread_and_doubted() {
     let mut random = Random::new(21);
     let openness = |t: f64| ((t - 0.0123).min(0.0187 - t) / 4e-4).clamp(0.0, 1.0);
-    let values: Vec<f64> =
-        (0..2000).map(|i| openness(2e-5 * f64::from(i)) + 0.003 * random.normal()).collect();
+    let values: Vec<f64> = (0..2000).map(|i| openness(2e-5 * f64::from(i)) + 0.003 * random.normal()).collect();
     type Form<'a> = &'a dyn Fn(f64) -> String;
     let forms: [(&str, Form, f64); 6] = [
         ("t_s", &|t| format!("{:.2e}", t + 0.2), 0.2),
@@ -367,11 +334,8 @@ fn rounded_times_are_spread_and_doubted() {
     ];
     for (k, (name, form, start)) in forms.into_iter().enumerate() {
         let pace = if k == 5 { 0.75 } else { 1.0 };
-        let rows: String = values
-            .iter()
-            .enumerate()
-            .map(|(i, v)| format!("{},{v:.5}\n", form(2e-5 * i as f64)))
-            .collect();
+        let rows: String =
+            values.iter().enumerate().map(|(i, v)| format!("{},{v:.5}\n", form(2e-5 * i as f64))).collect();
         let (fit, _, codes) = doubted(&format!("{name},A\n{rows}"), None);
         assert!(codes[0] == "rounded_times" && codes.len() < 3, "{k}: {codes:?}");
         let off = [
@@ -382,19 +346,11 @@ fn rounded_times_are_spread_and_doubted() {
         for (found, truth) in off {
             assert!((found.value - truth).abs() < 3.0 * found.error, "{k}: {found:?} {truth}");
         }
-        assert!(
-            fit.exposure.error < 2e-4 && fit.chosen == Kind::Trapezoid,
-            "{k}: {:?} {:?}",
-            fit.exposure,
-            fit.chosen
-        );
+        assert!(fit.exposure.error < 2e-4 && fit.chosen == Kind::Trapezoid, "{k}: {:?} {:?}", fit.exposure, fit.chosen);
     }
     // Rows that come twice are no rounding.
-    let twice: String = values
-        .iter()
-        .enumerate()
-        .map(|(i, v)| format!("{:.5},{v:.5}\n", 2e-5 * i as f64).repeat(2))
-        .collect();
+    let twice: String =
+        values.iter().enumerate().map(|(i, v)| format!("{:.5},{v:.5}\n", 2e-5 * i as f64).repeat(2)).collect();
     assert_eq!(doubted(&format!("t_s,A\n{twice}"), None).2, ["duplicates"]);
 }
 
@@ -410,14 +366,9 @@ fn a_list_of_changes_is_read_as_light_and_as_sync() {
     assert!((fit.exposure.value - 0.0062).abs() < 1e-5, "{:?}", fit.exposure);
     assert!((fit.delay.unwrap().mean() - 0.0031).abs() < 1e-5);
     let (fit, _, codes) = doubted("Time [s],Channel 0\n0.0,0\n0.7,1\n0.7625,0\n", None);
-    assert!(
-        codes[0] == "changes" && (fit.exposure.value - 0.0625).abs() < 1e-4,
-        "{codes:?} {:?}",
-        fit.exposure
-    );
+    assert!(codes[0] == "changes" && (fit.exposure.value - 0.0625).abs() < 1e-4, "{codes:?} {:?}", fit.exposure);
     // A switch that was sampled is no list.
-    let sampled: String = (0..60)
-        .map(|i| format!("{},{}\n", 0.1 * f64::from(i), i32::from((20..40).contains(&i))))
-        .collect();
+    let sampled: String =
+        (0..60).map(|i| format!("{},{}\n", 0.1 * f64::from(i), i32::from((20..40).contains(&i)))).collect();
     assert!(!doubted(&format!("t_s,A\n{sampled}"), None).2.contains(&"changes"));
 }

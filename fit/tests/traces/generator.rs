@@ -1,5 +1,5 @@
-//! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time, sampled
-//! and integrated numerically.
+//! Synthetic traces with a known truth. Nothing here is shared with what is tested: a shutter is any function of time,
+//! sampled and integrated numerically.
 
 // Each test needs a part.
 #![allow(dead_code)]
@@ -193,9 +193,7 @@ pub fn truth(shutter: Shutter, random: &mut Random) -> Truth {
     let straight = || -> Ramp { Box::new(|z| z) };
     let controls = |random: &mut Random| [0; 4].map(|_| random.within(0.0, 1.0));
     match shutter {
-        Shutter::Box => {
-            Truth::new(straight(), straight(), [start, start, start + length, start + length])
-        }
+        Shutter::Box => Truth::new(straight(), straight(), [start, start, start + length, start + length]),
         Shutter::Trapezoid => Truth::new(straight(), straight(), times),
         // The blades start from rest and uncover a round pupil; they come back at their own pace.
         Shutter::Leaf => {
@@ -263,13 +261,7 @@ pub fn case(shutter: Shutter, disturbance: Disturbance, random: &mut Random) -> 
     traced(truth, disturbance, n, noise, random)
 }
 
-pub fn traced(
-    truth: Truth,
-    disturbance: Disturbance,
-    n: usize,
-    noise: f64,
-    random: &mut Random,
-) -> Case {
+pub fn traced(truth: Truth, disturbance: Disturbance, n: usize, noise: f64, random: &mut Random) -> Case {
     let (scale, dark) = (random.scale(1e-4, 10.0), random.within(-1.0, 1.0));
     let light = random.scale(0.05, 5.0) * if random.within(0.0, 1.0) < 0.3 { -1.0 } else { 1.0 };
     // One detector shows the moment, the other what it has gathered since its last sample.

@@ -1,5 +1,5 @@
-//! What `shutter fit` makes of shutters, lamps and recorders that no model of it has: right, or doubted aloud, or refused. The
-//! ordinary test judges some traces of each; the tables of docs/internals/fit.md come from
+//! What `shutter fit` makes of shutters, lamps and recorders that no model of it has: right, or doubted aloud, or
+//! refused. The ordinary test judges some traces of each; the tables of docs/internals/fit.md come from
 //!
 //! ```text
 //! cargo test --package shutter-fit --test traces physics:: -- --ignored --nocapture
@@ -44,8 +44,7 @@ impl Row {
 }
 
 fn is_about_the_result(warning: &Warning) -> bool {
-    let beside =
-        ["noise", "drift", "inverted", "sharp_edges", "hum", "spikes", "glitches", "partial_frame"];
+    let beside = ["noise", "drift", "inverted", "sharp_edges", "hum", "spikes", "glitches", "partial_frame"];
     !beside.contains(&warning.code())
 }
 
@@ -72,7 +71,8 @@ fn row(case: &Measured) -> Row {
         let holds = (trigger.value - truth).abs() <= 1.96 * trigger.error;
         triggers_covered += if holds { 1.0 / n } else { 0.0 };
     }
-    // Which of several shots was fitted is not known here: their triggers are not judged, and either exposure is as true.
+    // Which of several shots was fitted is not known here: their triggers are not judged, and either exposure is as
+    // true.
     let triggers = if case.others.is_empty() { squares.sqrt() } else { 0.0 };
     let truths = case.others.iter().chain([&exposure]);
     let off = truths.map(|truth| (fit.exposure.value - truth).abs()).fold(f64::INFINITY, f64::min);
@@ -133,10 +133,8 @@ fn table() {
         let rows = family_rows(family, count, seed);
         print(&format!("{family:?}"), &rows);
         // Blades that do what no model does: the trace's own exposure is within what is stated.
-        let is_blade = matches!(
-            family,
-            Family::Bounce | Family::DeepBounce | Family::Dip | Family::Overshoot | Family::Reopens
-        );
+        let is_blade =
+            matches!(family, Family::Bounce | Family::DeepBounce | Family::Dip | Family::Overshoot | Family::Reopens);
         let covered = rows.iter().filter(|row| row.covered).count() as f64 / rows.len() as f64;
         assert!(!is_blade || covered >= 0.8, "{family:?}: exposures covered: {covered}");
     }
@@ -156,8 +154,7 @@ fn unseen_mechanics() {
             let allowed = 4.0 * noise * (1.5 / lit).sqrt();
             let allowed = if by == Instrument::Sines { 2.0 * noise } else { allowed };
             let mut row = row(&case);
-            row.is_allowed =
-                row.triggers < allowed.max(WRONG.0) && row.exposure < allowed.max(WRONG.1);
+            row.is_allowed = row.triggers < allowed.max(WRONG.0) && row.exposure < allowed.max(WRONG.1);
             row
         })
     };
@@ -175,8 +172,8 @@ fn unseen_mechanics() {
     }
 }
 
-/// Right, or doubted aloud, or refused: some traces of each family. Of clipping nothing is left to see where the noise comes
-/// after it.
+/// Right, or doubted aloud, or refused: some traces of each family. Of clipping nothing is left to see where the noise
+/// comes after it.
 #[test]
 fn nothing_is_wrong_without_a_word() {
     for family in Family::iter().filter(|family| *family != Family::Clipped) {
@@ -211,8 +208,8 @@ fn a_tail_is_told() {
     assert!(told >= 23, "{told}");
 }
 
-/// A dip of 1 % for a fifth of the time is told, or that it would not be seen; full light that sinks by 0.5 to 2 % is, or is in
-/// the errors.
+/// A dip of 1 % for a fifth of the time is told, or that it would not be seen; full light that sinks by 0.5 to 2 % is,
+/// or is in the errors.
 #[test]
 fn a_dip_and_a_slope_are_told() {
     let [dips, slopes] = [Family::Shallow, Family::Sinks].map(|family| family_rows(family, 60, 5));
@@ -252,25 +249,18 @@ fn false_alarms() {
                 let case = case(shutter, disturbance, &mut Random::new(seed));
                 let fit = case.fitted(&Options::default());
                 let about = fit.warnings.iter().filter(|w| is_about_the_result(w));
-                let codes: Vec<&str> =
-                    about.map(Warning::code).filter(|c| *c != "no_plateau").collect();
-                (!codes.is_empty()).then(|| {
-                    format!("{codes:?} {:.1} {:.2}%", fit.test.sigma, 100.0 * fit.test.share)
-                })
+                let codes: Vec<&str> = about.map(Warning::code).filter(|c| *c != "no_plateau").collect();
+                (!codes.is_empty()).then(|| format!("{codes:?} {:.1} {:.2}%", fit.test.sigma, 100.0 * fit.test.share))
             });
             let told: Vec<String> = alarms.into_iter().flatten().collect();
-            println!(
-                "| {shutter:?} | {disturbance:?} | {count} | {} | {}",
-                told.len(),
-                told.join("; ")
-            );
+            println!("| {shutter:?} | {disturbance:?} | {count} | {} | {}", told.len(), told.join("; "));
         }
     }
 }
 
-/// How often the true start of opening lies within what a fit states of the delay to it. Of 24 traces of each shutter, 96 % or more
-/// were covered. For a liquid crystal, whose tail hides the length, the stated error is some thirty times too large; for no shutter
-/// was it too small on the whole.
+/// How often the true start of opening lies within what a fit states of the delay to it. Of 24 traces of each shutter,
+/// 96 % or more were covered. For a liquid crystal, whose tail hides the length, the stated error is some thirty times
+/// too large; for no shutter was it too small on the whole.
 #[test]
 fn the_true_start_of_opening_is_within_its_stated_error() {
     let options = Options { sync: Some(Sync::Edge(-1e3)), ..Options::default() };

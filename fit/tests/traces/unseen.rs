@@ -1,4 +1,5 @@
-//! A second set of mechanics and instruments on which nothing was tuned, mostly by equations of motion, for one honest count.
+//! A second set of mechanics and instruments on which nothing was tuned, mostly by equations of motion, for one honest
+//! count.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -108,9 +109,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
     let close = end - b;
     let [u, v, w, z] = [0; 4].map(|_| random.within(0.0, 1.0));
     // From a motion that opens, and another that closes.
-    let both = |opens: &Path, closes: &Path, t: f64| {
-        opens.at((t - start) / a).min(1.0 - closes.at((t - close) / b))
-    };
+    let both = |opens: &Path, closes: &Path, t: f64| opens.at((t - start) / a).min(1.0 - closes.at((t - close) / b));
     match mechanics {
         Mechanics::Cranks => {
             let ring = |drag: f64| Path::moved(Some(0.0), |x, speed| 1.0 - 0.5 * x - drag * speed);
@@ -168,8 +167,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
             let (above, slot) = (0.05 + 1.5 * u, 1.4 + 2.0 * v);
             let (from, to) = (f64::sqrt(above), f64::sqrt(above + slot + 1.0));
             Openness::new(|t| {
-                let fallen =
-                    (from + (to - from) * ((t - start) / length).max(0.0)).powi(2) - from.powi(2);
+                let fallen = (from + (to - from) * ((t - start) / length).max(0.0)).powi(2) - from.powi(2);
                 fallen.clamp(0.0, 1.0) - (fallen - slot).clamp(0.0, 1.0)
             })
         }
@@ -263,8 +261,7 @@ fn mechanics(mechanics: Mechanics, random: &mut Random) -> Openness {
                     *x
                 })
             };
-            let (opens, closes) =
-                (ring(0.03 + 0.1 * u, 0.02 + 0.05 * w), ring(0.03 + 0.1 * v, 0.02 + 0.05 * z));
+            let (opens, closes) = (ring(0.03 + 0.1 * u, 0.02 + 0.05 * w), ring(0.03 + 0.1 * v, 0.02 + 0.05 * z));
             Openness::new(|t| ((1.2 * both(&opens, &closes, t)).sin() / 1.2f64.sin()).powi(2))
         }
     }

@@ -453,8 +453,7 @@ impl Exact {
     fn place(&self, t: Dd) -> Place {
         let curve = &self.curve;
         let [start, open, close, end] =
-            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()]
-                .map(Dd::from);
+            [curve.open_start(), curve.open_end(), curve.close_start(), curve.close_end()].map(Dd::from);
         if t < start || t > end {
             Place::Outside
         } else if self.opens_at(t) {
@@ -569,7 +568,8 @@ impl Near<'_> {
         value_ulp(got, values, |value| ulp_f32(value.max(floor)))
     }
 
-    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor` of the ramp's greatest openness.
+    /// The error of an openness of `got`, see [`value_ulp`]; an ulp is at least `floor` of the ramp's greatest
+    /// openness.
     pub fn openness_ulp(&self, got: f32, floor: f64) -> f64 {
         self.density_ulp(got, Dd::ONE, floor)
     }

@@ -21,18 +21,14 @@ fn main() {
         (ROWS.iter().position(|row| row == name).unwrap_or(ROWS.len()), !is_typical)
     });
     let typical = curves.iter().filter(|(_, is_typical, _)| *is_typical).count();
-    let mut out =
-        format!("pub const TYPICAL: usize = {typical};\npub const CURVES: &[Curve] = &[\n");
+    let mut out = format!("pub const TYPICAL: usize = {typical};\npub const CURVES: &[Curve] = &[\n");
     for (name, _, curve) in curves {
         let searches = [hardest::<0>, hardest::<4>, hardest::<8>, hardest::<16>];
         let mut hard = hard_us(&Exact::new(&curve), 0, 128);
         hard.extend(searches.iter().flat_map(|hardest| hardest(&curve)));
         let Curve { opening, closing, .. } = curve;
-        writeln!(
-            out,
-            "Curve {{ name: {name:?}, opening: {opening:?}, closing: {closing:?}, hard: &{hard:?} }},"
-        )
-        .unwrap();
+        writeln!(out, "Curve {{ name: {name:?}, opening: {opening:?}, closing: {closing:?}, hard: &{hard:?} }},")
+            .unwrap();
     }
     out.push_str("];\n");
     let path = PathBuf::from(env::var("OUT_DIR").unwrap()).join("curves.rs");

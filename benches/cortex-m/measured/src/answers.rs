@@ -1,5 +1,5 @@
-//! One hash over the bits of many answers, hard ones among them: the same on every machine. All that is public is asked,
-//! so that what must not panic is just this.
+//! One hash over the bits of many answers, hard ones among them: the same on every machine. All that is public is
+//! asked, so that what must not panic is just this.
 
 use core::hash::{Hash, Hasher};
 use core::hint::black_box;
@@ -68,8 +68,9 @@ const ODD: [f32; 12] = {
     [f32::NAN, NONE, -NONE, -1.0, 2.0, max, -max, least, 1e-45, -0.0, 1.0, below_1]
 };
 
-/// For every number of octaves that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the data, built
-/// where this runs, with every hard input, as many uniform ones and odd ones; and of what is said to curves that are none.
+/// For every number of octaves that is measured, 0, 4, 8 and 16, the hash of the answers of every fourth curve of the
+/// data, built where this runs, with every hard input, as many uniform ones and odd ones; and of what is said to curves
+/// that are none.
 ///
 /// Each curve has one number of octaves, since an emulated processor without floats takes minutes for all.
 pub fn hashes() -> [u64; 4] {
@@ -77,9 +78,7 @@ pub fn hashes() -> [u64; 4] {
         let ramp = |i: usize| core::array::from_fn(|k| (t[i + k], f[i + k]));
         of_ramps([ramp(0), ramp(4)], &[])
     });
-    let mut all = hostile.fold([0; 4], |all: [u64; 4], more| {
-        core::array::from_fn(|i| all[i].rotate_left(1) ^ more[i])
-    });
+    let mut all = hostile.fold([0; 4], |all: [u64; 4], more| core::array::from_fn(|i| all[i].rotate_left(1) ^ more[i]));
     for (curve, i) in CURVES.iter().zip((0..4).cycle()) {
         let more = OF[i]([curve.opening, curve.closing], curve.hard);
         all[i] = all[i].rotate_left(1) ^ more;
@@ -119,8 +118,7 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     let (opening, closing) = CubicBezier::shutteropening(times, inner);
     let lines = (CubicBezier::line((a, 0.0), (b, 1.0)), CubicBezier::line((c, 1.0), (d, 0.0)));
     if OCTAVES == DEFAULT {
-        for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)]
-        {
+        for curve in [ShutterCurve::shutteropening(times, inner), ShutterCurve::linear(a, b, c, d)] {
             let curve = hash.curve(curve);
             hash.add(curve.map(|curve| curve.direct_triggers()));
         }
@@ -138,11 +136,7 @@ fn of<const OCTAVES: usize>(ramps: [Ramp; 2], us: &[f32]) -> u64 {
     hash.finish()
 }
 
-fn answers<const OCTAVES: usize>(
-    hash: &mut Fnv,
-    curve: &ShutterCurve<OCTAVES>,
-    us: impl Iterator<Item = f32>,
-) {
+fn answers<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>, us: impl Iterator<Item = f32>) {
     let (start, end) = (curve.open_start(), curve.close_end());
     hash.floats([start, curve.open_end(), curve.close_start(), end]);
     hash.floats([curve.exposure(), curve.normalization(), curve.efficiency()]);
@@ -157,15 +151,7 @@ fn answers<const OCTAVES: usize>(
 
 fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>) {
     hash.add([curve.direct_triggers()]);
-    for (n, hz) in [
-        (64, 1_000),
-        (33, 1_000_000),
-        (17, 1_000_000_000),
-        (0, 1),
-        (5, 0),
-        (5, u32::MAX),
-        (u32::MAX, 1),
-    ] {
+    for (n, hz) in [(64, 1_000), (33, 1_000_000), (17, 1_000_000_000), (0, 1), (5, 0), (5, u32::MAX), (u32::MAX, 1)] {
         if let Some(ticks) = hash.made(curve.trigger_ticks(n, hz)) {
             hash.add([ticks.is_direct(2)]);
             hash.all(ticks, |tick| tick);
@@ -176,12 +162,7 @@ fn schedules<const OCTAVES: usize>(hash: &mut Fnv, curve: &ShutterCurve<OCTAVES>
             }
         }
         let mut pulses = [Pulse::default(); 9];
-        hash.made(curve.pulses_into(
-            &mut pulses,
-            0.3,
-            hz,
-            PulseLimits { min_pulse: 3, min_gap: 7 },
-        ));
+        hash.made(curve.pulses_into(&mut pulses, 0.3, hz, PulseLimits { min_pulse: 3, min_gap: 7 }));
         hash.add(pulses);
         // The third is a gap that a part of the triggers would keep.
         for gap in [0, 7, (curve.exposure() * hz as f32 / 9.5) as u32, u32::MAX] {

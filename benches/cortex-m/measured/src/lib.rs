@@ -16,8 +16,8 @@ pub struct Curve {
     pub hard: &'static [f32],
 }
 
-// `CURVES`, first those with rows of their own in the report, and `TYPICAL`: so many of them are as scenes hold them, by the
-// reference data; these are the first, too.
+// `CURVES`, first those with rows of their own in the report, and `TYPICAL`: so many of them are as scenes hold them,
+// by the reference data; these are the first, too.
 include!(concat!(env!("OUT_DIR"), "/curves.rs"));
 
 impl Curve {
@@ -55,7 +55,8 @@ pub fn uniform(i: u32) -> f32 {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
     InverseCdf,
-    /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a reference.
+    /// The inverse of a curve in a `static`, which the compiler sees, as firmware has it; the others call by a
+    /// reference.
     Static,
     Cdf,
     Openness,
@@ -150,8 +151,8 @@ impl Series {
         (0..count).map(uniform).chain(hard.iter().copied())
     }
 
-    /// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or one of
-    /// [`TRIGGERS`] and for each hard input the one that starts nearest to it.
+    /// The frames whose first steps are measured, as how many triggers and how many steps: one of [`UNIFORM`], or one
+    /// of [`TRIGGERS`] and for each hard input the one that starts nearest to it.
     pub fn frames(self) -> impl Iterator<Item = (u32, u32)> {
         let is_hard = self.inputs == Inputs::Hard;
         let whole = if is_hard { TRIGGERS } else { UNIFORM };
@@ -166,8 +167,8 @@ impl Series {
     }
 }
 
-/// Whether the time of curves is scaled: they are built as they are, and with intervals of a second up to twice that, for the
-/// rate of the timer is the same for all.
+/// Whether the time of curves is scaled: they are built as they are, and with intervals of a second up to twice that,
+/// for the rate of the timer is the same for all.
 pub const SCALES: [bool; 2] = [false, true];
 
 /// The triggers of a planned frame, and the timer's rate.

@@ -1,12 +1,7 @@
-//! Where a program runs: on one of QEMU's boards with an Arm core; as a bare Linux program, by system calls alone, for other
-//! processors in QEMU's user mode; or as WebAssembly, of which the host is asked to print. It starts in the program's `run`
-//! and panics in its `panicked`.
-#![allow(
-    dead_code,
-    unreachable_code,
-    unused_imports,
-    reason = "a program needs a part, and some run for ever"
-)]
+//! Where a program runs: on one of QEMU's boards with an Arm core; as a bare Linux program, by system calls alone, for
+//! other processors in QEMU's user mode; or as WebAssembly, of which the host is asked to print. It starts in the
+//! program's `run` and panics in its `panicked`.
+#![allow(dead_code, unreachable_code, unused_imports, reason = "a program needs a part, and some run for ever")]
 
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;

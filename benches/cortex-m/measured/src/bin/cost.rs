@@ -1,8 +1,8 @@
 //! Runs the series of calls that it is asked for, for the host to count in QEMU's trace.
 //!
-//! Building all curves takes a thousand times the instructions of what is measured, too many to trace. So the firmware runs
-//! twice: where its input is empty it builds them and prints their bytes. These begin the second run's input, and the series
-//! follow.
+//! Building all curves takes a thousand times the instructions of what is measured, too many to trace. So the firmware
+//! runs twice: where its input is empty it builds them and prints their bytes. These begin the second run's input, and
+//! the series follow.
 #![no_std]
 #![no_main]
 #![cfg_attr(bare, feature(core_intrinsics), allow(internal_features))]
@@ -38,11 +38,7 @@ fn fpu_sqrt(x: f32) -> f32 {
 /// The processor's instruction, or else `libm`'s code.
 #[inline(always)]
 fn own_sqrt(x: f32) -> f32 {
-    if cfg!(any(target_abi = "eabihf", target_feature = "f")) {
-        fpu_sqrt(x)
-    } else {
-        libm::sqrtf(x)
-    }
+    if cfg!(any(target_abi = "eabihf", target_feature = "f")) { fpu_sqrt(x) } else { libm::sqrtf(x) }
 }
 
 /// The inverse of each typical curve, in a `static` of its own.
@@ -74,10 +70,7 @@ fn each<I, O>(inputs: impl Iterator<Item = I>, mut call: impl FnMut(I) -> O) {
 type Curves<const C: usize> = [[ShutterCurve<C>; CURVES.len()]; SCALES.len()];
 
 /// The first run's curves; or else they are built, and written for the next.
-fn curves<'a, const C: usize>(
-    input: &mut In,
-    place: &'a mut MaybeUninit<Curves<C>>,
-) -> &'a Curves<C> {
+fn curves<'a, const C: usize>(input: &mut In, place: &'a mut MaybeUninit<Curves<C>>) -> &'a Curves<C> {
     let first = place.as_mut_ptr();
     // SAFETY: of that length, and zeroed.
     let bytes = || unsafe { core::slice::from_raw_parts_mut(first.cast(), size_of::<Curves<C>>()) };
@@ -94,11 +87,7 @@ fn curves<'a, const C: usize>(
     unsafe { place.assume_init_ref() }
 }
 
-fn by_square_roots(
-    us: impl Iterator<Item = f32>,
-    curve: &measured::Curve,
-    sqrt: impl Fn(f32) -> f32 + Copy,
-) {
+fn by_square_roots(us: impl Iterator<Item = f32>, curve: &measured::Curve, sqrt: impl Fn(f32) -> f32 + Copy) {
     let ramps = black_box(curve.straight());
     let inverse = |ramps: &StraightRamps, u| ramps.inverse_cdf(u, sqrt);
     each(us, |u| the_call(inverse, &ramps, u))
@@ -123,8 +112,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
         }),
         Function::Schedule => {
             let mut ticks = [0; TRIGGERS as usize];
-            let plan = |curve: &ShutterCurve<C>,
-                        (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
+            let plan = |curve: &ShutterCurve<C>, (ticks, gap): (&mut [u32; TRIGGERS as usize], u32)| {
                 curve.ticks_into(ticks, TICK_HZ, gap)
             };
             // On hard curves triggers may share a tick.
@@ -136,8 +124,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
         }
         Function::Construct => {
             let mut built = None;
-            let build =
-                |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
+            let build = |opening: &_, closing: &_| ShutterCurve::<C>::with_octaves(*opening, *closing);
             each([data.ramps(false)].into_iter(), |(opening, closing)| {
                 built = the_call(build, &opening, &closing).ok();
             });
@@ -164,12 +151,7 @@ fn run_series<const C: usize>(series: Series, curves: &Curves<C>) {
 
 fn run() {
     let mut input = In::new();
-    let mut places = (
-        MaybeUninit::zeroed(),
-        MaybeUninit::zeroed(),
-        MaybeUninit::zeroed(),
-        MaybeUninit::zeroed(),
-    );
+    let mut places = (MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed(), MaybeUninit::zeroed());
     let with_0 = curves::<0>(&mut input, &mut places.0);
     let with_4 = curves::<4>(&mut input, &mut places.1);
     let with_8 = curves::<8>(&mut input, &mut places.2);
