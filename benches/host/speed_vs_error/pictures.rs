@@ -152,7 +152,7 @@ pub fn frontier(path: &str, measured: &Measured) {
                     Octaves8 => (0, -54, HPos::Center),
                     Octaves4 => (0, -26, HPos::Center),
                     Table256 => (-18, -10, HPos::Right),
-                    RootFpu => (-18, 0, HPos::Right),
+                    RootFpu => (-18, 20, HPos::Right),
                     // Below the ring.
                     Nearer => (0, 118, HPos::Center),
                     RootLibm => (0, 104, HPos::Center),
