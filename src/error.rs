@@ -182,7 +182,7 @@ pub enum ScheduleError {
         /// The most that it can have: 2²².
         most: u32,
     },
-    /// More triggers than the schedule can hold.
+    /// More triggers than the `Vec` can hold.
     CapacityExceeded {
         /// How many it can hold.
         capacity: u32,

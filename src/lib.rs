@@ -29,7 +29,7 @@
 //! |---|---|
 //! | a shutter from two [`CubicBezier`]s, from straight ramps, in RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a constant curve; a fault in it stops the build | [`valid`] |
-//! | a smaller curve that needs more searches, or a larger one that needs fewer | [`with_octaves`] |
+//! | a smaller curve: fewer stored polynomials, more searches; or a larger one | [`with_octaves`] |
 //! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
@@ -64,7 +64,7 @@
 //!
 //! A `static` curve takes 1144 bytes of flash and no time at start-up. By a model of a Cortex-M4F, an [`inverse_cdf`]
 //! takes some 60 to 110 cycles on average, but a search 500 to 2200 (more on a [`density`] that is 0 at both ends).
-//! Frames of up to [`direct_triggers`] never need one. Building a curve at run time takes some 2.9 million cycles. The
+//! Up to [`direct_triggers`] triggers never need one. Building a curve at run time takes some 2.9 million cycles. The
 //! README compares other methods, and says when not to use this crate.
 //!
 //! # Features and minimum Rust

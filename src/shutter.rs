@@ -11,16 +11,16 @@ use crate::trigger::iterator::{PulseTicks, TriggerTicks};
 use crate::trigger::pulse::{Pulse, PulseLimits, Pulses};
 use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 
-/// A shutter: it answers when a given fraction of the exposure has been collected, and when to fire flashes of equal
-/// shares.
+/// A shutter: it tells when a given fraction of the exposure has been collected, and when to fire a flash per equal
+/// share.
 ///
 /// Its openness over time, `0 <= f <= 1`, is an opening cubic Bezier, a fully open plateau and a closing cubic Bezier.
 /// It is treated as a probability density.
 ///
 /// **Which curves are accepted.** Any other is a [`CurveError`] that names the broken rule.
 ///
-/// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Either ramp may have no length
-///    (a box), and the plateau may have none (a triangle).
+/// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Both ramps may have no
+///    length (a box), or one, or the plateau (a triangle).
 /// 2. Inner control times lie between their ramp's ends, and every openness is in [0, 1]. The first inner
 ///    time may be later than the second by at most 15/16 of the ramp.
 /// 3. Ramps that have length are fully open, at openness 1, where they meet the plateau or each other.
@@ -32,8 +32,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// Times are in seconds, or all times and rates in one other unit ([Units](crate#units)).
 ///
-/// On ramps stored polynomials answer most fractions `u`, a search the rest. `OCTAVES`, by default 8, is the most for a
-/// half of [0, 1]; [`with_octaves`](Self::with_octaves) sets it. The promised accuracy is the same for every number.
+/// On ramps stored polynomials, one an octave, answer most fractions `u`, a search the rest. Either half of [0, 1] has
+/// at most `OCTAVES`, by default 8 ([`with_octaves`](Self::with_octaves)). The promised accuracy is always the same.
 /// With 8, about one `u` in 500 of a typical curve needs a search; with 0, every `u` on a ramp does. A curve takes 376
 /// bytes, and 96 more for each octave. More than 64 octaves do not compile, and beyond 16 a constant may exceed the
 /// compiler's limit on evaluation.
@@ -304,8 +304,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// How many triggers a frame may have so that each tick takes a short, bounded time: none needs a search.
-    /// `docs/internals/cost.md` has the cycles. Pulses may need one.
+    /// How many triggers a frame may have so that each tick takes a short, bounded time: none needs a search
+    /// (pulses may). `docs/internals/cost.md` has the cycles.
     ///
     /// It is at most 2²². With 8 octaves it is 127 or more on most typical curves; one octave more gives up to about
     /// twice that. It is 0 on curves too difficult for polynomials, and with `OCTAVES = 0` unless the middle of the
@@ -349,7 +349,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// On typical curves each tick is within 0.85 tick of the exact time, in intervals of up to 2²⁴ ticks. In longer
-    /// intervals an ulp may be many ticks: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
+    /// ones it may be many ticks off: 8 were seen at 2²⁹, and 32 at 2³¹. On every curve the tick of trigger `i` is
     /// within 0.52 tick of the exact time of some fraction within one ulp of `u = (2i + 1) / 2n`. That is an ulp of `u`
     /// or of `1 - u`, whichever is less.
     ///
