@@ -213,7 +213,10 @@ impl Settings {
         };
         let is_sure = unit.is_some() || kind == Kind::Rate;
         match kind {
-            Kind::Rate | Kind::Step | Kind::Clock if x > 0.0 && x.is_finite() => self.steps.push((words(), x, is_sure)),
+            // No recorder takes samples less than a femtosecond or more than years apart.
+            Kind::Rate | Kind::Step | Kind::Clock if (1e-15..1e9).contains(&x) => {
+                self.steps.push((words(), x, is_sure))
+            }
             Kind::Start | Kind::Begin | Kind::Trigger | Kind::Zero if x.is_finite() => {
                 self.zeros.push((kind, x, is_sure))
             }
@@ -274,7 +277,7 @@ mod tests {
         for text in ten_microseconds.split('|') {
             assert!((step(text).unwrap_or_default() - 1e-5).abs() < 1e-15, "{text}: {:?}", step(text));
         }
-        let nothing = "Interval,2|10 msec|Sample rate: 0.00001|Sample interval: 10|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
+        let nothing = "Interval,2|10 msec|Sample interval: 1e-300 s|Sample rate: 0.00001|Sample interval: 10|Sample interval (ms): 10 us|Sample rate: 100 k|Sample rate: 10 us|Sample rate: 100,000 Hz|Clock: 84 MHz\
             |Sample rate: 50 kHz (actual 100 kHz)|Max. sampling rate: 1 GS/s|CPU clock: 84 MHz|Frequency: 125 Hz\
             |Sample rate: 100.000 Hz|Sample rate: 1.000.000|Exposure period: 8 ms|Mains frequency,50 Hz|Sample rate: 2 x 50 kHz|Sample rate: 100-200 kHz";
         nothing.split('|').for_each(|text| assert_eq!(step(text), None, "{text}"));
