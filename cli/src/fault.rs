@@ -3,13 +3,14 @@
 use std::fmt;
 
 use shutter_curve::{CurveError, ScheduleError};
+use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count, short};
 use strum::{EnumDiscriminants, VariantNames};
 use thiserror::Error;
 use toml::Spanned;
 
-use crate::plan::MOST_TRIGGERS;
-use crate::timer::Timer;
+/// The digits of an inner control number: all that `f32` keeps.
+pub(crate) const DIGITS: i32 = 9;
 
 /// What is wrong with a scene, and at which byte of its text, where that is known.
 #[derive(Debug)]
@@ -62,19 +63,20 @@ impl Fault {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ticks {
     pub(crate) count: i64,
-    pub(crate) timer: Timer,
+    pub(crate) hz: u32,
+    pub(crate) is_given: bool,
     pub(crate) unit: Unit,
 }
 
 impl Ticks {
     /// How long they last.
     pub fn seconds(self) -> f64 {
-        self.count as f64 / f64::from(self.timer.hz)
+        self.count as f64 / f64::from(self.hz)
     }
 
     /// The same, as what is required.
     fn required(self) -> String {
-        match (self.timer.is_given, self.count) {
+        match (self.is_given, self.count) {
             (false, _) => format!("{self} is required"),
             (true, 1) => "1 is required".into(),
             (true, ticks) => format!("{ticks} are required"),
@@ -93,7 +95,7 @@ impl Ticks {
 
 impl fmt::Display for Ticks {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(&match self.timer.is_given {
+        out.write_str(&match self.is_given {
             true => count(self.count.unsigned_abs(), "tick"),
             false => self.unit.show(self.seconds().abs()),
         })
@@ -130,7 +132,7 @@ pub enum What {
     Curve(#[from] CurveError),
     #[error("{error}; it lasts {}", .unit.show(*.seconds))]
     Lasts { error: CurveError, seconds: f64, unit: Unit },
-    #[error("{error}; it is {}", short(*.number, crate::scene::DIGITS))]
+    #[error("{error}; it is {}", short(*.number, DIGITS))]
     Inner { error: CurveError, number: f64 },
     #[error("{key}: it is beyond f32 (3.4e38 s)")]
     Beyond { key: &'static str },

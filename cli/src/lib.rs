@@ -7,6 +7,7 @@
 
 #[cfg(feature = "terminal")]
 pub mod command;
+pub mod common;
 pub mod delay;
 pub mod emit;
 pub mod facts;

@@ -6,10 +6,10 @@ use shutter_curve::{ScheduleError, ShutterCurve};
 pub use shutter_fit::MOST_TRIGGERS;
 use shutter_fit::unit::{Unit, count};
 
+use crate::common::Common;
 use crate::delay::{Delay, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::{Flash, FullyOpen, Lamp, SetUp};
-use crate::planned::Common;
 use crate::scene::{Scene, not_negative, positive, whole};
 use crate::shape::Shape;
 use crate::timer::Timer;
@@ -289,7 +289,7 @@ impl Problem {
     /// What is wrong with the frame of `n` triggers, and what would help.
     fn told(&self, scene: &Scene, frames: &Frames, asked: &Asked, n: u32) -> Fault {
         let most = frames.checked(asked, 1).is_ok().then(|| frames.most(asked, 1, n));
-        let ticks = |count| Ticks { count, timer: frames.timer, unit: frames.unit };
+        let ticks = |count| Ticks { count, hz: frames.timer.hz, is_given: frames.timer.is_given, unit: frames.unit };
         let [dark, lit] = [asked.dark, asked.lit].map(|least| ticks(i64::try_from(least).unwrap_or(i64::MAX)));
         let pair = |first, gap| Pair { first, gap: ticks(gap), least: dark };
         let what = match (asked.lamp, *self) {

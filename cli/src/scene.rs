@@ -7,7 +7,7 @@ use shutter_fit::unit::{Unit, rounded, short};
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::fault::{Fault, What};
+use crate::fault::{DIGITS, Fault, What};
 use crate::lamp::SetUp;
 use crate::shape::Shape;
 
@@ -182,9 +182,6 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
         Fault::of(at, What::Text(reason))
     })
 }
-
-/// The digits of an inner control number: all that `f32` keeps.
-pub(crate) const DIGITS: i32 = 9;
 
 /// So much of the interval a time may be off by its rounding to `f32`: less than what a good measurement is.
 const ROUNDING: f64 = 1e-4;

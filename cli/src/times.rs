@@ -7,11 +7,11 @@ use shutter_fit::unit::Unit;
 use toml::Spanned;
 use toml::de::DeTable;
 
+use crate::common::Common;
 use crate::delay::{Delay, LAST, Lag, Sync};
 use crate::fault::{Fault, Pair, Ticks, What};
 use crate::lamp::SetUp;
 use crate::plan::{MOST_TRIGGERS, whole_ticks};
-use crate::planned::Common;
 use crate::scene::{self, Number, TRIGGER_TIMES as KEY};
 use crate::timer::Timer;
 
@@ -174,7 +174,7 @@ fn triggers(scene: &Scene, unit: Unit, start: f64, timer: Timer, gap: u64) -> Re
                 return fault(What::TimesOutOfOrder { i: i - 1 });
             }
             if by < gap {
-                let ticks = |count| Ticks { count, timer, unit };
+                let ticks = |count| Ticks { count, hz: timer.hz, is_given: timer.is_given, unit };
                 let (gap, least) = (ticks(by), ticks(gap));
                 return fault(What::TimesClose(Pair { first: i - 1, gap, least }));
             }

@@ -12,6 +12,9 @@ export function svg(tag, attributes = {}, parent) {
   return made;
 }
 
+/** A place as a picture takes it, however far outside it is. */
+export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
+
 export function write(element, text) {
   const node = element.firstChild ?? element.appendChild(document.createTextNode(''));
   if (node.data !== text) node.data = text;

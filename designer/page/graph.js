@@ -1,6 +1,6 @@
 // The curve with the equal shares and the flashes, and a trace; below it the share of the exposure.
 
-import { $, svg, watch, write } from './dom.js';
+import { $, atMost, svg, watch, write } from './dom.js';
 import { Handles } from './handles.js';
 import { model, tell } from './model.js';
 import { isSameShape, perSecond, short, tidy } from './scene.js';
@@ -62,9 +62,6 @@ function left({ samples }, fitted, view) {
 
 /** The root of the mean square of what is left. */
 export const rms = (samples) => Math.sqrt(samples.reduce((sum, [, , r]) => sum + r * r, 0) / samples.length);
-
-// A place as a picture takes it, however far outside it is.
-export const atMost = (x) => Math.min(Math.max(x, -1e5), 1e5).toFixed(1);
 
 /** The graph in `box`. */
 export class Graph {

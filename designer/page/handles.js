@@ -1,7 +1,6 @@
 // The handles of the graph: moved by mouse, finger and keys, each in its box.
 
-import { svg } from './dom.js';
-import { atMost } from './graph.js';
+import { atMost, svg } from './dom.js';
 import { change, model } from './model.js';
 import { INNER, TIMES, innerOf, short, tidy, withInner, withTimes } from './scene.js';
 import { allowed } from './view.js';

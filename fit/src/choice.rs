@@ -3,6 +3,7 @@
 
 use std::cmp::max_by_key;
 
+use crate::columns;
 use crate::frame::FrameFits;
 use crate::missed::Parts;
 use crate::noise::slow_correlation;
@@ -13,12 +14,12 @@ use crate::trace::{Frame, Pulses};
 
 /// The fits of a frame; `progress` is told the share that is done, as far as that is known.
 pub fn fits(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> FrameFits {
-    let mut fits = FrameFits::new(pulses, frame, mains, progress);
+    let mut fits = columns::fits(pulses, frame, mains, progress);
     if structure(&fits, Kind::Free).test.explained {
         return fits;
     }
     // A lamp's flicker is looked for where there is something to explain, and taken where it explains that.
-    if let Some(others) = fits.flickering().filter(|others| structure(others, Kind::Free).test.explained) {
+    if let Some(others) = columns::flickering(&fits).filter(|others| structure(others, Kind::Free).test.explained) {
         return others;
     }
     // What the freest curve misses is no noise, and counts for none of it.

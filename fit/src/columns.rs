@@ -6,6 +6,7 @@ use crate::hum;
 use crate::lag::{falls, lagging};
 use crate::noise::correlation;
 use crate::signal::{Flicker, Kind, Signal};
+use crate::trace::{Frame, Pulses};
 
 /// A column is kept if the criterion falls by more than this.
 const WORTH: f64 = 10.0;
@@ -16,9 +17,19 @@ const MAINS: [f64; 2] = [100.0, 120.0];
 /// Less than so many periods of it in a pulse cannot be told from the shutter's own shape.
 const FEWEST: f64 = 2.0;
 
+/// The fits of a frame with the columns that it asks for; `progress` is told the share that is done.
+pub fn fits(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> FrameFits {
+    // If a column turns out to be worth it, the search comes twice, half of the way each.
+    let mut fits = FrameFits::new(pulses, frame, &mut |done| progress(0.5 * done));
+    if let Some(free) = with_columns(&fits, mains) {
+        fits.search_with(free, &mut |done| progress(0.5 + 0.5 * done));
+    }
+    fits
+}
+
 /// The freest fit with a drift and a hum, if they are worth it and a tail does not explain as much; none where neither
 /// is.
-pub fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
+fn with_columns(fits: &FrameFits, mains: Option<f64>) -> Option<KindFit> {
     let plain = fits.of(Kind::Free);
     let is_tail = |KindFit { solution, .. }: &KindFit| {
         let falls = |lagging: Vec<f64>| falls(solution, fits.bins(), &lagging);
@@ -62,15 +73,18 @@ fn humming(fits: &FrameFits, without: &KindFit, mains: Option<f64>) -> Option<Ki
     hum::is_one(bins, &found.solution.signal).then_some(found)
 }
 
-/// The freest fit with the flicker of a lamp on the mains, if that is worth it.
-pub fn flickering(fits: &FrameFits) -> Option<KindFit> {
+/// The same fits with the flicker of a lamp on the mains, if that is worth it.
+pub fn flickering(fits: &FrameFits) -> Option<FrameFits> {
     let without = fits.of(Kind::Free);
     let frequencies = MAINS.into_iter().map(|hertz| hertz * fits.units.pulse);
     let found = frequencies.filter(|frequency| *frequency > FEWEST).filter_map(|frequency| {
         let flicker = Some(Flicker { frequency, terms: [0.0; 4] });
         if_worth_it(fits, &Signal { flicker, ..without.solution.signal }, without)
     });
-    found.min_by(|a, b| a.squares.total_cmp(&b.squares))
+    let found = found.min_by(|a, b| a.squares.total_cmp(&b.squares))?;
+    let mut others = fits.clone();
+    others.search_with(found, &mut |_| ());
+    Some(others)
 }
 
 /// The best signal near `start`, which has more columns than `without`, if that is worth it.

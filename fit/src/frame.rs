@@ -1,7 +1,6 @@
-//! One frame fitted by every kind of curve, with the columns that it asks for, in units of its own.
+//! One frame fitted by every kind of curve, in units of its own.
 
 use crate::bins::{self, Bin};
-use crate::columns;
 use crate::curve::{Exposure, Whole, fractions};
 use crate::noise::{self, slow_correlation};
 use crate::search::every_kind;
@@ -30,8 +29,8 @@ pub struct FrameFits {
 }
 
 impl FrameFits {
-    /// Fits every kind; `progress` is told the share that is done, as far as that is known.
-    pub fn new(pulses: &Pulses, frame: &Frame, mains: Option<f64>, progress: &mut dyn FnMut(f64)) -> Self {
+    /// Fits every kind without columns; `progress` is told the share that is done.
+    pub fn new(pulses: &Pulses, frame: &Frame, progress: &mut dyn FnMut(f64)) -> Self {
         let units = Units::new(frame, pulses.levels);
         let crossings = units.crossings(frame);
         let trace = units.inside(pulses.trace.part(&frame.samples));
@@ -46,20 +45,8 @@ impl FrameFits {
         let (kinds, correlation) = (Vec::new(), 1.0);
         let mut fits = Self { units, samples, step, problem, crossings, kinds, correlation, rounding };
 
-        // If a column turns out to be worth it, the search comes twice, half of the way each.
-        fits.search(&Signal::plain(), &mut |done| progress(0.5 * done));
-        if let Some(free) = columns::with_columns(&fits, mains) {
-            fits.search_with(free, &mut |done| progress(0.5 + 0.5 * done));
-        }
+        fits.search(&Signal::plain(), progress);
         fits
-    }
-
-    /// The same with the flicker of a lamp on the mains, where that is worth it.
-    pub fn flickering(&self) -> Option<Self> {
-        let found = columns::flickering(self)?;
-        let mut others = self.clone();
-        others.search_with(found, &mut |_| ());
-        Some(others)
     }
 
     /// Searches for every kind's best signal, from what `like` has beside its curve.
@@ -70,7 +57,7 @@ impl FrameFits {
     }
 
     /// The same from the columns of a fit of the freest kind, which may be better than where the search ends.
-    fn search_with(&mut self, free: KindFit, progress: &mut dyn FnMut(f64)) {
+    pub fn search_with(&mut self, free: KindFit, progress: &mut dyn FnMut(f64)) {
         self.search(&free.solution.signal, progress);
         let last = &mut self.kinds[Kind::Free as usize];
         if free.solution.cost < last.solution.cost {

@@ -4,8 +4,8 @@
 //! Its stages, in the order in which they happen:
 //!
 //! - [`crate::trace`]: the pulses, each in its frame, and the noise; `shots`: which frames are fitted;
-//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, with
-//!   the `columns` of a drift and a `hum`, and the `noise` that is left;
+//! - `frame`: a frame fitted by every kind: in its own `units`, as `bins`, by a `search` from starts with `solve`, and
+//!   the `noise` that is left; `columns`: with a drift, a `hum` or a flicker where the samples show it;
 //! - `choice`: the kinds compared, and one chosen; with a flicker, where that explains more;
 //! - `errors`: its results with their standard errors; `doubts`: what may be wrong with them, as a [`trace::Warning`];
 //! - `structure`, `patterns` (one by a `lag`): does that explain the samples? `running`: the results of the samples
