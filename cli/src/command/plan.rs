@@ -67,7 +67,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
         [] => vec![(DEFAULT.0.into(), checked(args, DEFAULT.0, DEFAULT.1)?)],
         paths => paths.iter().map(|path| read(args, path, &mut told)).collect::<Result<Vec<_>, String>>()?,
     };
-    if matches!(form, Some(Form::Rust | Form::C)) {
+    if form.is_some() {
         let dimmed = plans.iter().filter_map(|(name, plan)| Some((name, facts::dimmed(plan.plan()?)?)));
         told.extend(dimmed.map(|(name, doses)| {
             format!(

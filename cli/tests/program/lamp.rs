@@ -120,7 +120,10 @@ fn the_command_line_answers_for_one_run() {
     let answers = format!("{line} --set-up in_path --sync-falls true");
     for (more, keys) in [("", "pulse = 0.1"), ("--fully-open", "fully_open = true"), ("--duty 0.5", "duty = 0.5")] {
         let whole = hardware(&format!("delay = 2; sync_falls = true; {keys}"));
-        assert_eq!(folder.run(&format!("{answers} {more}")).quietly(), text(Form::Json, &whole));
+        let run = folder.run(&format!("{answers} {more}")).well();
+        assert_eq!(run.out, text(Form::Json, &whole));
+        // In every form, a table as well.
+        assert_eq!(run.err.contains("dims the flashes to"), more.is_empty(), "{}", run.err);
     }
     folder.refuses(&[
         (&format!("{answers} --duty 0.5 --fully-open"), "cannot be used with"),
