@@ -14,7 +14,7 @@ use support::curves::{
 };
 use support::designs::DESIGNS;
 use support::oracle::{Curve, Dd, Exact, Points, exp2};
-use support::promise::{FORWARD_MEAN, Figures, Questions, Reach};
+use support::promise::{BACKWARD, FORWARD, FORWARD_MEAN, Figures, Questions, Reach, SCALAR, TICK, TYPICAL_TICK, VALUE};
 use support::times;
 
 const SEED: u64 = 13;
@@ -25,6 +25,30 @@ const ALL: Reach = Reach { denominator: 64, frame: 40, turn: 0, is_typical: fals
 fn report(name: &str, figures: &Figures) {
     println!("{name}: {figures}");
     assert!(figures.breaches.is_empty(), "{:#?}", figures.breaches);
+}
+
+/// What is held here is what the pages promise.
+#[test]
+fn the_pages_have_these_numbers() {
+    let [accuracy, readme] = [include_str!("../docs/accuracy.md"), include_str!("../README.md")];
+    let forward = format!("{FORWARD} ulp, mean {FORWARD_MEAN} ");
+    for (page, row, promise) in [
+        (accuracy, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
+        (accuracy, "`inverse_cdf`, forward", forward),
+        (accuracy, "`cdf`", format!("{VALUE} ulp ")),
+        (accuracy, "`openness` and `pdf`", format!("{VALUE} ulp ")),
+        (accuracy, "`exposure`", format!("{SCALAR} ulp ")),
+        (accuracy, "a tick, to", format!("{TYPICAL_TICK} tick ")),
+        (accuracy, "a tick, distance", format!("{TICK} tick ")),
+        (accuracy, "a pulse's end", format!("{TICK} tick ")),
+        (readme, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
+        (readme, "`inverse_cdf`, forward", format!("{FORWARD} ulp ")),
+        (readme, "`cdf`, `openness`", format!("{VALUE} ulp ")),
+        (readme, "`trigger_ticks`", format!("{TYPICAL_TICK} tick ")),
+    ] {
+        let (_, told) = page.split_once(&format!("\n| {row}")).unwrap_or_else(|| panic!("no {row}"));
+        assert!(told.split(" | ").nth(1).is_some_and(|it| format!("{it} ").starts_with(&promise)), "{row}: {promise}");
+    }
 }
 
 /// With every number of octaves, or with some in turn.
