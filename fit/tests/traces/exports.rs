@@ -416,7 +416,7 @@ fn what_is_asked_beside_the_file_is_done() {
     for (text, options, column, told, exposure, codes) in cases {
         let (signal, times, found, doubted) = read(text, &options).expect("a fit");
         assert!(signal == column && times.contains(told) && doubted == codes, "{signal} {times} {doubted}");
-        assert!((found / exposure - 1.0).abs() < 5e-3, "{told}: {found}");
+        assert!((found / exposure - 1.0).abs() < 1e-3, "{told}: {found}");
     }
     let twice = read(&timed, &asked("2,gate", None, None)).unwrap_err();
     assert!(twice.contains("2, \"gate\" is asked for twice"), "{twice}");

@@ -46,7 +46,7 @@ fn of_two_signals_the_light_is_taken_and_the_other_named() {
     {
         let text = names.to_string() + &rows(row);
         let (recording, exposure) = read(text.as_bytes(), &trace::Options::default()).unwrap();
-        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
+        assert!((exposure / 0.005 - 1.0).abs() < 1e-3, "{exposure}");
         let [Warning::SecondSignal { taken, other, option }] = &recording.warnings[..] else {
             panic!("{:?}", recording.warnings);
         };
@@ -86,7 +86,7 @@ fn what_is_refused_is_shown() {
     assert!(said.contains("Sample") && said.contains("--rate 100000"), "{said}");
     let rated = trace::Options { rate: Some(1e5), ..Default::default() };
     let (_, exposure) = read(count.as_bytes(), &rated).unwrap();
-    assert!((exposure / 0.005 - 1.0).abs() < 2e-3);
+    assert!((exposure / 0.005 - 1.0).abs() < 1e-3);
     let in_ms = trace::Options { unit: Some(Unit::Millisecond), ..Default::default() };
     let (_, exposure) = read(count.as_bytes(), &in_ms).unwrap();
     assert!((exposure / 0.5 - 1.0).abs() < 2e-3);
@@ -153,7 +153,7 @@ fn other_files_of_the_same_trace_are_read() {
     ] {
         let (recording, exposure) = read(&bytes, &trace::Options::default()).unwrap();
         assert_eq!(recording.warnings, told);
-        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
+        assert!((exposure / 0.005 - 1.0).abs() < 1e-3, "{exposure}");
     }
 }
 
@@ -181,7 +181,7 @@ fn wav(floating: bool) -> Vec<u8> {
 fn a_sound_is_read_and_doubted() {
     for floating in [false, true] {
         let (recording, exposure) = read(&wav(floating), &trace::Options::default()).unwrap();
-        assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
+        assert!((exposure / 0.005 - 1.0).abs() < 1e-3, "{exposure}");
         assert_eq!(recording.reading.to_string(), "column 2 of 2; times: 100000 samples a second, by the file");
         assert_eq!(recording.warnings, [Warning::SoundCard]);
     }
@@ -193,7 +193,7 @@ fn a_sound_that_is_cut_off_is_said_to_be() {
     let whole = wav(false);
     // 4 bytes a sample, 200 samples short: the pulse is whole, and so is the dark after it.
     let (recording, exposure) = read(&whole[..whole.len() - 802], &plain).unwrap();
-    assert!((exposure / 0.005 - 1.0).abs() < 2e-3, "{exposure}");
+    assert!((exposure / 0.005 - 1.0).abs() < 1e-3, "{exposure}");
     let cut = Warning::CutOff { samples: 999, announced: 1200 };
     assert_eq!(recording.warnings, [Warning::SoundCard, cut.clone()]);
     assert_eq!(cut.code(), "cut_off");
