@@ -57,8 +57,9 @@
 //!
 //! On every accepted curve the *backward error* is at most 0.5 ulp: the answer is exact for a fraction within
 //! 0.5 ulp, but for its rounding to an `f32`. On typical curves the time is within 0.69 ulp of the exact one. Times and
-//! ticks never step back, and every machine with IEEE arithmetic gives the same bits. The page [`accuracy`] has every
-//! promise and what backs it.
+//! ticks never step back, and every machine with IEEE arithmetic gives the same bits. All of this holds unless a search
+//! ends at its limit of 74 evaluations, which no input is known to reach. The page [`accuracy`] has every promise and
+//! what backs it.
 //!
 //! # Cost
 //!
