@@ -1,13 +1,12 @@
 //! `shutter fit`: a measured trace in, the simplest shutter that serves out, as a scene.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write, stderr};
 use std::iter::once;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use shutter_fit::trace::{self, Column, Light, Refusal, Tell, Warning};
 use shutter_fit::unit::{Unit, count, short};
 use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
@@ -440,19 +439,18 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     Ok(Speed { name: file_name(path) + &more(read.len()), fit, warnings })
 }
 
-/// The fit, with a bar for whoever waits for it.
+/// The fit; whoever waits for it sees on a terminal how far it is.
 fn fitted(records: &[Record], options: &Options) -> Result<Fit, Refusal> {
-    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("fitting {bar:30} {percent:>3} % {elapsed}") {
-        bar.set_style(style);
-    }
+    let (begun, mut shown) = (Instant::now(), false);
     let mut progress = |done: f64| {
-        if bar.is_hidden() && bar.elapsed() > PATIENCE {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
+        if begun.elapsed() > PATIENCE && stderr().is_terminal() {
+            eprint!("\rfitting {:3.0} %", 100.0 * done);
+            shown = true;
         }
-        bar.set_position((1000.0 * done) as u64);
     };
     let fit = shutter_fit::fit_records(records, options, &mut progress);
-    bar.finish_and_clear();
+    if shown {
+        eprint!("\r             \r");
+    }
     fit
 }

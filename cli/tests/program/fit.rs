@@ -822,7 +822,7 @@ fn what_mends_is_an_option_of_the_program() {
     let refusals: Vec<_> = Refusal::iter().collect();
     let warnings: Vec<_> = Warning::iter().collect();
     let remedies = refusals.iter().filter_map(Tell::remedy).chain(warnings.iter().filter_map(Tell::remedy));
-    for option in remedies.map(<&str>::from) {
+    for option in remedies.map(|it| it.option()) {
         assert!(help.contains(&format!(" --{option} ")), "{option}");
     }
 }

@@ -6,14 +6,15 @@
 
 use std::fmt::Display;
 
-use strum::{EnumIter, IntoStaticStr};
+use serde::Serialize;
 use thiserror::Error;
 
 use super::samples::{CONTRAST, LARGEST};
 use crate::unit::{self, short};
 
 /// Why a trace cannot be fitted.
-#[derive(Clone, Debug, EnumIter, Error, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[cfg_attr(feature = "strum", derive(strum::EnumIter))]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
 pub enum Refusal {
@@ -150,10 +151,11 @@ fn either(first: &bool, second: &bool, one: &str, other: &str) -> String {
 }
 
 /// What is doubtful about a trace or about what was made of it. A variant's name in snake case is its code.
-#[derive(Clone, Debug, EnumIter, Error, IntoStaticStr, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq, Serialize)]
+#[cfg_attr(feature = "strum", derive(strum::EnumIter))]
 #[expect(missing_docs, reason = "a message tells what its values are")]
 #[non_exhaustive]
-#[strum(serialize_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub enum Warning {
     #[error("line {line}: {reason}; {} left out", such_rows(.count))]
     BrokenRows { count: usize, line: u64, reason: String },
@@ -250,7 +252,7 @@ pub enum Warning {
         "the recorder is coupled by a capacitor (AC), with a time constant of {}; that is undone; couple it for DC",
         time(.seconds)
     )]
-    #[strum(serialize = "ac_coupled")]
+    #[serde(rename = "ac_coupled")]
     Coupled { seconds: f64 },
     #[error(
         "the signal goes {} of the light to the other side of the dark, which light does not do: a recorder that is \
@@ -311,7 +313,7 @@ pub enum Warning {
         "noise of {:.1} % of the light hides the ramps' shape; average several shots, or use more light",
         100.0 * noise
     )]
-    #[strum(serialize = "noise")]
+    #[serde(rename = "noise")]
     NoiseHidesRamps { noise: f64 },
     #[error(
         "edges within two samples: each is known to {} at best (the sampling interval by the root of 12); sample \
@@ -377,9 +379,9 @@ pub enum Warning {
 }
 
 /// The setting that mends what is refused or doubtful.
-#[derive(Clone, Copy, Debug, IntoStaticStr, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[expect(missing_docs, reason = "as the program's options are called")]
-#[strum(serialize_all = "snake_case")]
+#[serde(rename_all = "snake_case")]
 pub enum Remedy<'a> {
     Rate,
     Unit,
@@ -392,6 +394,13 @@ pub enum Remedy<'a> {
     Sync,
     Triggers,
     Picture,
+}
+
+impl Remedy<'_> {
+    /// The option's name.
+    pub fn option(&self) -> &'static str {
+        serde_variant::to_variant_name(self).unwrap_or_default()
+    }
 }
 
 /// What is told of a trace.
@@ -410,7 +419,7 @@ pub trait Tell: Display {
             Remedy::Mains => "50 or 60",
             _ => "",
         };
-        let option = format!("--{} {value}", <&str>::from(remedy));
+        let option = format!("--{} {value}", remedy.option());
         format!("{self} ({})", option.trim_end())
     }
 }
@@ -452,7 +461,7 @@ impl Tell for Warning {
 impl Warning {
     /// A name that a program can ask for: it stays as it is.
     pub fn code(&self) -> &'static str {
-        self.into()
+        serde_variant::to_variant_name(self).unwrap_or_default()
     }
 
     /// Adds those of others that are not told yet.
