@@ -64,13 +64,14 @@ pub enum CurveError {
     DensityOutOfRange,
     /// The opening ramp does not end, or the closing ramp does not start, at openness 1.
     NotFullyOpen(Part),
-    /// The interval is shorter than 2⁻¹⁶ of the greatest |time|, and contains too few `f32` times.
+    /// The interval is shorter than 2⁻¹⁶ of the larger of `|open_start|` and `|close_end|`: it contains too few `f32`
+    /// times.
     IntervalUnresolved,
     /// The interval is shorter than 2⁻⁶⁴ or longer than 2⁶⁴.
     IntervalOutOfRange,
     /// The exposure of a [`density`](crate::ShutterCurve::density) is less than 2⁻²⁰ of its interval.
     DensityTooSmall,
-    /// This ramp, or the plateau, has a length below 2⁻²⁴ of the greatest |time|. A length of 0 is accepted.
+    /// This part is shorter than 2⁻²⁴ of the larger of `|open_start|` and `|close_end|`, but its length is not 0.
     TooShort(Part),
 }
 
@@ -174,7 +175,7 @@ pub enum ScheduleError {
     TickRateZero,
     /// The curve has more than 2³¹ ticks at this rate.
     TickRateTooHigh {
-        /// The greatest rate at which it does not, or 0 if there is none.
+        /// The highest rate that is accepted, or 0 if there is none.
         max: u32,
     },
     /// A frame cannot have so many triggers or pulses.

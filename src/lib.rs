@@ -23,7 +23,7 @@
 //! - A *frame* is all triggers, or all pulses, of one exposure.
 //! - A *tick* is one count of your timer.
 //! - An *ulp* is the distance from an `f32` to the next.
-//! - A *search* solves an equation by iteration. The crate searches where no stored polynomial has the answer.
+//! - A *search* finds a time by iteration. Each curve stores polynomials that give most times without a search.
 //!
 //! # Units
 //!
@@ -37,7 +37,7 @@
 //! | a shutter from [`CubicBezier`]s, straight ramps, or RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
 //! | a curve in a constant | [`expect_valid`] |
 //! | a smaller curve, or fewer searches | [`with_octaves`] |
-//! | a probability density from one Bezier; if it exceeds 1, scaled | [`density`], [`scaled`] |
+//! | a probability density from one Bezier | [`density`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness or the probability density at a time | [`cdf`], [`openness`], [`pdf`] |
 //! | the ticks of a frame with checked gaps, as an array or in a slice | [`ticks`], [`ticks_into`] |
@@ -50,8 +50,8 @@
 //!
 //! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
 //! module for firmware with the ticks of a frame, their delay from the camera's sync, and the curve as a `static`. You
-//! supply what the record does not show. The set-up is `in_path` if light passes through the measured shutter, or
-//! `emulated` if the camera's own shutter stays open. The program also needs the sync's edge and the timer's rate.
+//! supply three facts that the record does not show: the set-up, the sync's edge and the timer's rate. The set-up is
+//! `in_path` if light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
@@ -64,9 +64,9 @@
 //! # Accuracy
 //!
 //! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`. On
-//! typical curves, this is within 0.69 ulp of the exact time of `u`. Times and ticks never decrease as `u` grows. These
-//! promises require that no search reaches its limit of 74 steps; no input is known to do so. The page [`accuracy`] lists
-//! all promises, and what backs them.
+//! typical curves, the result is within 0.69 ulp of the exact time of `u`. Times and ticks never decrease as `u` grows.
+//! These promises assume that no search reaches its limit of 74 steps. No known input makes it do so. The page
+//! [`accuracy`] lists all promises, and what backs them.
 //!
 //! Every machine with IEEE arithmetic gives the same bits.
 //!
@@ -74,7 +74,7 @@
 //!
 //! A `static` curve takes 1144 bytes of flash and no start-up code. On a Cortex-M4F, [`inverse_cdf`] takes 60 to 110
 //! cycles on average, in a model. A search takes 500 to 2200, or more on a [`density`] that is 0 at both ends. A frame of
-//! up to [`direct_triggers`] triggers needs none. Building a curve at run time takes 2.9 million cycles.
+//! up to [`direct_triggers`] triggers needs no search. Building a curve at run time takes 2.9 million cycles.
 //!
 //! # Features and minimum Rust
 //!
@@ -89,7 +89,6 @@
 //! [`shutteropening`]: ShutterCurve::shutteropening
 //! [`with_octaves`]: ShutterCurve::with_octaves
 //! [`density`]: ShutterCurve::density
-//! [`scaled`]: CubicBezier::scaled
 //! [`inverse_cdf`]: ShutterCurve::inverse_cdf
 //! [`cdf`]: ShutterCurve::cdf
 //! [`openness`]: ShutterCurve::openness

@@ -18,24 +18,25 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// A constructor accepts a curve that keeps these rules. Otherwise it returns a [`CurveError`] that names the broken
 /// rule.
 ///
-/// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. A ramp or the plateau may have
-///    zero length.
+/// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Each part, a ramp or the
+///    plateau, may have zero length.
 /// 2. On each ramp, the times of the inner control points lie between the ramp's ends, and every openness is in [0, 1].
 ///    The first inner time may exceed the second by at most 15/16 of the ramp's length.
-/// 3. A ramp with a length has openness 1 where it meets the plateau or another ramp with a length.
-/// 4. The interval from `open_start` to `close_end` is 2⁻⁶⁴ to 2⁶⁴ long. It is at least 2⁻¹⁶ of the greatest |time|.
-/// 5. A ramp or plateau with a length is at least 2⁻²⁴ of the greatest |time| long.
+/// 3. Where two parts of non-zero length meet, the openness is 1.
+/// 4. The interval from `open_start` to `close_end` is 2⁻⁶⁴ to 2⁶⁴ long. It is at least 2⁻¹⁶ of the larger of
+///    `|open_start|` and `|close_end|`.
+/// 5. Each part has zero length, or at least 2⁻²⁴ of that larger number.
 /// 6. The exposure of a [`density`](Self::density) is at least 2⁻²⁰ of its interval.
 ///
 /// # Octaves
 ///
-/// An *octave* is a range of fractions that differ by at most a factor of 2, counted from the nearer end of the curve.
-/// On ramps, the curve stores a polynomial for each of the largest octaves. They answer most fractions; a search
-/// answers the rest. Each half of the exposure has at most `OCTAVES` polynomials.
+/// An *octave* is a range of fractions over which `u` doubles, or `1 - u` in the upper half. On ramps, the curve stores
+/// a polynomial for each of the largest octaves, up to `OCTAVES` in each half. The polynomials answer most fractions,
+/// and a search answers the rest.
 ///
 /// With the default of 8, about one fraction in 500 of a typical curve needs a search. With 0, every fraction on a ramp
-/// does. The promised accuracy is the same for every `OCTAVES`. A curve takes 376 bytes, plus 96 for each octave. The
-/// maximum is 64. Above 16, a constant may exceed the compiler's limit on evaluation.
+/// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
+/// Above 16, a constant may exceed the compiler's limit on evaluation.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) inverse: Inverse<OCTAVES>,
@@ -300,8 +301,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// The largest number of triggers in a frame that needs no search. The time for each tick is then short and
-    /// bounded. This does not cover pulses.
+    /// The largest number of triggers that a frame can have without a search. Each tick then takes a short, bounded
+    /// time. Pulses may need searches even in smaller frames.
     ///
     /// On most typical curves it is 127 or more with 8 [octaves](Self#octaves), and each further octave can almost
     /// double it. It never exceeds 2²². It is 0 on curves that are too difficult for polynomials. With `OCTAVES = 0` it
@@ -334,7 +335,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// the fraction `u = (2i + 1) / 2n`. Ticks count from [`open_start`](Self::open_start) and never decrease. Add your
     /// timer's count at that moment, with `wrapping_add`.
     ///
-    /// `timer_hz` is the timer's rate if the curve is in seconds. The crate cannot detect a wrong rate.
+    /// `timer_hz` is your timer's rate, in Hz for a curve in seconds. The crate cannot detect a wrong rate.
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, expect_valid};
@@ -371,8 +372,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A gap is too small; the slice then holds part of the frame. The errors of [`trigger_ticks`](Self::trigger_ticks)
-    /// leave the slice unchanged.
+    /// If a gap is too small, the slice holds part of the frame. After an error of
+    /// [`trigger_ticks`](Self::trigger_ticks), the slice is unchanged.
     pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
@@ -500,8 +501,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// A pulse or a gap is too short; the slice then holds part of the frame. The errors of
-    /// [`pulse_ticks`](Self::pulse_ticks) leave the slice unchanged.
+    /// If a pulse or a gap is too short, the slice holds part of the frame. After an error of
+    /// [`pulse_ticks`](Self::pulse_ticks), the slice is unchanged.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],

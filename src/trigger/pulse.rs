@@ -8,9 +8,9 @@ use crate::trigger::ticks::Ticks;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pulse {
-    /// The lamp goes on.
+    /// The tick at which the lamp goes on.
     pub on: u32,
-    /// The lamp goes off.
+    /// The tick at which the lamp goes off.
     pub off: u32,
 }
 
