@@ -23,6 +23,7 @@
 //! - A *frame* is all triggers, or all pulses, of one exposure.
 //! - A *tick* is one count of your timer.
 //! - An *ulp* is the distance from an `f32` to the next.
+//! - *Typical curves* are boxes, trapezoids, film shutters, and random curves with gentle ramps.
 //! - A *search* finds a time by iteration. Each curve stores polynomials that give most times without a search.
 //!
 //! # Units
@@ -66,7 +67,7 @@
 //! On every curve, [`inverse_cdf`] returns the exact time of some fraction within 0.5 ulp of `u`, rounded to `f32`. On
 //! typical curves, the result is within 0.69 ulp of the exact time of `u`. Times and ticks never decrease as `u` grows.
 //! These promises assume that no search reaches its limit of 74 steps. No known input makes it do so. The page
-//! [`accuracy`] lists all promises, and what backs them.
+//! [`accuracy`] lists all promises and the evidence for them.
 //!
 //! Every machine with IEEE arithmetic gives the same bits.
 //!

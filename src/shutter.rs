@@ -20,8 +20,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// 1. All numbers are finite, and `open_start <= open_end <= close_start <= close_end`. Each part, a ramp or the
 ///    plateau, may have zero length.
-/// 2. On each ramp, the times of the inner control points lie between the ramp's ends, and every openness is in [0, 1].
-///    The first inner time may exceed the second by at most 15/16 of the ramp's length.
+/// 2. On each ramp, the times of the inner control points lie between the ramp's ends. The first inner time may
+///    exceed the second by at most 15/16 of the ramp's length. Every control point has an openness in [0, 1].
 /// 3. Where two parts of non-zero length meet, the openness is 1.
 /// 4. The interval from `open_start` to `close_end` is 2⁻⁶⁴ to 2⁶⁴ long. It is at least 2⁻¹⁶ of the larger of
 ///    `|open_start|` and `|close_end|`.
@@ -36,7 +36,7 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// With the default of 8, about one fraction in 500 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
-/// Above 16, a constant may exceed the compiler's limit on evaluation.
+/// Above 16, a constant may exceed the compiler's limit on constant evaluation.
 #[derive(Clone, PartialEq)]
 pub struct ShutterCurve<const OCTAVES: usize = 8> {
     pub(crate) inverse: Inverse<OCTAVES>,
@@ -58,7 +58,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// The [rule](Self#rules) that the ramps break.
+    /// Returns a [`CurveError`] if the ramps break a [rule](Self#rules).
     pub const fn new(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
         Self::with_octaves(opening, closing)
     }
@@ -75,7 +75,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// The [rule](Self#rules) that the times break.
+    /// Returns a [`CurveError`] if the times break a [rule](Self#rules).
     pub const fn linear(open_start: f32, open_end: f32, close_start: f32, close_end: f32) -> Result<Self, CurveError> {
         Self::with_octaves(
             CubicBezier::line((open_start, 0.0), (open_end, 1.0)),
@@ -102,8 +102,8 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// The [rule](Self#rules) that the arguments break. An inner time outside its ramp is a
-    /// [`FractionOutsideRamp`](CurveError::FractionOutsideRamp).
+    /// Returns a [`CurveError`] if the arguments break a [rule](Self#rules). For an inner time outside its ramp, it is
+    /// a [`FractionOutsideRamp`](CurveError::FractionOutsideRamp).
     pub const fn shutteropening(times: [f32; 4], inner: [f32; 8]) -> Result<Self, CurveError> {
         let (opening, closing) = CubicBezier::shutteropening(times, inner);
         // A last time that is not finite spoils the opening ramp's inner times, too, but the error is the closing
@@ -117,8 +117,8 @@ impl ShutterCurve {
         }
     }
 
-    /// Makes a probability density from a single cubic Bezier, `(t(p), f(p))`. It becomes the opening ramp of a shutter
-    /// whose closing ramp has zero length.
+    /// Makes a probability density from a single cubic Bezier, `(t(p), f(p))`. The Bezier becomes the opening ramp of a
+    /// shutter whose closing ramp has zero length.
     ///
     /// If `f` exceeds 1, [scale](CubicBezier::scaled) it down first, preferably by a power of two, which is exact.
     /// Scaling does not change [`pdf`](Self::pdf), [`cdf`](Self::cdf) or [`inverse_cdf`](Self::inverse_cdf). The
@@ -138,7 +138,7 @@ impl ShutterCurve {
     /// ```
     ///
     /// # Errors
-    /// The [rule](Self#rules) that the Bezier breaks.
+    /// Returns a [`CurveError`] if the Bezier breaks a [rule](Self#rules).
     pub const fn density(density: CubicBezier) -> Result<Self, CurveError> {
         let [.., (end, _)] = density.points();
         match Self::new(density, CubicBezier::line((end, 0.0), (end, 0.0))) {
@@ -162,7 +162,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// The [rule](Self#rules) that the ramps break.
+    /// Returns a [`CurveError`] if the ramps break a [rule](Self#rules).
     pub const fn with_octaves(opening: CubicBezier, closing: CubicBezier) -> Result<Self, CurveError> {
         Ok(Self { inverse: tried!(Inverse::new(&opening, &closing)) })
     }
@@ -304,9 +304,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// The largest number of triggers that a frame can have without a search. Each tick then takes a short, bounded
     /// time. Pulses may need searches even in smaller frames.
     ///
-    /// On most typical curves it is 127 or more with 8 [octaves](Self#octaves), and each further octave can almost
-    /// double it. It never exceeds 2²². It is 0 on curves that are too difficult for polynomials. With `OCTAVES = 0` it
-    /// is also 0 if the middle of the exposure lies on a ramp.
+    /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
+    /// double it, up to 2²². The number is 0 on curves that are too difficult for polynomials. With `OCTAVES = 0` it is
+    /// also 0 if the middle of the exposure lies on a ramp.
     ///
     /// A constant can check the number at compile time:
     ///
@@ -350,14 +350,15 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// for every curve.
     ///
     /// # Errors
-    /// The rate is 0, the curve has more than 2³¹ ticks at this rate, or `n` is above 2²².
+    /// Returns a [`ScheduleError`] if the rate is 0, if the curve has more than 2³¹ ticks at this rate, or if `n` is
+    /// above 2²².
     pub const fn trigger_ticks(&self, n: u32, timer_hz: u32) -> Result<TriggerTicks<'_, OCTAVES>, ScheduleError> {
         let frame = tried!(Ticks::new(&self.inverse, n, timer_hz));
         Ok(TriggerTicks { frame, left: 0..n })
     }
 
-    /// Fills `ticks` with a frame of [`trigger_ticks`](Self::trigger_ticks), and checks that the triggers are at least
-    /// `min_gap` ticks apart. If `min_gap` is 0, triggers may share a tick.
+    /// Fills `ticks` with the ticks of a frame, as [`trigger_ticks`](Self::trigger_ticks) returns them. Checks that the
+    /// triggers are at least `min_gap` ticks apart. If `min_gap` is 0, triggers may share a tick.
     ///
     /// ```
     /// use shutter_curve::{ScheduleError, ShutterCurve, expect_valid};
@@ -372,7 +373,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// If a gap is too small, the slice holds part of the frame. After an error of
+    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. After an error of
     /// [`trigger_ticks`](Self::trigger_ticks), the slice is unchanged.
     pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
@@ -396,7 +397,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`ticks_into`](Self::ticks_into).
+    /// Returns the errors of [`ticks_into`](Self::ticks_into).
     pub const fn ticks<const N: usize>(&self, timer_hz: u32, min_gap: u32) -> Result<[u32; N], ScheduleError> {
         let mut ticks = [0; N];
         tried!(self.ticks_into(&mut ticks, timer_hz, min_gap));
@@ -415,7 +416,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// `n` is above `N`; and those of [`ticks_into`](Self::ticks_into).
+    /// Returns a [`ScheduleError`] if `n` is above `N`, and the errors of [`ticks_into`](Self::ticks_into).
     #[cfg(feature = "heapless-v0_9")]
     pub fn ticks_vec<const N: usize>(
         &self,
@@ -445,7 +446,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`trigger_ticks`](Self::trigger_ticks).
+    /// Returns the errors of [`trigger_ticks`](Self::trigger_ticks).
     pub const fn max_triggers(&self, wanted: u32, timer_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
         let frame = tried!(Ticks::new(&self.inverse, wanted, timer_hz));
         // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
@@ -456,9 +457,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// A frame of `n` pulses of a steady lamp, as an iterator. Use it if the lamp shines through this shutter. It does
     /// not check lengths and gaps; [`pulses_into`](Self::pulses_into) does.
     ///
-    /// Every pulse sends the same amount of light through the shutter. A pulse covers the middle of its share of the
-    /// exposure: it lasts from the time of the fraction `(i + 1/2 - duty/2) / n` to the time of `(i + 1/2 + duty/2) /
-    /// n`. The `duty` is above 0 and at most 1.
+    /// Every pulse sends the same amount of light through the shutter. `duty` is the part of its share of the exposure
+    /// that a pulse covers, above 0 and at most 1. The pulse is in the middle of its share. It starts at the time of
+    /// the fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
     ///
     /// Pulses never overlap; with a duty of 1 they touch. A pulse that is shorter than a tick may start and end at the
     /// same tick. Ticks count from [`open_start`](Self::open_start).
@@ -474,7 +475,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// The duty is out of range or NaN; and those of [`trigger_ticks`](Self::trigger_ticks).
+    /// Returns a [`ScheduleError`] if the duty is out of range or NaN, and the errors of
+    /// [`trigger_ticks`](Self::trigger_ticks).
     pub const fn pulse_ticks(
         &self,
         n: u32,
@@ -485,8 +487,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         Ok(PulseTicks { frame: pulses, left: 0..n })
     }
 
-    /// Fills `pulses` with a frame of [`pulse_ticks`](Self::pulse_ticks), and checks every pulse and gap against the
-    /// `limits`.
+    /// Fills `pulses` with the pulses of a frame, as [`pulse_ticks`](Self::pulse_ticks) returns them. Checks every
+    /// pulse and gap against the `limits`.
     ///
     /// ```
     /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, expect_valid};
@@ -501,8 +503,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// If a pulse or a gap is too short, the slice holds part of the frame. After an error of
-    /// [`pulse_ticks`](Self::pulse_ticks), the slice is unchanged.
+    /// Returns a [`ScheduleError`] if a pulse or a gap is too short. The slice then holds part of the frame. After an
+    /// error of [`pulse_ticks`](Self::pulse_ticks), the slice is unchanged.
     pub const fn pulses_into(
         &self,
         pulses: &mut [Pulse],
@@ -532,7 +534,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`pulses_into`](Self::pulses_into).
+    /// Returns the errors of [`pulses_into`](Self::pulses_into).
     pub const fn pulses<const N: usize>(
         &self,
         duty: f32,
