@@ -43,7 +43,6 @@ fn the_pages_have_these_numbers() {
         (accuracy, "a pulse's end", format!("{TICK} tick ")),
         (readme, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
         (readme, "`inverse_cdf`, forward", format!("{FORWARD} ulp ")),
-        (readme, "`cdf`, `openness`", format!("{VALUE} ulp ")),
         (readme, "`trigger_ticks`", format!("{TYPICAL_TICK} tick ")),
     ] {
         let (_, told) = page.split_once(&format!("\n| {row}")).unwrap_or_else(|| panic!("no {row}"));
