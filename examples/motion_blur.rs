@@ -52,8 +52,8 @@ fn draw(svg: &mut String, row: usize, name: &str, light: impl Fn(usize) -> f32) 
 
 fn main() -> ExitCode {
     let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" font-size=\"14\" \
-         shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"220\" font-family=\"sans-serif\" \
+         font-size=\"14\" shape-rendering=\"crispEdges\">\n<rect width=\"660\" height=\"220\" fill=\"white\"/>\n",
     );
     draw(&mut svg, 0, "exact", exact);
     let name = format!("{SAMPLES} samples a pixel, at inverse_cdf");

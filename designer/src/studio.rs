@@ -10,7 +10,7 @@ use shutter::times::Times;
 use shutter_fit::delay::{self, Sync};
 use shutter_fit::trace::{self, Clock, Column, Light, Preview, Reading, Recording, Refusal};
 use shutter_fit::unit::Unit;
-use shutter_fit::{From, Options, report};
+use shutter_fit::{From, Options, report, speed};
 
 use crate::words::{self, Told};
 
@@ -233,17 +233,14 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         let residual = (v - fit.value(t)) / signal.gain;
         (t - start, (v - signal.dark) / signal.gain, residual)
     });
-    // What the program says of its own arguments is not for a page.
-    let report = shutter_fit::text(name, &fit);
-    let report: Vec<_> = report.lines().filter(|line| !line.contains("--")).collect();
     Ok(Fitted {
         scene: scene::parse(&text).map_err(|fault| no_scene(&fault))?,
-        report: report.join("\n"),
+        report: shutter_fit::text(name, &fit),
         kind: fit.chosen.title(),
         json: shutter_fit::json(name, &fit, &[]),
         exposure: report::exposure(&fit),
         efficiency: report::efficiency(&fit),
-        tester: report.iter().find_map(|line| line.strip_prefix("tester")).unwrap_or_default().trim().into(),
+        tester: speed::times(&fit).lines().next().unwrap_or_default().into(),
         delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),

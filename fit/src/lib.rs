@@ -36,7 +36,7 @@ mod search;
 mod shots;
 mod signal;
 mod solve;
-mod speed;
+pub mod speed;
 mod structure;
 pub mod trace;
 pub mod unit;

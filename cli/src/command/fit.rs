@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use shutter_fit::trace::{self, Column, Light, Refusal, Warning};
+use shutter_fit::trace::{self, Column, Light, Refusal, Tell, Warning};
 use shutter_fit::unit::{Unit, count, short};
 use shutter_fit::{Fit, Kind, Options, Record, Tolerance, delay};
 
@@ -183,7 +183,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let read: Vec<Read> = read.collect::<Result<_, _>>()?;
     let records = read.iter().map(|it| {
         Record::new(&it.trace, &it.options)
-            .map_err(|refusal| format!("{}: {refusal}; read: {}", shown(it.path), it.reading))
+            .map_err(|refusal| format!("{}: {}; read: {}", shown(it.path), refusal.with_option(), it.reading))
     });
     let records: Vec<Record> = records.collect::<Result<_, _>>()?;
     let is_one = is_one_setting(args, &read, &records, scenes.len())?;
@@ -204,7 +204,7 @@ pub fn run(args: &Args, out: &mut dyn Write, err: &mut dyn Write) -> Result<(), 
     let mut told = String::new();
     for Speed { name, warnings: of, .. } in &speeds {
         let whose = if speeds.len() > 1 { format!("{name}: ") } else { String::new() };
-        told.extend(of.iter().map(|warning| format!("warning: {whose}{warning}\n")));
+        told.extend(of.iter().map(|warning| format!("warning: {whose}{}\n", warning.with_option())));
     }
     told += &said.kept;
     let report = match (args.report, speeds.as_slice()) {
@@ -247,7 +247,7 @@ fn sensors(
         let (how, options) = one.asked();
         let read = Read::new(&args.trace, &how, &options, sync)?;
         let refused = |reason| format!("{}: column {signal}: {reason}", shown(&args.trace));
-        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.to_string()))?;
+        let record = Record::new(&read.trace, &read.options).map_err(|e| refused(e.with_option()))?;
         let Speed { fit, warnings, .. } = measure(&[read], &[record], args.triggers).map_err(refused)?;
         let here = fit.frames.count;
         let first = all.first().map_or(here, |first| first.fit.frames.count);
@@ -259,7 +259,7 @@ fn sensors(
         }
         let reading = fit.reading.as_ref();
         let name = reading.and_then(|it| it.signal.1.clone()).unwrap_or_else(|| signal.clone());
-        warnings.iter().for_each(|warning| told += &format!("warning: {name}: {warning}\n"));
+        told.extend(warnings.iter().map(|warning| format!("warning: {name}: {}\n", warning.with_option())));
         all.push(Speed { name, fit, warnings });
     }
     let report = match args.report {
@@ -337,7 +337,7 @@ fn write(
     for (i, Speed { name, fit, warnings }) in speeds.iter_mut().enumerate() {
         let old = olds.next().flatten();
         let scene = fitted::scene(fit, name, args.zero, old.as_ref().map(Old::unit))
-            .map_err(|refusal| format!("{name}: {refusal}"))?;
+            .map_err(|refusal| format!("{name}: {}", refusal.with_option()))?;
         let Some(file) = files.get(i) else {
             said.scene = scene.text;
             continue;
@@ -430,7 +430,7 @@ fn measure(read: &[Read], records: &[Record], triggers: Option<u32>) -> Result<S
     let options = Options { triggers, ..read[0].options.clone() };
     let mut fit = fitted(records, &options).map_err(|refusal| {
         let (path, reading) = (shown(read[0].path) + &more(read.len()), &read[0].reading);
-        format!("{path}: {refusal}; read: {reading}")
+        format!("{path}: {}; read: {reading}", refusal.with_option())
     })?;
     let Read { path, reading, .. } = &read[fit.record];
     fit.reading = Some(reading.clone());

@@ -166,7 +166,7 @@ fn a_fit_is_not_lost_with_its_files() {
     folder.write("ns.csv", leaf(1.0).replace("time_ms", "time_ns"));
     for (args, reason) in [
         ("fit trace.csv --out leaf.toml", "with what it keeps"),
-        ("fit ns.csv --out ns.toml", "; --triggers says how many"),
+        ("fit ns.csv --out ns.toml", "ask for fewer triggers (--triggers)"),
     ] {
         refuses(&folder, &[(args, reason)]);
         assert!(run(&folder, args).out.contains("\nexposure     5.00"), "{args}");

@@ -3,7 +3,7 @@
 //! All are of one shutter with an exposure of 5 ms, beside a gate of 7 ms where there are two channels. So what is
 //! misread shows in the exposure.
 
-use shutter_fit::trace::{self, Column, open};
+use shutter_fit::trace::{self, Column, Tell, open};
 use shutter_fit::unit::Unit;
 use shutter_fit::{Options, fit};
 
@@ -325,7 +325,7 @@ const EXPORTS: &[Export] = &[
 
 /// What a file is read as: the light's column, the times, the exposure in seconds and the codes; or the refusal.
 fn read(text: &str, options: &trace::Options) -> Result<(usize, String, f64, String), String> {
-    let recording = open(text.as_bytes(), options).map_err(|refusal| refusal.to_string())?;
+    let recording = open(text.as_bytes(), options).map_err(|refusal| refusal.with_option())?;
     let fit = fit(&recording.trace, &Options::default(), &mut |_| ());
     let fit = fit.map_err(|refusal| format!("{refusal}; read: {}", recording.reading))?;
     let codes: Vec<&str> = recording.warnings.iter().map(|warning| warning.code()).collect();

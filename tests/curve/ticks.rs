@@ -1,13 +1,11 @@
 //! Triggers and pulses: ticks, schedules, iterators, frames without a search. `promises.rs` judges the ticks
 //! themselves.
 
-mod support;
-
+use crate::support::cases::shutter;
+use crate::support::curves::{Kind, named, random_hard, random_typical};
+use crate::support::oracle::{Curve, Dd, Exact};
+use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
 use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
-use support::cases::shutter;
-use support::curves::{Kind, named, random_hard, random_typical};
-use support::oracle::{Curve, Dd, Exact};
-use support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
 
 const SOFT: ShutterCurve =
     expect_valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
@@ -298,15 +296,14 @@ fn a_closing_ramp_with_two_bends_has_direct_triggers() {
 }
 
 /// A schedule has the ticks of its triggers, and says which is the first that comes too soon.
-fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
-    let shutter = shutter::<OCTAVES>(curve);
+fn judge_filled<const OCTAVES: usize>(shutter: &ShutterCurve<OCTAVES>, n: u32, hz: u32) {
     let mut filled = vec![0; n as usize];
     let ticks: Vec<u32> = match shutter.trigger_ticks(n, hz) {
         Ok(ticks) => ticks.collect(),
         Err(error) => return assert_eq!(shutter.ticks_into(&mut filled, hz, 0), Err(error)),
     };
     shutter.ticks_into(&mut filled, hz, 0).unwrap();
-    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz, OCTAVES = {OCTAVES}: {curve:?}");
+    assert_eq!(filled, ticks, "{n} triggers at {hz} Hz: {shutter:?}");
     let gaps = ticks.windows(2).map(|pair| pair[1] - pair[0]);
     let mut sorted: Vec<u32> = gaps.clone().collect();
     sorted.sort_unstable();
@@ -315,7 +312,7 @@ fn judge_filled<const OCTAVES: usize>(curve: &Curve, n: u32, hz: u32) {
         let soon = gaps.clone().position(|gap| gap < min_gap).unwrap();
         let (trigger, gap) = (soon as u32 + 1, ticks[soon + 1] - ticks[soon]);
         let error = ScheduleError::GapTooSmall { trigger, gap, min_gap };
-        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {curve:?}");
+        assert_eq!(shutter.ticks_into(&mut filled, hz, min_gap), Err(error), "{n}: {shutter:?}");
     }
 }
 
@@ -324,18 +321,19 @@ fn a_filled_schedule_is_each_trigger_alone() {
     let random = (0..60).flat_map(|i| [random_typical(7, i), random_hard(7, i)]);
     for curve in named().into_iter().map(|named| named.curve).chain(random) {
         let length = f64::from(curve.close_end()) - f64::from(curve.open_start());
+        let (few, many) = (shutter::<8>(&curve), shutter::<64>(&curve));
         for n in [1, 2, 3, 5, 16, 63, 64, 100, 1000, 4097] {
             for most in [f64::from(n), 1e5, 1e7, 1e8] {
                 let hz = (most / length).clamp(1.0, 4e9) as u32;
                 if most < 2e7 || n < 20 {
-                    judge_filled::<8>(&curve, n, hz);
-                    judge_filled::<64>(&curve, n, hz);
+                    judge_filled(&few, n, hz);
+                    judge_filled(&many, n, hz);
                 }
             }
         }
-        judge_filled::<0>(&curve, 7, (1e6 / length).clamp(1.0, 4e9) as u32);
+        judge_filled(&shutter::<0>(&curve), 7, (1e6 / length).clamp(1.0, 4e9) as u32);
     }
-    judge_filled::<8>(&random_typical(7, 0), 1 << 22, 1 << 22);
+    judge_filled(&shutter::<8>(&random_typical(7, 0)), 1 << 22, 1 << 22);
 }
 
 #[cfg(feature = "heapless-v0_9")]
@@ -417,11 +415,11 @@ fn one_figure_for_the_worst_direct_tick() {
         let (number, _) = rest.split_once(after).unwrap();
         number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
     };
-    let readme = number(include_str!("../README.md"), "slowest seen takes ", " cycles");
-    let example = include_str!("../examples/trigger/firmware.rs");
+    let readme = number(include_str!("../../README.md"), "slowest seen takes ", " cycles");
+    let example = include_str!("../../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | trapezoid | worst | direct | ...
-    let (_, row) = include_str!("../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
+    let (_, row) = include_str!("../../docs/internals/cost.md").split_once("\n| a tick |").unwrap();
     assert_eq!(row.split('|').nth(4).unwrap().trim().parse(), Ok(readme));
 }
 
