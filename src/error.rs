@@ -175,12 +175,12 @@ pub enum ScheduleError {
     /// The interval is longer than 2³¹ ticks at this rate.
     TickRateTooHigh {
         /// The greatest rate that fits; 0 if none does.
-        most: u32,
+        max: u32,
     },
     /// More triggers or pulses than a frame can have.
     TooManyTriggers {
         /// The most that it can have: 2²².
-        most: u32,
+        max: u32,
     },
     /// More triggers than the `Vec` can hold.
     CapacityExceeded {
@@ -188,7 +188,7 @@ pub enum ScheduleError {
         capacity: u32,
     },
     /// Two triggers would come closer than the minimum gap.
-    /// [`most_triggers`](crate::ShutterCurve::most_triggers) finds how many keep it.
+    /// [`max_triggers`](crate::ShutterCurve::max_triggers) finds how many keep it.
     GapTooSmall {
         /// The index of the first trigger that comes too soon.
         trigger: u32,
@@ -219,39 +219,50 @@ pub enum ScheduleError {
     },
 }
 
+impl ScheduleError {
+    /// The reason without its numbers: a `const` can panic with it.
+    pub const fn message(&self) -> &'static str {
+        match self {
+            Self::TickRateZero => "the tick rate is 0",
+            Self::TickRateTooHigh { max: 0 } => "the interval is longer than 2^31 ticks, whatever the rate",
+            Self::TickRateTooHigh { .. } => "the interval is longer than 2^31 ticks",
+            Self::TooManyTriggers { .. } => "more triggers or pulses than a frame can have",
+            Self::CapacityExceeded { .. } => "more triggers than the `Vec` can hold",
+            Self::GapTooSmall { .. } => "a gap between triggers is below the minimum",
+            Self::PulsesTooClose { .. } => "a gap between pulses is below the minimum",
+            Self::DutyOutOfRange => "the duty must be above 0 and at most 1",
+            Self::PulseTooShort { .. } => "a pulse is shorter than the minimum",
+        }
+    }
+}
+
 const fn plural(n: u32) -> &'static str {
     if n == 1 { "" } else { "s" }
 }
 
 impl fmt::Display for ScheduleError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TickRateZero => out.write_str("the tick rate is 0"),
-            Self::TickRateTooHigh { most: 0 } => {
-                out.write_str("the interval is longer than 2^31 ticks, whatever the rate")
-            }
-            Self::TickRateTooHigh { most } => {
-                write!(out, "the interval is longer than 2^31 ticks; up to {most} Hz it is not")
-            }
-            Self::TooManyTriggers { most } => {
-                write!(out, "more triggers or pulses than the {most} that a frame can have")
+        match *self {
+            Self::TickRateTooHigh { max } if max > 0 => write!(out, "{}; up to {max} Hz it is not", self.message()),
+            Self::TooManyTriggers { max } => {
+                write!(out, "more triggers or pulses than the {max} that a frame can have")
             }
             Self::CapacityExceeded { capacity } => {
-                write!(out, "more triggers than the {capacity} that the schedule can hold")
+                write!(out, "more triggers than the {capacity} that the `Vec` can hold")
             }
             Self::GapTooSmall { trigger, gap, min_gap } => {
-                let s = plural(*gap);
+                let s = plural(gap);
                 write!(out, "the gap before trigger {trigger} is {gap} tick{s}; the minimum is {min_gap}")
             }
             Self::PulsesTooClose { pulse, gap, min_gap } => {
-                let s = plural(*gap);
+                let s = plural(gap);
                 write!(out, "the gap before pulse {pulse} is {gap} tick{s}; the minimum is {min_gap}")
             }
-            Self::DutyOutOfRange => out.write_str("the duty has to be above 0 and at most 1"),
             Self::PulseTooShort { pulse, length, min_pulse } => {
-                let s = plural(*length);
+                let s = plural(length);
                 write!(out, "pulse {pulse} lasts {length} tick{s}; the minimum is {min_pulse}")
             }
+            _ => out.write_str(self.message()),
         }
     }
 }

@@ -5,10 +5,10 @@
 //! openness over time as a probability density, and inverts the integral.
 //!
 //! ```
-//! use shutter_curve::{ShutterCurve, valid};
+//! use shutter_curve::{ShutterCurve, expect_valid};
 //!
 //! // In seconds: starts to open, is fully open, starts to close, is closed.
-//! static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+//! static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 //!
 //! // Half of the light is collected by 0.005 s.
 //! assert_eq!(SHUTTER.inverse_cdf(0.5), 0.005);
@@ -28,14 +28,14 @@
 //! | you want | call |
 //! |---|---|
 //! | a shutter from two [`CubicBezier`]s, from straight ramps, in RenderMan's form | [`new`], [`linear`], [`shutteropening`] |
-//! | a constant curve; a fault in it stops the build | [`valid`] |
+//! | a constant curve; a fault in it stops the build | [`expect_valid`] |
 //! | a smaller curve: fewer stored polynomials, more searches; or a larger one | [`with_octaves`] |
 //! | one Bezier alone as a density | [`density`]; if it rises above 1, scale it first with [`scaled`] |
 //! | the time of a fraction | [`inverse_cdf`] |
 //! | the fraction, the openness, the normalised density at a time | [`cdf`], [`openness`], [`pdf`] |
 //! | the ticks of a frame, every gap checked: in a constant, or at run time | [`ticks`], [`ticks_into`] |
 //! | one tick after the other, as in an interrupt handler | [`trigger_ticks`] |
-//! | how many triggers fit with a minimum gap; how many need no search | [`most_triggers`], [`direct_triggers`] |
+//! | how many triggers fit with a minimum gap; how many need no search | [`max_triggers`], [`direct_triggers`] |
 //! | pulses of equal doses through a shutter in the light's path | [`pulse_ticks`], [`pulses`], [`pulses_into`] |
 //!
 //! # From a measured shutter
@@ -86,7 +86,7 @@
 //! [`ticks`]: ShutterCurve::ticks
 //! [`ticks_into`]: ShutterCurve::ticks_into
 //! [`trigger_ticks`]: ShutterCurve::trigger_ticks
-//! [`most_triggers`]: ShutterCurve::most_triggers
+//! [`max_triggers`]: ShutterCurve::max_triggers
 //! [`direct_triggers`]: ShutterCurve::direct_triggers
 //! [`pulse_ticks`]: ShutterCurve::pulse_ticks
 //! [`pulses`]: ShutterCurve::pulses
@@ -134,7 +134,7 @@ pub use error::{CurveError, Part, ScheduleError};
 pub use ramp::bezier::CubicBezier;
 #[cfg(feature = "measure")]
 pub use search::MAX_EVALUATIONS;
-pub use shutter::{ShutterCurve, valid};
+pub use shutter::{ShutterCurve, expect_valid};
 pub use trigger::iterator::{PulseTicks, TriggerTicks};
 pub use trigger::pulse::{Pulse, PulseLimits};
 

@@ -69,9 +69,9 @@ impl ShutterCurve {
     /// has none.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
+    /// use shutter_curve::{ShutterCurve, expect_valid};
     /// // 1/100 s from first light to last, of which the ramps take half: in seconds.
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// assert_eq!(SHUTTER.exposure(), 0.0075);
     /// ```
     ///
@@ -153,8 +153,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// answers to a search.
     ///
     /// ```
-    /// use shutter_curve::{CubicBezier, ShutterCurve, valid};
-    /// static SMALL: ShutterCurve<4> = valid(ShutterCurve::with_octaves(
+    /// use shutter_curve::{CubicBezier, ShutterCurve, expect_valid};
+    /// static SMALL: ShutterCurve<4> = expect_valid(ShutterCurve::with_octaves(
     ///     CubicBezier::line((0.0, 0.0), (1.0, 1.0)),
     ///     CubicBezier::line((1.0, 1.0), (2.0, 0.0)),
     /// ));
@@ -314,16 +314,16 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// In a constant the compiler checks it:
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ShutterCurve, expect_valid};
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 64);
     /// ```
     ///
     /// Here 4096 triggers would need searches, so it does not compile:
     ///
     /// ```compile_fail,E0080
-    /// # use shutter_curve::{ShutterCurve, valid};
-    /// # static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// # use shutter_curve::{ShutterCurve, expect_valid};
+    /// # static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// const _: () = assert!(SHUTTER.direct_triggers() >= 4096);
     /// ```
     #[must_use]
@@ -341,9 +341,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// `timer_hz` is the timer's rate, for a curve in seconds. A wrong rate cannot be detected.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
+    /// use shutter_curve::{ShutterCurve, expect_valid};
     /// // A box of 8 ms on a 1 MHz timer.
-    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
+    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
     /// assert!(curve.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
     /// # Ok::<(), shutter_curve::ScheduleError>(())
     /// ```
@@ -364,15 +364,15 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// `min_gap` ticks. Where that is 0, triggers may share a tick.
     ///
     /// ```
-    /// use shutter_curve::{ScheduleError, ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ScheduleError, ShutterCurve, expect_valid};
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// let mut ticks = [0; 5];
     /// SHUTTER.ticks_into(&mut ticks, 1_000_000, 1_000)?;
     /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
     /// // 16 are too many for a gap of 1 ms; 7 fit.
     /// let error = SHUTTER.ticks_into(&mut [0; 16], 1_000_000, 1_000).unwrap_err();
     /// assert_eq!(error, ScheduleError::GapTooSmall { trigger: 1, gap: 792, min_gap: 1_000 });
-    /// assert_eq!(SHUTTER.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// assert_eq!(SHUTTER.max_triggers(16, 1_000_000, 1_000), Ok(7));
     /// # Ok::<(), ScheduleError>(())
     /// ```
     ///
@@ -381,7 +381,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`trigger_ticks`](Self::trigger_ticks), after which it is unchanged.
     pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
-            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
         }
         let frame = tried!(Ticks::new(&self.inverse, ticks.len() as u32, timer_hz));
         frame.ticks_into(ticks, min_gap)
@@ -391,11 +391,11 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// checked at compile time.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ShutterCurve, expect_valid};
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// const TICKS: [u32; 5] = match SHUTTER.ticks(1_000_000, 1_000) {
     ///     Ok(ticks) => ticks,
-    ///     Err(_) => panic!("the gap is not kept"),
+    ///     Err(error) => panic!("{}", error.message()),
     /// };
     /// assert_eq!(TICKS, [1936, 3500, 5000, 6500, 8064]);
     /// ```
@@ -412,8 +412,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// feature `heapless-v0_9`.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ShutterCurve, expect_valid};
+    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// let ticks: heapless::Vec<u32, 16> = curve.ticks_vec(5, 1_000_000, 1_000)?;
     /// assert_eq!(ticks, [1936, 3500, 5000, 6500, 8064]);
     /// # Ok::<(), shutter_curve::ScheduleError>(())
@@ -443,19 +443,19 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// It tries frames, usually a few, each up to its first gap that is too small. For a gap of 0 it tries none.
     ///
     /// ```
-    /// use shutter_curve::{ShutterCurve, valid};
-    /// let curve: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+    /// use shutter_curve::{ShutterCurve, expect_valid};
+    /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
     /// // A lamp that needs 1 ms between two flashes, on a 1 MHz timer.
-    /// assert_eq!(curve.most_triggers(16, 1_000_000, 1_000), Ok(7));
+    /// assert_eq!(curve.max_triggers(16, 1_000_000, 1_000), Ok(7));
     /// ```
     ///
     /// # Errors
     /// Those of [`trigger_ticks`](Self::trigger_ticks).
-    pub const fn most_triggers(&self, wanted: u32, timer_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
+    pub const fn max_triggers(&self, wanted: u32, timer_hz: u32, min_gap: u32) -> Result<u32, ScheduleError> {
         let frame = tried!(Ticks::new(&self.inverse, wanted, timer_hz));
         // As many triggers as the exposure has gaps: next to the answer for a shutter that opens fully.
         let guess = timer_hz as f32 / (self.normalization() * min_gap as f32);
-        Ok(frame.most_triggers(min_gap, guess as u32))
+        Ok(frame.max_triggers(min_gap, guess as u32))
     }
 
     /// `n` pulses for a shutter in the light's path, as the ticks at which a steady lamp goes on and off. Each sends
@@ -468,9 +468,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// [`trigger_ticks`](Self::trigger_ticks), but the fraction of a pulse's end may be off by two ulp.
     ///
     /// ```
-    /// use shutter_curve::{Pulse, ShutterCurve, valid};
+    /// use shutter_curve::{Pulse, ShutterCurve, expect_valid};
     /// // In seconds. Next to the ends, where the shutter is half closed, a pulse takes longer.
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
     /// let pulses: Vec<Pulse> = SHUTTER.pulse_ticks(3, 0.5, 1_000_000)?.collect();
     /// assert_eq!(pulses[0], Pulse { on: 1414, off: 2500 });
     /// assert_eq!(pulses[1], Pulse { on: 3500, off: 4500 });
@@ -493,8 +493,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// shorter than `limits` allows.
     ///
     /// ```
-    /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// use shutter_curve::{Pulse, PulseLimits, ScheduleError, ShutterCurve, expect_valid};
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
     /// let mut pulses = [Pulse::default(); 3];
     /// let limits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
     /// SHUTTER.pulses_into(&mut pulses, 0.5, 1_000_000, limits)?;
@@ -515,7 +515,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         limits: PulseLimits,
     ) -> Result<(), ScheduleError> {
         if pulses.len() > MOST_TRIGGERS as usize {
-            return Err(ScheduleError::TooManyTriggers { most: MOST_TRIGGERS });
+            return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
         }
         let frame = tried!(Pulses::new(&self.inverse, pulses.len() as u32, duty, timer_hz));
         frame.pulses_into(pulses, limits)
@@ -525,12 +525,12 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// time.
     ///
     /// ```
-    /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, valid};
-    /// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
+    /// use shutter_curve::{Pulse, PulseLimits, ShutterCurve, expect_valid};
+    /// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.002, 0.006, 0.008));
     /// const LIMITS: PulseLimits = PulseLimits { min_pulse: 1_000, min_gap: 1_000 };
     /// const PULSES: [Pulse; 3] = match SHUTTER.pulses(0.5, 1_000_000, LIMITS) {
     ///     Ok(pulses) => pulses,
-    ///     Err(_) => panic!("a pulse or a gap is too short"),
+    ///     Err(error) => panic!("{}", error.message()),
     /// };
     /// assert_eq!(PULSES[1], Pulse { on: 3500, off: 4500 });
     /// ```
@@ -566,22 +566,24 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
 /// Unwraps a constructor's result, so that an invalid curve in a `const` or `static` is a compile error.
 ///
 /// ```
-/// use shutter_curve::{valid, ShutterCurve};
-/// static CURVE: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.25, 0.75, 1.0));
+/// use shutter_curve::{expect_valid, ShutterCurve};
+/// static CURVE: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.25, 0.75, 1.0));
 /// assert_eq!(CURVE.exposure(), 0.75);
 /// ```
 ///
 /// ```compile_fail,E0080
-/// use shutter_curve::{valid, ShutterCurve};
+/// use shutter_curve::{expect_valid, ShutterCurve};
 /// // error[E0080]: evaluation panicked: times out of order: ...
-/// static CURVE: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.75, 0.25, 1.0));
+/// static CURVE: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.75, 0.25, 1.0));
 /// ```
 ///
 /// # Panics
 /// If `curve` is an error; meant for constants, where that stops the build.
 #[must_use]
 #[track_caller]
-pub const fn valid<const OCTAVES: usize>(curve: Result<ShutterCurve<OCTAVES>, CurveError>) -> ShutterCurve<OCTAVES> {
+pub const fn expect_valid<const OCTAVES: usize>(
+    curve: Result<ShutterCurve<OCTAVES>, CurveError>,
+) -> ShutterCurve<OCTAVES> {
     match curve {
         Ok(curve) => curve,
         Err(error) => panic!("{}", error.message()),

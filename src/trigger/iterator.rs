@@ -13,9 +13,9 @@ use crate::trigger::ticks::Ticks;
 /// If the curve is a `static`, the iterator is `'static` too, and the state of an interrupt handler can hold it:
 ///
 /// ```
-/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, valid};
+/// use shutter_curve::{ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
 ///
-/// static SHUTTER: ShutterCurve = valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
+/// static SHUTTER: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0025, 0.0075, 0.010));
 /// const _: () = assert!(SHUTTER.direct_triggers() >= 16);
 ///
 /// fn begin() -> Result<TriggerTicks<'static>, ScheduleError> {
