@@ -240,7 +240,7 @@ fn fitted(name: &str, recording: Recording, asked: &Asked, progress: &mut dyn Fn
         json: shutter_fit::json(name, &fit, &[]),
         exposure: report::exposure(&fit),
         efficiency: report::efficiency(&fit),
-        tester: speed::times(&fit).lines().next().unwrap_or_default().into(),
+        tester: speed::times(&fit).join("; "),
         delay: fit.delay.as_ref().map(|delay| delay::told(Some(delay), fit.unit())),
         own,
         triggers: fit.triggers.iter().map(|m| (m.value - start, m.error)).collect(),
