@@ -74,8 +74,8 @@
 //! # Cost
 //!
 //! A `static` curve takes 1144 bytes of flash and no start-up code. On a Cortex-M4F, [`inverse_cdf`] takes 60 to 110
-//! cycles on average, in a model. A search takes 500 to 2200, or more on a [`density`] that is 0 at both ends. A frame of
-//! up to [`direct_triggers`] triggers needs no search. Building a curve at run time takes 2.9 million cycles.
+//! cycles on average, in a cycle model. A search takes 500 to 2200, or more on a [`density`] that is 0 at both ends. A
+//! frame of up to [`direct_triggers`] triggers needs no search. Building a curve at run time takes 2.9 million cycles.
 //!
 //! # Features and minimum Rust
 //!
