@@ -1,5 +1,5 @@
-//! Computes when a camera's shutter has collected a given fraction of its exposure, and schedules flashes at equal
-//! shares of it. Together, equal flashes at these times render a moving subject as the shutter itself would.
+//! Splits a camera shutter's exposure into equal shares, and computes the time at which to fire a flash for each.
+//! Together, equal flashes at these times render a moving subject as the shutter itself would.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, expect_valid};
