@@ -16,8 +16,8 @@
 //! # Terms
 //!
 //! - *Openness* is the part of the light that a shutter lets through at a moment, from 0 to 1.
-//! - A *curve* is openness over time: an opening *ramp*, a fully open *plateau* and a closing ramp. Each ramp is a cubic
-//!   Bezier.
+//! - A *curve* is openness over time: an opening *ramp*, a fully open *plateau* and a closing ramp. Each ramp is a
+//!   cubic Bezier.
 //! - The *exposure* is the area under the curve. `u` is a fraction of it, from 0 to 1.
 //! - A *trigger* is the time at which a flash fires. A *pulse* is the time for which a steady lamp is on.
 //! - A *frame* is all triggers, or all pulses, of one exposure.
@@ -28,8 +28,8 @@
 //!
 //! # Units
 //!
-//! Times are in seconds and rates in Hz. You can use another unit of time in the constructor. All times are then in this
-//! unit, and rates are in ticks per unit.
+//! Times are in seconds and rates in Hz. You can use another unit of time in the constructor. All times are then in
+//! this unit, and rates are in ticks per unit.
 //!
 //! # Which call
 //!
@@ -50,17 +50,18 @@
 //! # From a measured shutter
 //!
 //! The program `shutter`, in the crate's repository, fits a curve to a photodiode's record of a shutter. It writes a
-//! module for firmware with the ticks of a frame, their delay from the camera's sync, and the curve as a `static`. You
-//! supply three facts that the record does not show: the set-up, the sync's edge and the timer's rate. The set-up is
-//! `in_path` if light passes through the measured shutter, and `emulated` if the camera's own shutter stays open.
+//! module for firmware with the ticks of a frame and their delay from the camera's sync. With `--curve` the module also
+//! holds the curve as a `static`, and needs this crate. You supply three facts that the record does not show: the
+//! set-up, the sync's edge and the timer's rate. The set-up is `in_path` if light passes through the measured shutter,
+//! and `emulated` if the camera's own shutter stays open.
 //!
 //! ```text
 //! shutter fit trace.csv --sync 0 --out leaf.toml
 //! shutter plan leaf.toml --set-up emulated --sync-falls true --timer-hz 1MHz --emit rust --curve --to leaf.rs
 //! ```
 //!
-//! Add `mod leaf;` to the firmware, and pass `leaf::due` your timer's count at the sync's edge. It returns the counts at
-//! which to fire.
+//! Add `mod leaf;` to the firmware, and pass `leaf::due` your timer's count at the sync's edge. It returns the counts
+//! at which to fire.
 //!
 //! # Accuracy
 //!
@@ -79,8 +80,8 @@
 //!
 //! # Features and minimum Rust
 //!
-//! Two features are off by default. `heapless-v0_9` adds `ticks_vec`, which returns a frame in a `heapless::Vec`. `defmt`
-//! implements `defmt::Format` for the public types.
+//! Two features are off by default. `heapless-v0_9` adds `ticks_vec`, which returns a frame in a `heapless::Vec`.
+//! `defmt` implements `defmt::Format` for the public types.
 //!
 //! The crate needs Rust 1.88. A minor version may raise this. It may also change the last bits of results, within the
 //! promises.

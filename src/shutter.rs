@@ -30,7 +30,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 ///
 /// # Octaves
 ///
-/// An *octave* is a range of fractions over which `u` doubles, or `1 - u` in the upper half. On ramps, the curve stores
+/// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.
+/// Above 1/2 the same holds for `1 - u`. On ramps, the curve stores
 /// a polynomial for each of the largest octaves, up to `OCTAVES` in each half. The polynomials answer most fractions,
 /// and a search answers the rest.
 ///
@@ -457,8 +458,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// A frame of `n` pulses of a steady lamp, as an iterator. Use it if the lamp shines through this shutter. It does
     /// not check lengths and gaps; [`pulses_into`](Self::pulses_into) does.
     ///
-    /// Every pulse sends the same amount of light through the shutter. `duty` is the part of its share of the exposure
-    /// that a pulse covers, above 0 and at most 1. The pulse is in the middle of its share. It starts at the time of
+    /// Every pulse sends the same amount of light through the shutter. It covers the part `duty` of its share of the
+    /// exposure, above 0 and at most 1, and lies in the middle of the share. It starts at the time of
     /// the fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
     ///
     /// Pulses never overlap; with a duty of 1 they touch. A pulse that is shorter than a tick may start and end at the
@@ -553,7 +554,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         self.inverse.evaluations(u).is_none()
     }
 
-    /// How many steps [`inverse_cdf`](Self::inverse_cdf) searches for the time of `u`.
+    /// The number of search steps that [`inverse_cdf`](Self::inverse_cdf) takes for `u`; 0 if it needs no search.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn evaluations(&self, u: f32) -> u32 {
