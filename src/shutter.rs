@@ -31,9 +31,8 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// # Octaves
 ///
 /// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.
-/// Above 1/2 the same holds for `1 - u`. On ramps, the curve stores
-/// a polynomial for each of the largest octaves, up to `OCTAVES` in each half. The polynomials answer most fractions,
-/// and a search answers the rest.
+/// Above 1/2 the same holds for `1 - u`. On ramps, the curve stores a polynomial for each of the largest octaves, up to
+/// `OCTAVES` in each half. The polynomials answer most fractions, and a search answers the rest.
 ///
 /// With the default of 8, about one fraction in 500 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.

@@ -40,7 +40,7 @@ fn the_pages_have_these_numbers() {
         (accuracy, "`exposure`", format!("{SCALAR} ulp ")),
         (accuracy, "a tick, typical", format!("{TYPICAL_TICK} tick ")),
         (accuracy, "a tick, every", format!("{TICK} tick ")),
-        (accuracy, "a pulse's end", format!("{TICK} tick ")),
+        (accuracy, "a pulse's `on`", format!("{TICK} tick ")),
         (readme, "`inverse_cdf`, backward", format!("{BACKWARD:?} ulp ")),
         (readme, "`inverse_cdf`, forward", format!("{FORWARD} ulp ")),
         (readme, "`trigger_ticks`", format!("{TYPICAL_TICK} tick ")),
