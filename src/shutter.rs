@@ -301,8 +301,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
         (self.inverse.exposure.area / (self.close_end() as f64 - self.open_start() as f64)) as f32
     }
 
-    /// The largest number of triggers that a frame can have without a search. Each tick then takes a short, bounded
-    /// time. Pulses may need searches even in smaller frames.
+    /// The largest number of triggers that a frame can have without a search. Computing each trigger then takes a
+    /// short, bounded time. Pulses may need searches even in smaller frames.
     ///
     /// With 8 [octaves](Self#octaves), the number is 127 or more on most typical curves. Each further octave can almost
     /// double it, up to 2²². The number is 0 on curves that are too difficult for polynomials. With `OCTAVES = 0` it is
@@ -373,8 +373,8 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// ```
     ///
     /// # Errors
-    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. After an error of
-    /// [`trigger_ticks`](Self::trigger_ticks), the slice is unchanged.
+    /// Returns a [`ScheduleError`] if a gap is too small. The slice then holds part of the frame. Also returns the
+    /// errors of [`trigger_ticks`](Self::trigger_ticks), and then leaves the slice unchanged.
     pub const fn ticks_into(&self, ticks: &mut [u32], timer_hz: u32, min_gap: u32) -> Result<(), ScheduleError> {
         if ticks.len() > MOST_TRIGGERS as usize {
             return Err(ScheduleError::TooManyTriggers { max: MOST_TRIGGERS });
@@ -457,9 +457,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// A frame of `n` pulses of a steady lamp, as an iterator. Use it if the lamp shines through this shutter. It does
     /// not check lengths and gaps; [`pulses_into`](Self::pulses_into) does.
     ///
-    /// Every pulse sends the same amount of light through the shutter. It covers the part `duty` of its share of the
-    /// exposure, above 0 and at most 1, and lies in the middle of the share. It starts at the time of
-    /// the fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
+    /// Every pulse sends the same amount of light through the shutter. `duty` is the fraction of a share of the
+    /// exposure that its pulse covers, above 0 and at most 1. The pulse is in the middle of the share. It starts at the
+    /// time of the fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
     ///
     /// Pulses never overlap; with a duty of 1 they touch. A pulse that is shorter than a tick may start and end at the
     /// same tick. Ticks count from [`open_start`](Self::open_start).
