@@ -1,5 +1,6 @@
 //! Splits a camera shutter's exposure into equal shares, and computes the time at which to fire a flash for each.
-//! Together, equal flashes at these times render a moving subject as the shutter itself would.
+//! While the camera's own shutter stays open, equal flashes at these times render a moving subject as the modelled
+//! shutter would.
 //!
 //! ```
 //! use shutter_curve::{ShutterCurve, expect_valid};

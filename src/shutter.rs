@@ -31,8 +31,9 @@ use crate::trigger::ticks::{MOST_TRIGGERS, Ticks, direct_triggers};
 /// # Octaves
 ///
 /// Up to `u` = 1/2, an *octave* is a range of fractions over which `u` doubles: 1/4 to 1/2, 1/8 to 1/4, and so on.
-/// Above 1/2 the same holds for `1 - u`. On ramps, the curve stores a polynomial for each of the largest octaves, up to
-/// `OCTAVES` in each half. The polynomials answer most fractions, and a search answers the rest.
+/// Above 1/2 the same holds for `1 - u`. The curve stores a polynomial for each of the widest octaves that lie on a
+/// ramp: up to `OCTAVES` of them below 1/2, and as many above. They answer most fractions, and a search answers the
+/// rest.
 ///
 /// With the default of 8, about one fraction in 500 of a typical curve needs a search. With 0, every fraction on a ramp
 /// does. The promised accuracy is always the same. A curve takes 376 + 96 `OCTAVES` bytes. `OCTAVES` is at most 64.
@@ -457,9 +458,9 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     /// A frame of `n` pulses of a steady lamp, as an iterator. Use it if the lamp shines through this shutter. It does
     /// not check lengths and gaps; [`pulses_into`](Self::pulses_into) does.
     ///
-    /// Every pulse sends the same amount of light through the shutter. `duty` is the fraction of a share of the
-    /// exposure that its pulse covers, above 0 and at most 1. The pulse is in the middle of the share. It starts at the
-    /// time of the fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
+    /// Every pulse sends the same amount of light through the shutter. It covers the fraction `duty` of its share of
+    /// the exposure, in the middle of the share. `duty` is above 0 and at most 1. The pulse starts at the time of the
+    /// fraction `(i + 1/2 - duty/2) / n` and ends at the time of `(i + 1/2 + duty/2) / n`.
     ///
     /// Pulses never overlap; with a duty of 1 they touch. A pulse that is shorter than a tick may start and end at the
     /// same tick. Ticks count from [`open_start`](Self::open_start).
