@@ -340,7 +340,7 @@ impl<const OCTAVES: usize> ShutterCurve<OCTAVES> {
     ///
     /// ```
     /// use shutter_curve::{ShutterCurve, expect_valid};
-    /// // A shutter that opens and closes at once and stays open for 8 ms, and a 1 MHz timer.
+    /// // A shutter that opens in no time, closes 8 ms later in no time, and a 1 MHz timer.
     /// let curve: ShutterCurve = expect_valid(ShutterCurve::linear(0.0, 0.0, 0.008, 0.008));
     /// assert!(curve.trigger_ticks(4, 1_000_000)?.eq([1000, 3000, 5000, 7000]));
     /// # Ok::<(), shutter_curve::ScheduleError>(())
