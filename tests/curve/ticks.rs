@@ -415,7 +415,7 @@ fn one_figure_for_the_worst_direct_tick() {
         let (number, _) = rest.split_once(after).unwrap();
         number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
     };
-    let readme = number(include_str!("../../README.md"), "takes at most ", " cycles");
+    let readme = number(include_str!("../../README.md"), "take at most", " cycles");
     let example = include_str!("../../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | trapezoid | worst | direct | ...
