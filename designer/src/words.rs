@@ -20,7 +20,7 @@ const ALL: &str = "exposure";
 pub fn refusal(refusal: &Refusal, has_way: bool) -> Told {
     if has_way && matches!(refusal, Refusal::NoPulse { .. }) {
         let text = "no pulse: nothing stands out of the noise this way; does light move the signal the other way?";
-        return Told { text: text.into(), mend: Some("rises"), about: ALL };
+        return Told { text: text.into(), mend: Some("light"), about: ALL };
     }
     told(refusal, ALL)
 }
@@ -39,7 +39,6 @@ pub fn warning(warning: &Warning) -> Told {
 fn told(it: &impl Tell, about: &'static str) -> Told {
     let mend = match it.remedy() {
         Some(Remedy::Columns(_)) => Some("signal"),
-        Some(Remedy::Light) => Some("rises"),
         Some(Remedy::Mains | Remedy::Triggers | Remedy::Picture) | None => None,
         Some(other) => Some(other.into()),
     };

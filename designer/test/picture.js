@@ -10,7 +10,9 @@ test('the picture is made', async () => {
   await open('', { width: 1440, height: 1000 });
   await preset('measured');
   await fitted('leaf.csv');
-  for (const [id, value] of [['set_up', 'emulated'], ['timer_hz', '25 MHz'], ['triggers', '12']]) await page.fill(`#${id}`, value);
+  for (const [id, value] of Object.entries({ set_up: 'emulated', timer_hz: '25 MHz', triggers: '12' })) {
+    await page.fill(`#${id}`, value);
+  }
   await page.blur('#triggers');
   await page.$eval('body', (it) => it.scrollIntoView());
   await page.mouse.move(2, 2);

@@ -163,6 +163,7 @@ pub fn fit_records(records: &[Record], options: &Options, progress: &mut dyn FnM
         reason,
         exposure: results.exposure,
         efficiency: results.efficiency,
+        parts: model.parts,
         opens: results.start.value,
         delay: None,
         triggers: results.triggers,

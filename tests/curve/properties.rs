@@ -98,7 +98,7 @@ fn triggers_return_for_any_numbers() {
         let (n, hz, gap) = (rng.below(200) as u32, rng.bits() as u32, rng.bits() as u32);
         let shift = rng.below(32);
         for (hz, gap) in [(hz, gap), (hz >> shift, gap >> shift)] {
-            if let Ok(most) = curve.most_triggers(n, hz, gap) {
+            if let Ok(most) = curve.max_triggers(n, hz, gap) {
                 assert!(most <= n && (most > 0 || n == 0), "{most} of {n}: {asked:?}");
             }
             if let Ok(ticks) = curve.trigger_ticks(n, hz) {

@@ -424,10 +424,10 @@ fn messages() {
     use ScheduleError as S;
     for (error, text) in [
         (S::TickRateZero, "the tick rate is 0"),
-        (S::TickRateTooHigh { most: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
-        (S::TickRateTooHigh { most: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
-        (S::TooManyTriggers { most: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
-        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the schedule can hold"),
+        (S::TickRateTooHigh { max: 9 }, "the interval is longer than 2^31 ticks; up to 9 Hz it is not"),
+        (S::TickRateTooHigh { max: 0 }, "the interval is longer than 2^31 ticks, whatever the rate"),
+        (S::TooManyTriggers { max: 1 << 22 }, "more triggers or pulses than the 4194304 that a frame can have"),
+        (S::CapacityExceeded { capacity: 16 }, "more triggers than the 16 that the `Vec` can hold"),
         (
             S::GapTooSmall { trigger: 3, gap: 562, min_gap: 1000 },
             "the gap before trigger 3 is 562 ticks; the minimum is 1000",
@@ -437,7 +437,7 @@ fn messages() {
             S::PulsesTooClose { pulse: 17, gap: 0, min_gap: 4711 },
             "the gap before pulse 17 is 0 ticks; the minimum is 4711",
         ),
-        (S::DutyOutOfRange, "the duty has to be above 0 and at most 1"),
+        (S::DutyOutOfRange, "the duty must be above 0 and at most 1"),
         (S::PulseTooShort { pulse: 17, length: 815, min_pulse: 4711 }, "pulse 17 lasts 815 ticks; the minimum is 4711"),
     ] {
         told(&error, text);

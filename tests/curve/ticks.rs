@@ -5,10 +5,10 @@ use crate::support::cases::shutter;
 use crate::support::curves::{Kind, named, random_hard, random_typical};
 use crate::support::oracle::{Curve, Dd, Exact};
 use crate::support::promise::{MOST_TRIGGERS, TYPICAL_TICK};
-use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, valid};
+use shutter_curve::{CubicBezier, Pulse, PulseLimits, ScheduleError, ShutterCurve, TriggerTicks, expect_valid};
 
 const SOFT: ShutterCurve =
-    valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
+    expect_valid(ShutterCurve::shutteropening([0.0, 0.25, 0.75, 1.0], [0.1, 0.0, 0.15, 1.0, 0.85, 1.0, 0.9, 0.0]));
 
 #[test]
 fn a_static_curve_is_the_one_built_at_run_time() {
@@ -22,7 +22,7 @@ fn a_static_curve_is_the_one_built_at_run_time() {
 #[test]
 fn a_constant_has_the_ticks_of_run_time() {
     const DARK: ShutterCurve =
-        valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
+        expect_valid(ShutterCurve::density(CubicBezier::new([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0), (1.0799999, 0.0)])));
     const TICKS: Result<[u32; 16], ScheduleError> = DARK.ticks(1_000_000_000, 0);
     assert_eq!(std::hint::black_box(&DARK).ticks(1_000_000_000, 0), TICKS);
 }
@@ -55,15 +55,15 @@ fn frames_that_are_refused() {
     let ways: [(&str, Way); 5] = [
         ("trigger_ticks", &|n, hz| SOFT.trigger_ticks(n, hz).err()),
         ("pulse_ticks", &|n, hz| SOFT.pulse_ticks(n, 0.5, hz).err()),
-        ("most_triggers", &|n, hz| SOFT.most_triggers(n, hz, 0).err()),
+        ("max_triggers", &|n, hz| SOFT.max_triggers(n, hz, 0).err()),
         ("ticks_into", &|n, hz| SOFT.ticks_into(&mut many(n), hz, 0).err()),
         ("pulses_into", &|n, hz| {
             let mut pulses = vec![Pulse::default(); n as usize];
             SOFT.pulses_into(&mut pulses, 0.5, hz, PulseLimits::default()).err()
         }),
     ];
-    let too_high = S::TickRateTooHigh { most: 1 << 31 };
-    let too_many = S::TooManyTriggers { most: MOST_TRIGGERS };
+    let too_high = S::TickRateTooHigh { max: 1 << 31 };
+    let too_many = S::TooManyTriggers { max: MOST_TRIGGERS };
     for (i, (name, error)) in ways.into_iter().enumerate() {
         for (n, hz, expected) in [
             (0, 0, Some(S::TickRateZero)),
@@ -122,15 +122,15 @@ fn no_triggers() {
 fn the_greatest_tick_rate_is_named() {
     for length in [0.51, 0.7, 1.0, 10.0, 12345.678, 2.0f32.powi(31)] {
         let curve = ShutterCurve::linear(0.0, 0.0, length, length).unwrap();
-        let Err(ScheduleError::TickRateTooHigh { most }) = curve.trigger_ticks(1, u32::MAX) else {
+        let Err(ScheduleError::TickRateTooHigh { max }) = curve.trigger_ticks(1, u32::MAX) else {
             panic!("{length}: the interval has more than 2^31 ticks");
         };
-        assert!(most > 0 && curve.trigger_ticks(1, most).is_ok(), "{length}: {most}");
-        let error = curve.trigger_ticks(1, most + 1).err();
-        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { most }), "{length}");
+        assert!(max > 0 && curve.trigger_ticks(1, max).is_ok(), "{length}: {max}");
+        let error = curve.trigger_ticks(1, max + 1).err();
+        assert_eq!(error, Some(ScheduleError::TickRateTooHigh { max }), "{length}");
     }
     let long = ShutterCurve::linear(0.0, 0.0, 1e10, 1e10).unwrap();
-    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { most: 0 }));
+    assert_eq!(long.trigger_ticks(1, 1).err(), Some(ScheduleError::TickRateTooHigh { max: 0 }));
 }
 
 #[test]
@@ -145,20 +145,23 @@ fn slices_for_a_schedule() {
     let Err(error) = curve.ticks_into(&mut [0; 5000], 1000, 1) else { panic!("5000 ticks of 1000") };
     assert!(matches!(error, ScheduleError::GapTooSmall { gap: 0, min_gap: 1, .. }), "{error}");
     assert_eq!(curve.ticks_into(&mut [0; 5000], 1000, 0), Ok(()));
+    // A constant can panic with the reason.
+    const REASON: &str = if let Err(error) = SOFT.ticks::<2>(1000, u32::MAX) { error.message() } else { "" };
+    assert_eq!(REASON, "a gap between triggers is below the minimum");
 }
 
 #[test]
-fn the_most_triggers_of_anything() {
+fn the_max_triggers_of_anything() {
     let curve = ShutterCurve::linear(0.0, 0.25, 0.75, 1.0).unwrap();
-    assert_eq!(curve.most_triggers(0, 1000, 1), Ok(0));
-    assert_eq!(curve.most_triggers(1, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.max_triggers(0, 1000, 1), Ok(0));
+    assert_eq!(curve.max_triggers(1, 1000, u32::MAX), Ok(1));
     // A gap of 0 asks for nothing.
-    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
-    assert_eq!(curve.most_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
-    assert_eq!(curve.most_triggers(2, 1000, 376), Ok(1));
-    assert_eq!(curve.most_triggers(2, 1000, 375), Ok(2));
+    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, 0), Ok(MOST_TRIGGERS));
+    assert_eq!(curve.max_triggers(MOST_TRIGGERS, 1000, u32::MAX), Ok(1));
+    assert_eq!(curve.max_triggers(2, 1000, 376), Ok(1));
+    assert_eq!(curve.max_triggers(2, 1000, 375), Ok(2));
     // As many as there are ticks, and none to spare.
-    let most = curve.most_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
+    let most = curve.max_triggers(MOST_TRIGGERS, 1 << 31, 1 << 20).unwrap();
     assert!((1535..=1537).contains(&most), "{most}");
 }
 
@@ -371,7 +374,7 @@ fn the_most_that_keep_the_gap() {
             [(1000, 47), (1000, 50), (1_000_000, 33_333), (1_000_000, 1_000), (100, 7), (10, 9), (7, 100), (50, 1)]
         {
             for wanted in [2, 3, 64, 1000, 10_000] {
-                let found = curve.most_triggers(wanted, hz, gap).unwrap();
+                let found = curve.max_triggers(wanted, hz, gap).unwrap();
                 if keeps(&curve, wanted, hz, gap) {
                     assert_eq!(found, wanted, "{hz} Hz, {gap} ticks");
                     continue;
@@ -389,14 +392,14 @@ fn the_most_that_keep_the_gap() {
 #[test]
 fn the_most_on_a_shutter_that_never_fully_opens() {
     for n in 21..=64 {
-        assert_eq!(half_open().most_triggers(n, 500, 50), Ok(20), "{n}");
+        assert_eq!(half_open().max_triggers(n, 500, 50), Ok(20), "{n}");
     }
 }
 
 /// Sixteen octaves a side are within what the compiler evaluates in a constant.
 #[test]
 fn a_large_curve_is_a_constant_too() {
-    static LARGE: ShutterCurve<16> = valid(ShutterCurve::with_octaves(
+    static LARGE: ShutterCurve<16> = expect_valid(ShutterCurve::with_octaves(
         CubicBezier::new([(0.0, 0.0), (0.18, 0.0), (0.32, 1.0), (0.5, 1.0)]),
         CubicBezier::new([(0.5, 1.0), (0.68, 1.0), (0.82, 0.0), (1.0, 0.0)]),
     ));
@@ -412,7 +415,7 @@ fn one_figure_for_the_worst_direct_tick() {
         let (number, _) = rest.split_once(after).unwrap();
         number.trim().parse().unwrap_or_else(|_| panic!("{number:?} after {before:?}"))
     };
-    let readme = number(include_str!("../../README.md"), "triggers in ", " modelled");
+    let readme = number(include_str!("../../README.md"), "take at most", " cycles");
     let example = include_str!("../../examples/trigger/firmware.rs");
     assert_eq!(number(example, "const DIRECT_TICK: u32 = ", ";"), readme);
     // | a tick | soft | all ramp | trapezoid | worst | direct | ...
