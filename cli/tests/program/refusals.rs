@@ -64,7 +64,7 @@ const SCENES: &[(&str, &str, &str, &str)] = &[
     (TRAPEZOID, "open_start", "", "missing field `open_start`"),
     (TRAPEZOID, "min_gap", "", "missing field `min_gap`"),
     (TRAPEZOID, "colour = 3", "colour", "unknown field `colour`, expected one of `unit`, `open_start`…\
-        `sync_falls`, `lamp_lag`, `set_up`, `fully_open`, or `trigger_times` in place of a curve"),
+        `sync_falls`, `lamp_lag`, `set_up`, `fully_open`, `trigger_times`"),
     (TRAPEZOID, "min_gap = 0.1 -> min_gap = 0.1\ntriggers = 3", "triggers", "duplicate key"),
     (TRAPEZOID, "triggers = = 3", "triggers", "…"),
     (TRAPEZOID, "open_end = \"soon\"", "open_end", "open_end: a number is required"),
