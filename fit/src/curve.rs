@@ -161,7 +161,7 @@ impl Exposure {
     }
 
     pub fn mean(&self, from: f64, to: f64) -> f64 {
-        (self.collected(to).amount - self.collected(from).amount) / (to - from)
+        (self.amount(to) - self.amount(from)) / (to - from)
     }
 
     /// All that is collected, and how it moves with each parameter.
@@ -175,15 +175,38 @@ impl Exposure {
         if t < start || t > end {
             0.0
         } else if t < open_end {
-            self.ramps[0].at((t - start) / self.curve.opening).openness
+            self.ramps[0].openness((t - start) / self.curve.opening)
         } else if t > close_start {
-            self.ramps[1].at((end - t) / self.curve.closing).openness
+            self.ramps[1].openness((end - t) / self.curve.closing)
         } else {
             1.0
         }
     }
 
-    /// `∫ f dt` up to a time, and how it moves with each parameter.
+    /// Does it let all of the light through from one time to another, or none?
+    pub fn is_flat(&self, from: f64, to: f64) -> bool {
+        let [start, open_end, close_start, end] = self.curve.times();
+        to <= start || from > open_end && to <= close_start || from > end
+    }
+
+    /// `∫ f dt` up to a time.
+    pub fn amount(&self, t: f64) -> f64 {
+        let Curve { opening, plateau, closing, .. } = self.curve;
+        let [start, open_end, close_start, end] = self.curve.times();
+        let [opened, closed] = self.whole.each_ref().map(|whole| whole.area);
+        if t <= start {
+            0.0
+        } else if t < open_end {
+            opening * self.ramps[0].area((t - start) / opening)
+        } else if t <= close_start {
+            opening * opened + (t - open_end)
+        } else {
+            let z = if t < end { (end - t) / closing } else { 0.0 };
+            opening * opened + plateau + closing * (closed - self.ramps[1].area(z))
+        }
+    }
+
+    /// The same, and how it moves with each parameter.
     pub fn collected(&self, t: f64) -> Collected {
         let mut moves = [0.0; PARAMETERS];
         let Curve { opening, plateau, closing, .. } = self.curve;
@@ -231,7 +254,7 @@ impl Exposure {
         let [mut low, _, _, mut high] = self.curve.times();
         let mut t = 0.5 * (low + high);
         for _ in 0..200 {
-            let missing = self.collected(t).amount - target;
+            let missing = self.amount(t) - target;
             (low, high) = if missing < 0.0 { (t, high) } else { (low, t) };
             let next = t - missing / self.openness(t);
             let next = if next > low && next < high { next } else { 0.5 * (low + high) };

@@ -42,14 +42,14 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Adds the square of a miss that moves so with the parameters.
-    fn add(&mut self, weight: f64, miss: f64, moves: &[f64]) {
+    /// Adds the square of a miss that moves so with the parameters, from the `first` on.
+    fn add(&mut self, weight: f64, miss: f64, moves: &[f64], first: usize) {
         self.cost += weight * miss * miss;
-        for (i, row) in self.normal.iter_mut().enumerate() {
+        for (i, row) in self.normal.iter_mut().enumerate().skip(first) {
             let weighted = weight * moves[i];
             if weighted != 0.0 {
                 self.gradient[i] += weighted * miss;
-                for (cell, m) in row[..=i].iter_mut().zip(moves) {
+                for (cell, m) in row[first..=i].iter_mut().zip(&moves[first..]) {
                     *cell += weighted * m;
                 }
             }
@@ -80,20 +80,20 @@ impl Problem {
         let mut solution = Solution { signal: *signal, cost: 0.0, normal, gradient };
         let mut means = signal.means();
         for bin in &self.bins {
-            let miss = means.over(bin.from, bin.to, &mut moves) - bin.mean;
-            solution.add(bin.samples, miss, &moves);
+            let (mean, first) = means.over(bin.from, bin.to, &mut moves);
+            solution.add(bin.samples, mean - bin.mean, &moves, first);
         }
         let packed = signal.pack();
         for (k, straight) in signal.controls() {
             moves.fill(0.0);
             moves[k] = 1.0;
-            solution.add(self.prior, packed[k] - straight, &moves);
+            solution.add(self.prior, packed[k] - straight, &moves, k);
         }
         if let Some(Held { whole, target, weight }) = self.held {
             let (value, each) = whole.of(&signal.curve);
             moves.fill(0.0);
             signal.kind.gather(&each, &mut moves);
-            solution.add(weight, value - target, &moves);
+            solution.add(weight, value - target, &moves, 0);
         }
         solution
     }
