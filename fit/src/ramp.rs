@@ -87,7 +87,8 @@ impl UnitRamp {
         0.5 * (low + high)
     }
 
-    /// The place `p` at which the time is `z`: Newton's method inside a bracket that is halved where that leaves it.
+    /// The place `p` at which the time is `z`: Halley's method inside a bracket that is halved where that leaves it. A
+    /// step from so near that the next one would change nothing is the last.
     ///
     /// The error that is left in `p` counts for next to nothing: the integral at a fixed time is the same to first
     /// order.
@@ -100,14 +101,15 @@ impl UnitRamp {
         }
         let (mut low, mut high) = (0.0, 1.0);
         let mut p = z;
+        let [a, b, c] = self.x;
         for _ in 0..60 {
-            let missing = cubic(self.x, p) - z;
-            if missing.abs() <= 1e-14 {
-                break;
-            }
+            let missing = p * (a + p * (b + p * c)) - z;
             (low, high) = if missing < 0.0 { (p, high) } else { (low, p) };
-            let [a, b, c] = self.x;
-            let next = p - missing / (a + p * (2.0 * b + p * 3.0 * c));
+            let (slope, bend) = (a + p * (2.0 * b + p * 3.0 * c), b + p * 3.0 * c);
+            let next = p - missing * slope / (slope * slope - missing * bend);
+            if missing.abs() <= 1e-7 {
+                return next.clamp(low, high);
+            }
             p = if next > low && next < high { next } else { 0.5 * (low + high) };
         }
         p
