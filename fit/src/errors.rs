@@ -216,7 +216,9 @@ impl<'a> OfKind<'a> {
         if self.is_straight {
             return Measured { value, error: linear };
         }
-        let hidden = self.length * opening / (opening + closing);
+        // Of ramps without a length each may hide half.
+        let share = if opening + closing > 0.0 { opening / (opening + closing) } else { 0.5 };
+        let hidden = self.length * share;
         Measured { value, error: hidden.hypot(linear.min(self.length)).hypot(self.feet[0]) }
     }
 
