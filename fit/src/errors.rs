@@ -245,8 +245,10 @@ impl<'a> OfKind<'a> {
         let side = |way: f64| {
             // Where the linear error is unknown, not a number, `min` takes the other.
             let mut by = (SIDE * linear).min(0.1 * value).max(least);
+            let mut near = self.fits.of(self.kind).solution.signal;
             for _ in 0..8 {
-                let cost = self.fits.cost_of(self.kind, whole, way * by) / (SIDE * SIDE * self.covariance.variance);
+                let cost = self.fits.cost_of(self.kind, whole, way * by, &mut near);
+                let cost = cost / (SIDE * SIDE * self.covariance.variance);
                 if (0.8..1.25).contains(&cost) {
                     break;
                 }
