@@ -276,6 +276,30 @@ fn the_true_start_of_opening_is_within_its_stated_error() {
     assert!(20 * missed <= held.len(), "{missed} of {}", held.len());
 }
 
+/// Delays of noisy shots differ from the true ones as much as is stated.
+#[test]
+fn a_shots_delay_is_as_well_known_as_stated() {
+    let mut random = Random::new(41);
+    let (step, shots) = (2e-5, 12);
+    let delays: Vec<f64> = (0..shots).map(|_| 1e-3 + random.within(0.0, 2e-4)).collect();
+    let times: Vec<f64> = (0..1500 * shots).map(|i| step * i as f64).collect();
+    // Each edge comes 5 ms after its 30 ms begin.
+    let since = |t: f64| (t / 0.03) as usize;
+    let sync = times.iter().map(|t| f64::from(u8::from(t - 0.03 * since(*t) as f64 > 0.005)));
+    let sync = Trace { values: sync.collect(), times: times.clone() };
+    let light = times.iter().map(|t| {
+        let opened = t - 0.03 * since(*t) as f64 - 0.005 - delays[since(*t).min(shots - 1)];
+        (opened.min(0.014 - opened) / 0.004).clamp(0.0, 1.0) + 0.05 * random.normal()
+    });
+    let trace = Trace { values: light.collect(), times: times.clone() };
+    let options = Options { sync: Some(Sync::Channel(sync)), ..Options::default() };
+    let delay = fit(&trace, &options, &mut |_| ()).expect("a fit").delay.expect("a delay");
+    let mean = delays.iter().sum::<f64>() / shots as f64;
+    let off = |(shot, truth): (&f64, &f64)| (shot - delay.mean() - (truth - mean)).powi(2);
+    let scatter = (delay.shots.iter().zip(&delays).map(off).sum::<f64>() / (shots - 1) as f64).sqrt();
+    assert!((0.5..1.6).contains(&(scatter / delay.measuring)), "{scatter} {}", delay.measuring);
+}
+
 /// The codes of what is told of a pulse: 2000 samples of this openness from -1 to 1, and of this noise, by the light.
 fn told(openness: impl Fn(f64) -> f64, noise: impl Fn(f64) -> f64, seed: u64) -> Vec<&'static str> {
     let mut random = Random::new(seed);
