@@ -24,7 +24,7 @@
 //! - A *frame* is all triggers, or all pulses, of one exposure.
 //! - A *tick* is one count of your timer.
 //! - An *ulp* is the distance from an `f32` to the next.
-//! - *Typical curves* are boxes, trapezoids, film shutters, and random curves with gentle ramps.
+//! - *Typical curves* are boxes, trapezoids, leaf and rotary shutters, and random curves with gentle ramps.
 //! - A *search* finds a time by iteration. Each curve stores polynomials that give most times without a search.
 //!
 //! # Units
