@@ -187,7 +187,7 @@ export async function planned(form = 'json', name = 'copied') {
   return shutter('plan', file, '--emit', form);
 }
 
-/** The file that an action saves. */
+/** What the file is called that an action saves. */
 export async function saved(act) {
   const session = await page.createCDPSession();
   await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: downloads });
@@ -196,7 +196,7 @@ export async function saved(act) {
   await act();
   for (let i = 0; i < 3000; i++, await new Promise((done) => setTimeout(done, 20))) {
     const [name] = readdirSync(downloads);
-    if (name && !name.endsWith('.crdownload')) return { name, path: join(downloads, name) };
+    if (name && !name.endsWith('.crdownload')) return name;
   }
   assert.fail('nothing was saved');
 }

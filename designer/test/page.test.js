@@ -97,17 +97,16 @@ test('wrong numbers stay as they are typed, with the reason', async () => {
   assert.deepEqual(inner, ['0.2', '0.3', '0.85'], 'a time takes its ramp along');
 });
 
-test('numbers are read as people write them; of any other that is told which was meant', async () => {
+test('numbers are read as people write them, and any other is refused', async () => {
   await open();
   for (const [id, text, value] of [
     ['min_gap', '0,25', 0.25], ['min_gap', '0.125', 0.125], ['open_start', '−0,5', -0.5], ['open_start', '-.5e0', -0.5],
     ['min_gap', '0', 0], ['nominal', '1/125 s', 8], ['timer_hz', '1 MHz', 1_000_000], ['timer_hz', '2,5 kHz', 2500],
     ['open_end', '2400µs', 2.4], ['min_gap', '5e4 ns', 0.05], ['timer_hz', '32.768 kHz', 32768],
-    ['open_end', '12 000 us', 'write 12000 us'], ['open_end', '1 1/2 s', 'write 1.5 s'],
-    ['open_end', '1,500 ms', 'may be 1.5 ms or 1500 ms'], ['open_end', '1/1 000', 'write 1/1000'],
-    ['open_end', '2.5', 2.5], ['timer_hz', '1.000 Hz', 'may be 1 Hz or 1000 Hz'], ['timer_hz', '1 5', 'is no number'],
-    ['timer_hz', '1\u202f500', 'write 1500'], ['timer_hz', '1e6', 1e6], ['min_gap', '1.000,5', 'write 1000.5'],
-    ['min_gap', '0', 0], ['open_end', '1,234.5', 'write 1234.5'], ['open_end', '2 kHz', 'has an unknown unit'],
+    ...['12 000 us', '1 1/2 s', '1/1 000', '1\u202f5', '1.0,5', '1,2.5'].map((no) => ['min_gap', no, 'is no number']),
+    ['open_end', '1,500 ms', 'may mean 1.5 or 1500:'], ['open_end', '1/1,000', 'may mean 1 or 1000:'],
+    ['open_end', '2.5', 2.5], ['timer_hz', '1.000 Hz', 'may mean 1 or 1000:'], ['timer_hz', '1e6', 1e6],
+    ['open_end', '2 kHz', 'has an unknown unit'],
   ]) {
     await page.fill(`#${id}`, text);
     const told = await page.text('#problem');
@@ -180,15 +179,9 @@ test('handles in one place can each be taken, and keys move each within its box'
     await page.press(key);
     assert.deepEqual(await at('open_end'), [0, now, 7.5], key);
   }
-  for (const name of ['open_start', 't1', 't2', 't5', 't6', 'close_end']) {
-    await page.focus(`#handle-${name}`);
-    for (const key of ['End', 'Home', 'PageUp', 'ArrowUp', 'ArrowDown', 'Shift+ArrowLeft']) await page.press(key);
-    const [min, now, max] = await at(name);
-    assert.ok(min <= now && now <= max && min < max, `${name}: ${[min, now, max]}`);
-  }
 });
 
-test('each copied form is the program’s, and is saved under its name; the picture parses', async () => {
+test('each copied form is the program’s, and is saved under its name', async () => {
   await open();
   for (const name of ['leaf', 'box', 'liquid-crystal']) {
     await preset(name);
@@ -202,17 +195,8 @@ test('each copied form is the program’s, and is saved under its name; the pict
   const files = { rust: 'liquid_crystal.rs', c: 'liquid_crystal.h', toml: 'liquid-crystal.toml' };
   for (const [form, file] of Object.entries(files)) {
     await choose(form);
-    assert.equal((await saved(() => page.click('#save'))).name, file);
+    assert.equal(await saved(() => page.click('#save')), file);
   }
-  const { name, path } = await saved(() => page.click('#svg'));
-  assert.equal(name, 'liquid-crystal.svg');
-  // In a page whose policy allows styles.
-  const blank = await browser.newPage();
-  assert.deepEqual(await blank.evaluate((svg) => {
-    const parsed = new DOMParser().parseFromString(svg, 'image/svg+xml');
-    return [parsed.querySelectorAll('parsererror, .handle').length, parsed.querySelectorAll('path').length > 20];
-  }, readFileSync(path, 'utf8')), [0, true]);
-  await blank.close();
 });
 
 test('hardware gets nothing that nobody gave: the set-up, the timer’s rate, which way the sync goes', async () => {
@@ -647,7 +631,7 @@ test('a misfit without times of its own takes nothing away, until a person insis
   const isDoubted = async () => {
     await written();
     assert.match(await page.text('#code'), /^There is nothing to copy yet: no curve explains this trace/);
-    for (const id of ['copy', 'save', 'link', 'svg']) assert.ok(await page.isDisabled(`#${id}`), id);
+    for (const id of ['copy', 'save', 'link']) assert.ok(await page.isDisabled(`#${id}`), id);
   };
   await isDoubted();
   assert.match(await facts(), /the model's, and off by more than their errors say/);
